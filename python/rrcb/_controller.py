@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import operator
+import weakref
 from typing import Any
 
 import numpy as np
@@ -56,6 +57,13 @@ class Controller(Owner):
     def __init__(self, comm: MPI.Comm | None = None) -> None:
         self._comm = communicator(comm)
         self._own = c.Handle("controller_create_fortran", "controller_destroy", self._comm.py2f())
+        self._models: weakref.WeakSet[CostModel] = weakref.WeakSet()
+
+    def free(self) -> None:
+        """Frees the object and its cost models. Collective."""
+        for model in self._models:
+            model._own.destroy()
+        super().free()
 
     @property
     def due(self) -> bool:
@@ -100,6 +108,8 @@ class CostModel(Owner):
 
         def local() -> tuple[Any, int]:
             given = None if controller is None else controller._own._as_parameter_
+            if controller is not None and given is None:
+                raise c.Error("the controller was freed")
             return given, operator.index(num_columns)
 
         given, self.num_columns = prepare(chosen, local)
@@ -111,6 +121,8 @@ class CostModel(Owner):
             given,
             self.num_columns,
         )
+        if controller is not None:
+            controller._models.add(self)
 
     def step(self, seconds: float, columns: Any) -> None:
         """Records a step: seconds of this rank's own work, its number of each column. Collective."""

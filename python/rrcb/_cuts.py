@@ -27,6 +27,8 @@ class Cuts:
         self.dimension = dimension
         self.num_parts = num_parts
         self.tree = np.ascontiguousarray(tree, dtype=CUT)
+        if self.tree.shape != (num_parts - 1,):
+            raise c.Error(f"tree must have the shape ({num_parts - 1},), not {self.tree.shape}")
         self._shape = shape
         self._own: c.OwnedHandle | None = None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 from mpi4py import MPI
@@ -53,17 +53,11 @@ class Ghosts:
 
         `data` has a row for each point of this rank, as for Balance.distribute().
         """
-        columns = prepare(
-            self.comm,
-            lambda: Columns(data, self.num_points, "points", self.count),
-            Columns.signature,
-        )
-        c.call("ghosts_fetch", self._own, *columns.as_bytes(), None, None)
-        return columns.result()
+        return self._fetch(data, lambda: None)
 
     def fetch_positions(self, x: Any) -> Any:
         """Returns positions of the ghosts, moved to those of the periodic images. Collective."""
-        fetched = self.fetch(x)
+        fetched = self._fetch(x, lambda: self._require_positions(x))
         if self._box is None or self.count == 0:
             return fetched
         images = np.ascontiguousarray(np.stack(axes_of(fetched), axis=1))
@@ -81,6 +75,20 @@ class Ghosts:
         )
         c.call("ghosts_accumulate", self._own, *columns.as_numbers(), None, None)
         return columns.result()
+
+    def _fetch(self, data: Any, check: Callable[[], None]) -> Any:
+        def local() -> Columns:
+            check()
+            return Columns(data, self.num_points, "points", self.count)
+
+        columns = prepare(self.comm, local, Columns.signature)
+        c.call("ghosts_fetch", self._own, *columns.as_bytes(), None, None)
+        return columns.result()
+
+    def _require_positions(self, x: Any) -> None:
+        given, needed = Points(x).dimension, self.shifts.shape[1]
+        if given != needed:
+            raise c.Error(f"positions must have {needed} axes, not {given}")
 
     def _read(self, dimension: int) -> None:
         shown = c.GhostPlan()

@@ -93,11 +93,12 @@ class Partition:
         weights: Any = None,
         tolerance: float | None = None,
     ) -> Distribution:
-        """Chooses the cuts for points. Collective."""
+        """Chooses the cuts for points, if there are any. Collective."""
         x = prepare(self.comm, lambda: positions_of(self, box_size, data, coord_keys))
         made = balance(x, weights, self.comm, tolerance)
-        self._use(made.cuts)
-        self.balanced = True
+        if made.report.num_points > 0:
+            self._use(made.cuts)
+            self.balanced = True
         return made
 
     @property
@@ -108,7 +109,7 @@ class Partition:
     @property
     def extent(self) -> list[float]:
         """Length of this rank's part along each axis."""
-        return [float(x) for x in self.boxes[self.rank, 1] - self.boxes[self.rank, 0]]
+        return [max(0.0, float(x)) for x in self.boxes[self.rank, 1] - self.boxes[self.rank, 0]]
 
     @property
     def ranklist(self) -> Array:
@@ -262,11 +263,14 @@ def exchange(comm: MPI.Intracomm, columns: Columns, rows: dict[int, Array]) -> D
     received = np.empty_like(sent)
     comm.Alltoall(sent, received)
     order = np.concatenate([rows[k] for k in sorted(rows)] or [np.empty(0, dtype=int)]).astype(int)
+    count = int(received.sum())
+
+    def local() -> list[tuple[Array, Array]]:
+        return [(a[order], np.empty((count, *a.shape[1:]), a.dtype)) for a in columns.arrays]
+
     results = {}
-    for name, values in zip(columns.names, columns.arrays):
-        here = np.ascontiguousarray(values[order])
-        there = np.empty((int(received.sum()), *values.shape[1:]), values.dtype)
-        row = MPI.BYTE.Create_contiguous(values.itemsize * math.prod(values.shape[1:])).Commit()
+    for name, (here, there) in zip(columns.names, prepare(comm, local)):
+        row = MPI.BYTE.Create_contiguous(there.itemsize * math.prod(there.shape[1:])).Commit()
         comm.Alltoallv([here, sent, None, row], [there, received, None, row])
         row.Free()
         results[name] = there

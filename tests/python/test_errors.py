@@ -78,6 +78,10 @@ def test_raises_errors_of_columns_on_all():
     ones = np.ones(ghosts.count)
     same_error(lambda: ghosts.accumulate(on_rank(last, ones[:, None] > 0, ones)), "are added")
     same_error(lambda: ghosts.accumulate(on_rank(last, np.ones(ghosts.count + 1), ones)), "ghosts")
+    periodic = balance.ghosts(here, 0.3, 1.0)
+    for bad, text in ((here.astype(int), "must be float64"), (here[:, 0], "2 axes, not 1")):
+        given = on_rank(last, bad, here)
+        same_error(lambda: periodic.fetch_positions(given), text)
     check_balance(rrcb.balance(x, comm=comm), x)
 
 
@@ -115,6 +119,22 @@ def test_raises_errors_of_a_controller_on_all():
     with rrcb.CostModel(2, comm=comm) as model:
         model.step(1.0, on_rank(last, [[1], [1, 2]], [1, 2]))
         same_error(lambda: [model.step(1.0, [1, 2]) for _ in range(3)], "")
+
+
+def test_frees_cost_models_with_their_controller():
+    with rrcb.Controller(comm) as controller:
+        model = rrcb.CostModel(2, controller, comm)
+    same_error(lambda: model.step(1.0, [1, 2]), "model is null")
+    same_error(lambda: model.weights(np.ones((1, 2))), "model is null")
+    model.free()
+    same_error(lambda: rrcb.CostModel(2, controller, comm), "controller was freed")
+
+
+def test_refuses_a_tree_of_another_length():
+    tree = rrcb.balance(cloud(2), comm=MPI.COMM_SELF, num_parts=4).cuts.tree
+    assert rrcb.Cuts(2, 4, tree).boxes().shape == (4, 2, 2)
+    for wrong in (0, 3, 5):
+        same_error(lambda: rrcb.Cuts(2, wrong, tree), "tree must have the shape")
 
 
 if __name__ == "__main__":

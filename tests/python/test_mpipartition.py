@@ -6,7 +6,8 @@ import numpy as np
 
 import rrcb
 import runner
-from rrcb.mpipartition import Partition, distribute, overload
+from rrcb._arrays import Columns
+from rrcb.mpipartition import Partition, distribute, exchange, overload
 from runner import comm, on_rank, same_error
 from test_rrcb import ME, RANKS, everywhere, ids
 
@@ -52,6 +53,16 @@ def test_distributes_evenly():
         assert np.array_equal(again["id"], got["id"])
 
 
+def test_an_empty_catalogue_leaves_the_partition_to_the_next():
+    partition, none = Partition(2, comm=comm), catalogue(2, 0)
+    assert len(distribute(partition, BOX, none, keys_of(2))["id"]) == 0
+    got = distribute(partition, BOX, catalogue(2), keys_of(2))
+    assert max(comm.allgather(len(got["id"]))) <= 1.01 * 400 + 1
+    few = Partition(2, comm=comm)
+    distribute(few, BOX, catalogue(2, int(ME == 0)), keys_of(2))
+    assert min(few.extent) >= 0
+
+
 def expected(partition, data, dimensions, length):
     """Returns the ids of points of other ranks in the margin of this rank's part."""
     x, owner = everywhere(stack(data, dimensions)), everywhere(np.full(len(data["id"]), ME))
@@ -93,6 +104,9 @@ def test_raises_on_every_rank():
     if RANKS > 1:
         same_error(lambda: distribute(partition, BOX, outside, keys_of(2)), "between 0 and the box")
         same_error(lambda: overload(partition, BOX, outside, 1.0, keys_of(2)), "between 0")
+        columns = Columns(data, len(data["id"]), "points", 0)
+        beyond = {(ME + 1) % RANKS: np.array([on_rank(RANKS - 1, 400, 0)])}
+        same_error(lambda: exchange(comm, columns, beyond), "out of bounds")
     same_error(lambda: partition.neighbors, "neighbor_ranks")
     same_error(lambda: Partition(2, create_neighbor_topo=True), "topology")
     assert isinstance(rrcb.Error("text"), RuntimeError)

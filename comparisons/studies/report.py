@@ -38,7 +38,7 @@ def write_report(folder: Path) -> None:
     if results.busy:
         report.text(f"The machine was busy: other processes used {results.busy} of its processor time.")
     report.picture("price.png", captions.pop("price.png", ""))
-    for text in sentences(results):
+    for text in [*failures(results), *sentences(results)]:
         report.text(text)
         print(f"\n{text}")
     for case, rows in cases(results.table).items():
@@ -90,6 +90,11 @@ def _numbers(values: pd.Series, form: str) -> list[str]:
 def _ratio(ratio: Value, is_reference: bool = False) -> str:
     same = not is_reference and not ratio.is_apart(ONE)
     return "–" if pd.isna(ratio.number) else ratio.text(2) + f", {NOT_TOLD_APART}" * same
+
+
+def _doubt(ratio: Value) -> str:
+    """Follows a ratio and its noun in a sentence."""
+    return "" if ratio.is_apart(ONE) else f" ({NOT_TOLD_APART})"
 
 
 def method_table(rows: pd.DataFrame) -> pd.DataFrame:
@@ -146,6 +151,17 @@ def noise_table(noise: pd.DataFrame) -> pd.DataFrame:
 # --- three sentences: what a call costs, what the simulation gains, when it matters ---
 
 
+def failures(results: Results) -> list[str]:
+    """A sentence for each method and workload that failed, which the tables leave out."""
+    found = [
+        f"{row.method} failed on {getattr(row, 'workload', 'the simulation')}: {row.error}"
+        for rows in (results.all_rows, results.all_runs)
+        if "error" in rows
+        for row in rows[rows["error"].notna()].itertuples()
+    ]
+    return list(dict.fromkeys(found))
+
+
 def sentences(results: Results) -> list[str]:
     rows, rounds = results.table, results.rounds
     exact = [_exactness(rows, results.turns, *names) for names in INTERFACES.items()]
@@ -170,7 +186,7 @@ def _call(rows: pd.DataFrame) -> str:
     over = f" (geometric means over {len(pairs)} workloads)" * (len(pairs) > 1)
     return (
         f"A call of rrcb left an imbalance of {_imbalance(ours for ours, _ in pairs)} and took"
-        f" {share.text(3)} of the time of Zoltan's RCB, which left"
+        f" {share.text(3)} of the time of Zoltan's RCB{_doubt(share)}, which left"
         f" {_imbalance(zoltan for _, zoltan in pairs)}{over}."
     )
 
@@ -182,8 +198,8 @@ def _exactness(rows: pd.DataFrame, turns: pd.DataFrame, method: str, exact: str)
     time = mean_of(paired(c, c["time_ms"], exact, method, "turn") for c in calls)
     size = geometric_mean([a.bytes / b.bytes for a, b in pairs])
     return (
-        f"{exact} took {_ratio(time)} times the time of {method} and {in_digits(size, 3)} times its"
-        f" bytes, and left {_imbalance(a for a, _ in pairs)}."
+        f"{exact} took {time.text(2)} times as long as {method}{_doubt(time)} and sent"
+        f" {in_digits(size, 3)} times its bytes, and left {_imbalance(a for a, _ in pairs)}."
     )
 
 
@@ -195,10 +211,9 @@ def _gain(rounds: pd.DataFrame) -> str:
     if not gain:
         return ""
     text = f"With a core for every rank the simulation under rrcb took {gain.text(3)} of the time"
-    text += " without rebalancing"
+    text += f" without rebalancing{_doubt(gain)}"
     if zoltan:
-        text += f" and {zoltan.text(3)} of that under Zoltan's RCB"
-        text += f" ({NOT_TOLD_APART})" * (not zoltan.is_apart(ONE))
+        text += f" and {zoltan.text(3)} of that under Zoltan's RCB{_doubt(zoltan)}"
     return f"{text}; medians of {gain.count} pairs."
 
 
@@ -238,8 +253,8 @@ def cost_sentence(rounds: pd.DataFrame) -> str:
         return ""
     uneven = [of_method(rounds, uneven_work(rounds), method).text(3) for method in ("learned", "count")]
     return (
-        f"With weights from learned costs the critical path took {_ratio(time)} times that of counting"
-        f" points; the slowest rank of a step took {uneven[0]} times the mean, by counting {uneven[1]}."
+        f"With weights from learned costs the critical path took {time.text(2)} times that of counting"
+        f" points{_doubt(time)}; the slowest rank of a step took {uneven[0]} times the mean, by counting {uneven[1]}."
     )
 
 

@@ -56,8 +56,13 @@ class Results:
         self.folder = folder
 
     @cached_property
+    def all_rows(self) -> pd.DataFrame:
+        """Every method and workload, with failures."""
+        return read_all(self.folder / "table.csv")
+
+    @cached_property
     def table(self) -> pd.DataFrame:
-        return measurements(read(self.folder / "table.csv"))
+        return measurements(sound(self.all_rows))
 
     @cached_property
     def turns(self) -> pd.DataFrame:

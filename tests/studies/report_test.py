@@ -68,13 +68,27 @@ class SentenceTest(FolderTest):
     def test_tell_costs_gains_and_when_they_matter(self) -> None:
         call, gain, matter = report.sentences(self.results(ROWS, ROUNDS))
         self.assertIn("left an imbalance of 1.01000 and took 0.250 [0.200, 0.300] of the", call)
-        self.assertIn("rrcb-exact took 2.00 times the time of rrcb and 2 times its bytes", call)
+        self.assertIn("rrcb-exact took 2.00 times as long as rrcb and sent 2 times its bytes", call)
         self.assertNotIn("time of rrcb-arrays", call)  # whose exact setting is not there
         self.assertIn("took 0.500 of the time without rebalancing", gain)
         self.assertIn("1.000 [0.990, 1.010] of that under Zoltan's RCB (not told apart); medians of 6", gain)
         # A step takes 100 ms; the 200 ms between the two are 1 % of 200 steps.
         self.assertIn("100 ms, 1 steps, under rrcb and 300 ms, 3 steps, under Zoltan's RCB", matter)
         self.assertIn("one every 200 steps or more often", matter)
+
+    def test_say_that_methods_are_not_told_apart(self) -> None:
+        rows = [measured("zoltan-rcb", 8, 1), measured("rrcb", 6, 1, spread=0.5)]
+        call, _ = report.sentences(self.results(rows))
+        self.assertIn("0.750 [0.375, 1.125] of the time of Zoltan's RCB (not told apart), which", call)
+
+    def test_name_what_failed(self) -> None:
+        self.assertEqual(report.failures(self.results(ROWS)), [])
+        rows = [measured("zoltan-rcb", 0, 1, error="code -2"), *ROWS[1:]]
+        runs = [simulated("none", i, 1) for i in range(2)]
+        failed = [simulated("rrcb", i, None, error="it fell") for i in range(2)]
+        found = report.failures(self.results(rows, runs + failed))
+        self.assertEqual(found, ["zoltan-rcb failed on fog: code -2",
+                                 "rrcb failed on the simulation: it fell"])  # fmt: skip
 
     def test_speak_of_ghosts_without_a_simulation(self) -> None:
         _, ghosts = report.sentences(self.results(ROWS))

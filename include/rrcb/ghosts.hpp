@@ -33,10 +33,11 @@ struct GhostPlan {
 struct GhostOptions {
     /// Cut-off of all points, in the unit of the coordinates; NaN: not given.
     double radius = std::numeric_limits<double>::quiet_NaN();
-    /// One radius for each point instead. Of two points on different ranks, nearer than the greater
-    /// of their radii, at least one is then a ghost on the other's rank, not always both. If both
-    /// ranks compute such pairs, give each point the greatest radius of the points near it. For
-    /// contacts of spheres give the diameters.
+    /// One radius for each point instead; for contacts of spheres the diameters. Of two points on
+    /// different ranks, nearer than the greater of their radii, the point with that radius is then
+    /// a ghost on the other's rank, the other point not always. Each pair is therefore met once if
+    /// ranks take ghosts of a greater radius than their point's, of equal radii those of a greater
+    /// number. If both ranks need all their pairs, give `radius` the greatest of all.
     std::optional<std::span<const double>> radii{};
     /// Box that contains the points, including its faces. It repeats along each axis on which its
     /// two ends are finite; on the others they are infinite. A rank may need several images of one

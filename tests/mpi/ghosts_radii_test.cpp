@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -88,6 +90,66 @@ TEST(GhostsOfRadii, are_the_points_whose_own_radius_reaches_a_region) {
                    MPI_COMM_WORLD);
         EXPECT_EQ(same.send_indices, plan.send_indices);
     }
+}
+
+/// Returns for each point of this rank the number of others nearer than the greater of two radii.
+std::vector<int> neighbours_by_brute_force(const Scene& scene, int most_periods) {
+    std::vector<int> counts;
+    for (const int i : scene.mine) {
+        counts.push_back(0);
+        const Vector x = scene.position(i);
+        for (int j = 0; j < static_cast<int>(num_points); ++j)
+            for (int k = -most_periods; j != i && k <= most_periods; ++k)
+                for (int l = -most_periods; l <= most_periods; ++l) {
+                    Vector image = scene.position(j);
+                    image[0] += k;
+                    image[1] += l;
+                    const double radius = std::max(scene.radii[static_cast<std::size_t>(i)],
+                                                   scene.radii[static_cast<std::size_t>(j)]);
+                    counts.back() += distance(image, Box{x, x}, 2) < radius;
+                }
+    }
+    return counts;
+}
+
+template <class T>
+std::vector<T> with_ghosts(const GhostPlan& plan, std::vector<T> own) {
+    const std::vector<T> ghosts = fetch(plan, own, MPI_COMM_WORLD);
+    own.insert(own.end(), ghosts.begin(), ghosts.end());
+    return own;
+}
+
+std::vector<int> neighbours_by_pairs(const Scene& scene, const GhostPlan& plan) {
+    std::vector<double> x = scene.here;
+    std::vector<double> images = fetch(plan, column(scene.here, 2), MPI_COMM_WORLD);
+    apply_shifts(plan, images);
+    x.insert(x.end(), images.begin(), images.end());
+    const std::vector<int> numbers = with_ghosts(plan, scene.mine);
+    const std::vector<double> radii = with_ghosts(plan, scene.radii_here);
+    std::vector<int> counts(numbers.size());
+    for (std::size_t i = 0; i < scene.mine.size(); ++i)
+        for (std::size_t j = i + 1; j < numbers.size(); ++j) {
+            const bool is_ours = std::pair(radii[i], numbers[i]) < std::pair(radii[j], numbers[j]);
+            if (j >= scene.mine.size() && !is_ours) continue;
+            const double apart = std::hypot(x[2 * i] - x[2 * j], x[2 * i + 1] - x[2 * j + 1]);
+            if (apart >= std::max(radii[i], radii[j])) continue;
+            ++counts[i];
+            ++counts[j];
+        }
+    const std::span all(counts);
+    return accumulate(plan, all.subspan(scene.mine.size()), all.first(scene.mine.size()),
+                      MPI_COMM_WORLD);
+}
+
+TEST(GhostsOfRadii, meet_every_pair_once_on_the_rank_of_the_smaller_radius) {
+    const Scene scene = make_scene(2);
+    const Points points = interleaved_points(scene.here, 2);
+    GhostOptions options{.radii = scene.radii_here};
+    EXPECT_EQ(neighbours_by_pairs(scene, ghosts(scene.cuts, points, options, MPI_COMM_WORLD)),
+              neighbours_by_brute_force(scene, 0));
+    options.periodic = Box{{0, 0}, {1, 1}};
+    EXPECT_EQ(neighbours_by_pairs(scene, ghosts(scene.cuts, points, options, MPI_COMM_WORLD)),
+              neighbours_by_brute_force(scene, 3));
 }
 
 TEST(GhostsOfRadii, are_those_of_one_radius_if_all_are_equal) {

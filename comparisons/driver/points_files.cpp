@@ -57,7 +57,8 @@ std::vector<std::string> read_header(LineReader& reader) {
         if (next < names.size() && names[next] == expected) {
             ++next;
         } else if (expected == "x" || expected == "y") {
-            reader.fail("column '" + expected + "' is missing; " + expected_header);
+            reader.fail("column " + std::to_string(next + 1) + " must be '" + expected + "'; " +
+                        expected_header);
         }
     }
     if (next < names.size())

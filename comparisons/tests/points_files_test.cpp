@@ -139,9 +139,9 @@ TEST(PointsFile, reads_weights_blanks_and_foreign_line_ends) {
 
 TEST(PointsFile, names_a_missing_column) {
     EXPECT_EQ(error_of("x,z\n1,2\n"),
-              "p.csv:1: column 'y' is missing; the header must be x,y[,z][,weight]");
+              "p.csv:1: column 2 must be 'y'; the header must be x,y[,z][,weight]");
     EXPECT_EQ(error_of("1,2\n3,4\n"),
-              "p.csv:1: column 'x' is missing; the header must be x,y[,z][,weight]");
+              "p.csv:1: column 1 must be 'x'; the header must be x,y[,z][,weight]");
 }
 
 TEST(PointsFile, names_an_unknown_column) {

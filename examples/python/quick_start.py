@@ -1,6 +1,8 @@
 """A cloud of points, divided and drawn.
 
     mpirun -n 4 python3 examples/python/quick_start.py [parts.png]
+
+The picture needs matplotlib.
 """
 import sys
 

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     const rrcb::Balance balance = rrcb::balance(points, rrcb::Options{}, MPI_COMM_WORLD);
     const rrcb::Plan plan = rrcb::plan(balance, MPI_COMM_WORLD);
 
-    // Columns of the points that are here now, and copies of those of others within 0.05.
+    // Columns of the points in this rank's box, and copies of others within 0.05 of it.
     const std::vector<double> here =
         rrcb::transfer(plan, rrcb::column(coordinates, 2), MPI_COMM_WORLD);
     const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2),

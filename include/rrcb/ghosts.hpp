@@ -34,10 +34,10 @@ struct GhostOptions {
     /// Cut-off of all points, in the unit of the coordinates; NaN: not given.
     double radius = std::numeric_limits<double>::quiet_NaN();
     /// One radius for each point instead; for contacts of spheres the diameters. Of two points on
-    /// different ranks, nearer than the greater of their radii, the point with that radius is then
-    /// a ghost on the other's rank, the other point not always. Each pair is therefore met once if
-    /// ranks take ghosts of a greater radius than their point's, of equal radii those of a greater
-    /// number. If both ranks need all their pairs, give `radius` the greatest of all.
+    /// different ranks, nearer than the greater of their radii, the one with that radius is a ghost
+    /// on the other's rank, the other not always. To meet each pair once, skip a ghost of a smaller
+    /// radius than the point's, or of an equal one and a smaller number. If both ranks need all
+    /// their pairs, use the greatest as `radius`.
     std::optional<std::span<const double>> radii{};
     /// Box that contains the points, including its faces. It repeats along each axis on which its
     /// two ends are finite; on the others they are infinite. A rank may need several images of one

@@ -22,7 +22,7 @@ void set_option(const char* name, const char* value, Options& options) {
     require(value, "value");
     const Option* option = find_option(name);
     if (option == nullptr)
-        reject("there is no option \"" + std::string(name) + "\"; rrcb/options.hpp has them");
+        reject("there is no option \"" + std::string(name) + "\"; docs/parameters.md lists them");
     if (!read_option(*option, value, options))
         reject(std::string(name) + " takes " + legal_values(*option) + ", not \"" + value + '"');
 }

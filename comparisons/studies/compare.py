@@ -94,12 +94,17 @@ def _read_options(words: list[str]) -> tuple[argparse.Namespace, list[str]]:
         print(__doc__, end="")
         sys.exit()
     parser = argparse.ArgumentParser(prog="comparisons/run", add_help=False, allow_abbrev=False)
-    parser.add_argument("--ranks", type=int, default=4, choices=range(1, MAX_RANKS + 1),
-                        metavar=f"1...{MAX_RANKS}")  # fmt: skip
+    parser.add_argument("--ranks", type=_ranks, default=4, metavar=f"1...{MAX_RANKS}")
     parser.add_argument("--out", type=_folder)
     parser.add_argument("--methods", default="")
     parser.add_argument("--scene", default="slope")
     return parser.parse_known_args(words)
+
+
+def _ranks(text: str) -> int:
+    if not text.isdecimal() or not 1 <= int(text) <= MAX_RANKS:
+        raise argparse.ArgumentTypeError(f"must be an integer from 1 to {MAX_RANKS}, not '{text}'")
+    return int(text)
 
 
 def _folder(text: str) -> Path:

@@ -1,4 +1,4 @@
-"""Sentences, tables and pictures of comparisons/run, from tables made by hand."""
+"""Options, sentences, tables and pictures of comparisons/run, from tables made by hand."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from pathlib import Path
 
 from support import measured, simulated, table
 
+import compare
 import pandas as pd
 import pictures
 import report
@@ -62,6 +63,14 @@ class FolderTest(unittest.TestCase):
         if runs:
             pd.DataFrame(runs).to_csv(self.folder / "simulation_runs.csv", index=False)
         return Results(self.folder)
+
+
+class OptionTest(unittest.TestCase):
+    def test_a_wrong_number_of_ranks_is_refused_with_the_range(self) -> None:
+        for text in ("0", "257", "many"):
+            with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()) as output:
+                compare._read_options([f"--ranks={text}"])
+            self.assertIn(f"must be an integer from 1 to 256, not '{text}'", output.getvalue())
 
 
 class SentenceTest(FolderTest):

@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &num_ranks);
     std::vector<double> positions = strip_of(rank, num_ranks);
-    std::vector<double> columns;
+    std::vector<double> rows;
     double heaviest = 0;
     double total = 0;
     int rebalances = 0;
@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
         rrcb::Balance balance;
         for (int step = 0; step < 100; ++step) {
             if (step == 0 || controller.due()) {
-                const std::vector<double> weights = model.weights(columns);
+                const std::vector<double> weights = model.weights(rows);
                 const rrcb::Points points = rrcb::interleaved_points(positions, 2, weights);
                 balance = rrcb::balance(points, rrcb::Options{}, comm);
                 controller.rebalanced(balance.report, cost);
@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
             const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(positions, 2), comm);
             const std::vector<double> neighbours = count_neighbours(positions, ghosts);
             move(positions);
-            columns = rows_of(neighbours);  // of each particle: 1, its neighbours
+            rows = rows_of(neighbours);  // of each particle: 1, its neighbours
             const double load = sum_of(neighbours);
             model.step(load, {{static_cast<double>(mine.count), load}});
 

@@ -6,8 +6,8 @@ namespace rrcb {
 
 namespace {
 
-/// Returns one axis per level: the numbers of cuts that result from halving the longest extent, in
-/// groups.
+/// Returns the axis of each level, grouped by axis: as many of each as if cuts halved the longest
+/// extent.
 std::vector<int> group_levels(std::span<const int> order, Box box, int dimension, int num_levels) {
     constexpr double enough = 1;
     std::array<int, max_dimension> cuts_across{};

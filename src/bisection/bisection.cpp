@@ -31,7 +31,7 @@ Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const T
     const double weight = weight_of(domain);
     const Box box = extent_of(domain);
     const int axis = task.axis_of(task.result.cuts.tree.size(), depth, box);
-    // First, because a side of size 0 is always empty.
+    // First: a side of size 0 is empty even if the domain has no weight.
     if (below >= 1) return plane(axis, infinity);
     if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
     return weighted_quantile(Profile(domain, axis), below * weight, task.options.axes.plain);

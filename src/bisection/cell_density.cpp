@@ -40,14 +40,14 @@ bool is_nowhere_negative(const Piece& density) {
     return !has_inner_minimum || 1 - density.bow / 2 - slope * slope / (6 * density.bow) >= 0;
 }
 
-/// Returns the density of a spread with mean <= 0 that no quadratic density on the cell has, as one
-/// or two pieces.
+/// Returns one or two pieces for a spread that no quadratic density on the cell has; mean <= 0.
 std::array<Piece, 2> pieces_of(const Spread& spread) {
     const auto [mean, variance] = spread;
     // A parabola that is 0 at both ends has the variance half^2 / 5.
     const double half = std::sqrt(5 * variance);
     if (mean - half >= -1) return {Piece{mean - half, mean + half, 1, 0, -1}, Piece{0, 0, 0}};
-    // On [-1, -1 + 2 w] it is 0 at the upper end for w^2 - 4 r w + 5/2 (r^2 + variance) = 0.
+    // A quadratic density on [-1, -1 + 2 w] is 0 at the upper end if, with r = reach,
+    // w^2 - 4 r w + 5/2 (r^2 + variance) = 0.
     const double reach = 1 + mean;
     const double root = 1.5 * reach * reach - 2.5 * variance;
     if (root >= 0) {
@@ -56,14 +56,14 @@ std::array<Piece, 2> pieces_of(const Spread& spread) {
         piece.upper = std::min(1.0, 2 * w - 1);
         return {piece, Piece{0, 0, 0}};
     }
-    // Two uniform densities that meet at the mean, one reaching b below it with the share
-    // a / (a + b), one a above it with the rest, have the variance a b / 3.
+    // Two uniform densities meet at the mean: one reaches b below it with the share a / (a + b),
+    // the other a above it with the rest. Their variance is a b / 3.
     const double above = 3 * variance / reach;
     if (above <= 1 - mean)
         return {Piece{-1, mean, above / (reach + above)},
                 Piece{mean, mean + above, reach / (reach + above)}};
-    // Two of the length 2 (1 - c) at the ends, about -c and c, have the mean square
-    // c^2 + (1 - c)^2 / 3.
+    // Two uniform densities of length 2 (1 - c) at the ends, with centres -c and c, have the mean
+    // square c^2 + (1 - c)^2 / 3.
     const double square = std::min(1.0, mean * mean + variance);
     const double c = std::max(-mean, (1 + std::sqrt(std::max(0.0, 12 * square - 3))) / 4);
     const double upper_share = (1 + mean / c) / 2;
@@ -106,7 +106,7 @@ AxisDensity density_of(double mean, double deviation, double lower, double upper
 namespace {
 
 constexpr std::size_t num_pieces = 6;
-// Gauss-Legendre, on [-1, 1]; exact to the ninth power.
+// Gauss-Legendre on [-1, 1]; exact up to degree 9.
 constexpr std::array<double, 5> gauss_nodes{-0.90617984593866399, -0.53846931010568309, 0,
                                             0.53846931010568309, 0.90617984593866399};
 constexpr std::array<double, 5> gauss_weights{0.23692688505618909, 0.47862867049936647,
@@ -114,13 +114,12 @@ constexpr std::array<double, 5> gauss_weights{0.23692688505618909, 0.47862867049
                                               0.23692688505618909};
 constexpr std::size_t num_nodes = num_pieces * gauss_nodes.size();
 
-/// Within this file u runs from -1 to 1.
 double node(std::size_t i) {
     const double piece = static_cast<double>(i / gauss_nodes.size());
     return (2 * piece + 1 + gauss_nodes[i % gauss_nodes.size()]) / num_pieces - 1;
 }
 
-/// exp(b u + c u^2), as the masses at the nodes, which add up to 1.
+/// The density exp(b u + c u^2) as masses at the nodes; their sum is 1.
 struct Tilted {
     double b = 0;
     double c = 0;
@@ -153,8 +152,8 @@ Tilted tilted(double b, double c) {
     return density;
 }
 
-/// Newton's method on the convex function log sum - b mean - c square, whose gradient is the error
-/// of the moments. Steps are halved until it falls.
+/// Finds b and c by Newton's method: they minimize the convex function log sum - b mean - c square,
+/// whose gradient is the error of the moments. Steps are halved until the function decreases.
 bool find_tilt(double mean, double square, Tilted& density) {
     constexpr int most_steps = 40;
     constexpr double enough = 1e-13;

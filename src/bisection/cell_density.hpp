@@ -18,7 +18,7 @@ struct DensityPiece {
     double bow = 0;
 };
 
-/// A density along one axis: one piece, or two, the second then has a share above 0.
+/// A density along one axis: one piece, or two if the second has a share above 0.
 using AxisDensity = std::array<DensityPiece, 2>;
 
 /// Returns a density on [lower, upper] with this mean and deviation, or with nearby ones if no
@@ -27,7 +27,7 @@ AxisDensity density_of(double mean, double deviation, double lower, double upper
 
 /// Returns the density of greatest entropy on [lower, upper] with this mean and deviation, exp(a +
 /// b x + c x^2), as a few pieces that keep its moments. For heavy cells, which are cut more than
-/// once. If it is almost quadratic, or not found, returns density_of().
+/// once. Returns density_of() if that is one piece on the whole interval, or if the search fails.
 ///
 /// Jaynes: Information theory and statistical mechanics (1957).
 std::vector<DensityPiece> entropy_density_of(double mean, double deviation, double lower,

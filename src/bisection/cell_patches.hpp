@@ -14,8 +14,7 @@ std::vector<double> weights_of(std::span<const CellMoments> cells);
 /// cells are heavy, so their extra patches cost little.
 double least_heavy_weight(std::span<const double> weights, int dimension);
 
-/// Appends the patches of a cell, of this weight, as analytic_domain() makes them; `box` holds all
-/// points.
+/// Appends the patches of a cell as analytic_domain() describes; `box` holds all points.
 void append_patches(const CellMoments& cell, double weight, bool is_heavy, const Box& box,
                     StatisticalDomain& domain);
 

@@ -83,8 +83,8 @@ Trial trial_in(const StatisticalDomain& domain, int axis, double place) {
     return {cut, weight_below(domain, cut)};
 }
 
-/// Returns the cut at an allowed place of `way` with about the weight `target` below it: of the
-/// lines on both sides of the exact place the nearer one.
+/// Returns the cut at an allowed place of `way` with about the weight `target` below it. Of the
+/// grid lines on both sides of the exact place, takes the one with the smaller error.
 Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, const Task& task) {
     const bool is_plain = task.options.axes.plain;
     const AxisLimits& limits = task.limits.across(way.axis);
@@ -108,7 +108,7 @@ Trial trial_across(const Piece& piece, const Way& way, const Task& task) {
                     limits.nearest(middle, way.places.first, way.places.last));
 }
 
-/// Returns the cut across the first axis that reaches about the required accuracy, or the best cut.
+/// Returns the first cut with a bearable error, or else the one with the least error.
 Cut cut_in_places(const Piece& piece, int preferred, const Box& extent, Task& task) {
     constexpr double bearable = 0.005;
     const double weight = weight_of(piece.domain);
@@ -126,7 +126,7 @@ Cut cut_in_places(const Piece& piece, int preferred, const Box& extent, Task& ta
     return best.cut;
 }
 
-/// Returns the cut of a node; everything is on one side if the parts of the other have no size.
+/// Returns the cut of a node. If the parts of one side have no size, all points are on the other.
 Cut choose_cut(const Piece& piece, Task& task) {
     const Box extent = extent_of(piece.domain);
     const int axis = task.axis_of(piece.at.node, piece.depth, extent);

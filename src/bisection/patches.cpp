@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the axis that decides the side of a patch; later axes only for ties.
+/// Returns the axis that decides the side of a patch: the cut's, or the next one without a tie.
 int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
     const auto tied = [&](int axis) {
         return patch.lower[axis] == cut.at[axis] && patch.upper[axis] == cut.at[axis];

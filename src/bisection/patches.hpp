@@ -10,8 +10,8 @@ namespace rrcb {
 double weight_of(const StatisticalDomain& domain);
 Box extent_of(const StatisticalDomain& domain);
 
-/// Returns the range of the cut if the domain is slightly wrong; `below` is the share of the weight
-/// below it, `depth` the number of cuts above.
+/// Returns the range in which the exact cut is expected: the domain is an estimate. `below` is the
+/// share of the weight below the cut, `depth` the number of cuts above.
 Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below, int depth);
 
 /// A domain on both sides of a cut.

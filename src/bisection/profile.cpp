@@ -32,7 +32,8 @@ Profile::Profile(const StatisticalDomain& domain, int axis) : domain_(&domain), 
         const double bin = std::max(0.0, (value / 2 - lower_ / 2) * bins_per_half);
         return std::min(num_bins - 1, static_cast<std::size_t>(bin));
     };
-    // First by how much more each bin has than the one before, at index bin + 1.
+    // First the difference of each bin from the one before, at index bin + 1. One partial sum gives
+    // the weights of the bins, a second one the weights below their edges.
     weights_below_.resize(num_bins + 2);
     for (const Patch& patch : domain.patches) {
         const std::size_t first = bin_of(patch.lower[axis]);

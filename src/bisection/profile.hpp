@@ -7,8 +7,8 @@
 
 namespace rrcb {
 
-/// Histogram of the weight of a domain along an axis; each patch adds its weight evenly. With it
-/// the search for a cut visits few patches.
+/// Histogram of the weight of a domain along an axis; each patch adds its weight evenly. It limits
+/// the patches that the search for a cut visits.
 class Profile {
   public:
     /// The domain is borrowed.
@@ -24,7 +24,7 @@ class Profile {
         bool is_limited() const;
     };
 
-    /// Range in which the weight below a value is likely to pass the target.
+    /// Returns a range in which the cumulative weight is likely to pass the target.
     Range range_of(double target) const;
 
   private:

@@ -7,8 +7,8 @@ namespace rrcb {
 
 namespace {
 
-/// Restricts a density to its first share `t` of the interval. The mean of the result, which may be
-/// 0 without weight, is the unit of the new one.
+/// Restricts a density to the first fraction `t` of its interval, scaled to the mean 1; uniform if
+/// no weight is left.
 void restrict_to_first(double t, double& slope, double& bow) {
     const double mean = 1 - (1 - t) * (slope + bow * (2 * t - 1));
     const double least = 1e-12 * (1 + std::abs(slope) + std::abs(bow));

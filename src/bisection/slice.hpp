@@ -30,7 +30,7 @@ inline double fraction_below(double lower, double value, double upper) {
     return (value - lower) / extent;
 }
 
-/// Returns the weight below `value`, which may be outside: from none to all.
+/// Returns the weight below `value`, which may be outside the slice.
 inline double weight_below(const Slice& slice, double value) {
     if (slice.upper < value || (slice.upper == value && !slice.is_jump())) return slice.weight;
     if (slice.lower >= value) return 0;

@@ -11,13 +11,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Weight that round-off may leave on the wrong side. It must not decide the side of a gap between
+/// Returns the weight that round-off may misplace. It must not decide the side of a gap between
 /// clusters.
 double negligible(double weight) {
     return 1e-12 * weight;
 }
 
-/// Weight of one of the patches along the axis.
+/// A patch along the axis.
 struct Interval : Slice {
     std::size_t patch;
 };
@@ -31,7 +31,7 @@ struct Crossing {
     std::vector<Interval> active;  ///< jumps at `left`, and intervals that span it
 };
 
-/// A breakpoint near the median of those left: the median of a few, evenly picked.
+/// Returns a breakpoint near the median: the median of a few, evenly picked.
 double pivot_of(std::span<const double> breakpoints) {
     constexpr std::size_t most = 63;
     std::array<double, most> sample;
@@ -59,7 +59,7 @@ void narrow(Crossing& crossing, double pivot, double target) {
     });
 }
 
-/// Some patches of a domain along an axis, or all: those with weight.
+/// The patches with weight of a domain, or some of them, along an axis.
 struct Subset {
     const StatisticalDomain& domain;
     std::size_t axis;
@@ -81,7 +81,7 @@ struct Subset {
     }
 };
 
-/// Weight of the crossing below a value inside it.
+/// Returns the weight below a value inside the crossing.
 double weight_below(const Crossing& crossing, double value) {
     double below = crossing.below;
     for (const Interval& interval : crossing.active) below += weight_below(interval, value);
@@ -92,7 +92,7 @@ bool passes(double below, double target) {
     return below > target - negligible(target);
 }
 
-/// Returns the range of the crossing, or nothing if the given range does not contain it.
+/// Returns the intervals of a range, or of all values if the range does not contain the crossing.
 Crossing crossing_in(const Subset& subset, const Profile::Range& range, double target) {
     Crossing crossing{range.lower, range.upper, 0, {}};
     subset.for_each([&](const Patch& patch, std::size_t number) {
@@ -129,8 +129,7 @@ Crossing find_crossing(const Subset& subset, const Profile::Range& range, double
     return crossing;
 }
 
-/// Returns a value with the jump at the left end of the crossing below it, and as little else as
-/// possible.
+/// Returns a cut above a jump: in the middle of the gap that follows, or infinity if nothing does.
 double after_jump(const Subset& subset, double jump) {
     double next = infinity;
     subset.for_each([&](const Patch& patch, std::size_t) {
@@ -150,9 +149,9 @@ double middle_of_gap(const Subset& subset, double value) {
     return next == infinity ? value : value / 2 + next / 2;
 }
 
-/// Value inside the crossing with the target below it, by the Illinois variant of false position
-/// (Dowell, Jarratt: A modified regula falsi method, 1971): one step if the weight is even. `from`
-/// is the weight below just behind the left end, `to` that below the right end.
+/// Returns the value inside the crossing with the target below it, by the Illinois variant of false
+/// position (Dowell, Jarratt: A modified regula falsi method, 1971); one step if the weight is
+/// even. `from` is the weight below just behind the left end, `to` that below the right end.
 double pass(const Crossing& crossing, double target, double from, double to) {
     constexpr int most_steps = 64;
     double left = crossing.left;
@@ -205,7 +204,7 @@ Below divide_jump(const Subset& subset, const Crossing& crossing, std::span<cons
     return below;
 }
 
-/// Cuts the patches across their axis, ties along `axes`; `at` comes in at -infinity.
+/// Cuts the patches across their axis, and ties along `axes`; all of `at` must be -infinity.
 Below divide(const Subset& subset, const Profile::Range& range, std::span<const int> axes,
              double target, Vector& at) {
     const Crossing crossing = find_crossing(subset, range, target);

@@ -6,13 +6,13 @@
 
 namespace rrcb {
 
-/// Cut across the axis of a profile with the weight `target` below it, in a domain of some weight >
-/// target >= 0.
+/// Returns the cut across the axis of a profile with the weight `target` below it, from 0 up to,
+/// not including, the weight of the domain.
 ///
-/// The cumulative weight along an axis is piecewise cubic with jumps where patches have no
-/// extent; where the target falls into a jump the patches of that jump are divided along the other
-/// axes unless the cut is to be `plain`. Patches that can't be told apart go to the side that is
-/// nearer to the target. Expected cost linear in the number of patches.
+/// The cumulative weight along an axis is piecewise cubic, with jumps at patches without extent. If
+/// the target falls into a jump, its patches are divided along the other axes, unless `plain`.
+/// Coincident patches go to the side with the smaller error. Expected cost linear in the number of
+/// patches.
 Cut weighted_quantile(const Profile& profile, double target, bool plain);
 
 }  // namespace rrcb

@@ -37,10 +37,10 @@ struct CellSum {
 template <std::size_t Dimension, bool Weighted>
 struct alignas(2 * sizeof(double)) RunningCell : CellSum<Dimension, Weighted> {
     std::array<double, Dimension> origin{};  ///< its first point
-    LocalIndex num_others = -1;              ///< the number of its points, less one
+    LocalIndex num_others = -1;              ///< number of its points, less one
 };
 
-/// Finds the cells block by block, as vectors, and adds each block up while it is in the cache.
+/// Finds the cells of a block of points by vectors, and adds the block up while it is in the cache.
 template <class Layout, bool Weighted>
 class Binner {
     static constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
@@ -111,7 +111,7 @@ class Binner {
     RunningSums<CellSum<dimension, Weighted>, RunningCell<dimension, Weighted>> sums_;
 };
 
-/// Power of two with which weights times squares of lengths neither overflow nor vanish.
+/// Returns a power of two that keeps weights times squared lengths in range.
 double scale_of_weights(std::span<const double> weights) {
     constexpr int harmless_exponent = 200;
     return safe_scale(weights.empty() ? 0 : std::ranges::max(weights), harmless_exponent);

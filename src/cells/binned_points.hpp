@@ -27,7 +27,7 @@ struct BinnedPoints {
 /// Adds up finite points in the box of `mesh`, in one pass. Not collective.
 BinnedPoints bin_by_cell(const Points& points, const SupportMesh& mesh);
 
-/// Returns the moments of points that are added up, as the public function does.
+/// Returns the moments of binned points, as the public function does.
 std::vector<CellMoments> cell_moments(const BinnedPoints& binned);
 
 }  // namespace rrcb

@@ -26,14 +26,14 @@ struct CellFinder {
     Vector lower{};
     Vector cells_per_length{};
     std::array<std::int32_t, max_dimension> num_cells{};
-    Vector below_num_cells{};  ///< the number before it
+    Vector below_num_cells{};  ///< greatest double below num_cells
 };
 
 /// Finds the cells of consecutive points. Repeating it is cheaper than keeping the cells in memory.
 template <class Layout>
 RRCB_ARITHMETIC_CLONES void find_cells(const CellFinder& mesh, const Layout& points,
                                        LocalIndex first, LocalIndex length, std::int32_t* cells) {
-    // Copies, which the writes below can't change.
+    // Copies: the compiler need not reload them after the writes below.
     const CellFinder to = mesh;
     const Layout x = points;
     for (LocalIndex i = 0; i < length; ++i) {

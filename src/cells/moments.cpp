@@ -60,9 +60,8 @@ bool is_far_off(double first, double second, double weight) {
     return rest * rest * (most_variances + 1) > second / weight * most_variances;
 }
 
-/// Moves origins that are too far off to the mean. Only a first point that is an outlier among many
-/// is so far off: of n points of equal weight none is more than sqrt(n) standard deviations from
-/// the mean.
+/// Moves far-off origins to the mean. Only a first point that is an outlier among many is so far
+/// off: of n points of equal weight none is more than sqrt(n) standard deviations from the mean.
 template <std::size_t Dimension>
 bool move_origins(const BinnedPoints& binned, Centred<Dimension>& cells) {
     bool moved = false;
@@ -89,7 +88,7 @@ struct Weighted {
     double operator()(LocalIndex i) const { return weights[i] * scale; }
 };
 
-/// Sums every cell up again, about its present origin.
+/// Sums every cell up again, about its new origin.
 template <class Layout, class Weight>
 void sum_again(const Layout& x, const BinnedPoints& binned, const Weight& weight,
                Centred<static_cast<std::size_t>(Layout::dimension)>& cells) {
@@ -174,7 +173,7 @@ Moments merge(const Moments& a, const Moments& b) {
         const double deviation = std::hypot(std::sqrt(share_a) * a.deviation[axis],
                                             std::sqrt(share_b) * b.deviation[axis],
                                             2 * std::sqrt(share_a * share_b) * half_distance);
-        // No deviation of doubles is larger than the largest, except by rounding.
+        // Rounding may lead beyond the largest double.
         joint.deviation[axis] = std::min(deviation, std::numeric_limits<double>::max());
     }
     return joint;

@@ -4,7 +4,7 @@
 
 namespace rrcb {
 
-/// Points one after another, for the loops that touch every point.
+/// Points whose coordinates are consecutive.
 template <int Dimension, class Scalar>
 struct InterleavedLayout {
     static constexpr int dimension = Dimension;

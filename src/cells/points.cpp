@@ -10,7 +10,7 @@ namespace rrcb {
 
 namespace {
 
-/// Values in one register: the order of a minimum is free, but the compiler may not know it.
+/// Values of one register. The compiler may not reorder a minimum of doubles by itself.
 constexpr std::size_t width = 4;
 typedef double Row __attribute__((vector_size(width * sizeof(double))));
 typedef float FloatRow __attribute__((vector_size(width * sizeof(float))));
@@ -25,16 +25,16 @@ typedef float FloatRow __attribute__((vector_size(width * sizeof(float))));
     row = __builtin_convertvector(floats, Row);
 }
 
-// Independent of each other, and of values that are a multiple of every stride, so that each entry
-// keeps to one axis.
+// Independent rows. The number of their values is a multiple of every stride (1, 2, 3): each lane
+// belongs to one axis.
 constexpr std::size_t num_rows = 3;
 constexpr std::size_t num_lanes = width * num_rows;
 
-/// Range of some of the values, row by row.
+/// Range of the values in each lane of a row.
 struct Span {
     Row lower = Row{} + Box{}.lower[0];
     Row upper = Row{} + Box{}.upper[0];
-    Row poison{};  ///< 0 * x is 0 just for finite x
+    Row poison{};  ///< 0 * x is 0 for finite x only
 
     template <class Scalar>
     [[gnu::always_inline]] void widen(const Scalar* values) {
@@ -46,7 +46,7 @@ struct Span {
     }
 };
 
-/// Takes multiples of num_lanes values; returns how many.
+/// Widens the spans by a multiple of num_lanes values; returns their number.
 template <class Scalar>
 RRCB_VECTOR_CLONES std::size_t widen(std::span<const Scalar> values,
                                      std::array<Span, num_rows>& spans) {
@@ -58,12 +58,12 @@ RRCB_VECTOR_CLONES std::size_t widen(std::span<const Scalar> values,
     return k;
 }
 
-/// Smallest and largest of the values, entry k of axis k % stride; NaN in place of infinities.
+/// Returns the box of values, entry k on axis k % stride; NaN if a value is not finite.
 template <class Scalar>
 Box box_of_values(std::span<const Scalar> values, std::size_t stride) {
     std::array<Span, num_rows> spans;
     std::size_t k = widen(values, spans);
-    // The last few values, with others of their axes for those that are missing.
+    // The last few values, filled up with others of the same axes.
     if (k < values.size()) {
         std::array<Scalar, num_lanes> rest;
         for (std::size_t lane = 0; lane < num_lanes; ++lane)
@@ -84,7 +84,7 @@ Box box_of_values(std::span<const Scalar> values, std::size_t stride) {
     return box;
 }
 
-/// Smallest and largest of every stride-th value, on axis 0.
+/// Returns the range of every stride-th value, as axis 0.
 template <class Scalar>
 Box box_of_strided(const Scalar* values, LocalIndex count, std::size_t stride) {
     Box box;
@@ -100,7 +100,6 @@ Box box_of_strided(const Scalar* values, LocalIndex count, std::size_t stride) {
     return box;
 }
 
-/// Box of the points of these axes.
 template <class Scalar>
 Box box_of_axes(const Points& points,
                 const std::array<std::span<const Scalar>, max_dimension>& axes) {
@@ -132,7 +131,6 @@ void check_reach(const Points& points) {
     }
 }
 
-/// Sets the axes of interleaved points.
 template <class Scalar>
 void interleave(std::span<const Scalar> coordinates, Points& points,
                 std::array<std::span<const Scalar>, max_dimension>& axes) {
@@ -143,7 +141,6 @@ void interleave(std::span<const Scalar> coordinates, Points& points,
         axes[a] = coordinates.subspan(a);
 }
 
-/// Sets one array per axis.
 template <class Scalar>
 void set_columns(std::span<const std::span<const Scalar>> columns, Points& points,
                  std::array<std::span<const Scalar>, max_dimension>& axes) {

@@ -8,9 +8,9 @@
 
 namespace rrcb {
 
-/// One sum per bin, over entries that come in any order of the bins. The same entries give the same
-/// bits. `Sum` starts at zero and has +=; a running sum may be a `Running` that derives from it,
-/// with members that stay.
+/// One sum per bin, over entries in any order of the bins. The same entries give the same bits.
+/// `Sum` starts at zero and has +=. A running sum may be a `Running`, derived from it; empty()
+/// keeps its other members.
 ///
 /// One long running sum would lose a digit for every tenfold of the entries. So the running sums
 /// are emptied into others from time to time, and these into the totals less often.
@@ -20,7 +20,7 @@ class RunningSums {
     explicit RunningSums(std::size_t num_bins)
         : running_(num_bins), emptied_(num_bins), totals_(num_bins) {}
 
-    /// Number of entries to add before the sums are to be emptied.
+    /// Returns the number of entries to add between calls of empty().
     LocalIndex interval() const { return std::max<LocalIndex>(128, 8 * running_.size()); }
 
     Running& operator[](std::size_t bin) { return running_[bin]; }
@@ -31,7 +31,7 @@ class RunningSums {
         if (++num_emptied_ % most_emptied == 0) pour(emptied_, totals_);
     }
 
-    /// Sums of all entries that were added before the last empty().
+    /// Returns the sums of all entries added before the last empty().
     const std::vector<Sum>& totals() {
         pour(emptied_, totals_);
         return totals_;

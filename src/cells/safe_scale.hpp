@@ -6,7 +6,8 @@
 
 namespace rrcb {
 
-/// Power of two that brings `largest` (>= 0) near 1; 1 if its exponent is harmless, or for 0.
+/// Returns the power of two that brings `largest` (>= 0) near 1; 1 if its exponent is harmless, or
+/// for 0.
 inline double safe_scale(double largest, int harmless_exponent) {
     if (!(largest > 0)) return 1;
     const int exponent = std::ilogb(largest);

@@ -24,7 +24,7 @@ void visit_marked_cells(const CellFinder& mesh, const Layout& x, LocalIndex coun
     in_ranges(count, block_length, [&](LocalIndex first, LocalIndex last) {
         find_cells(mesh, x, first, last - first, cells.data());
         std::size_t num_marked = 0;
-        // Without branches, because the points come in any order.
+        // Without branches, which points in any order would mispredict.
         for (std::uint32_t k = 0; k < last - first; ++k) {
             marked[num_marked] = k;
             num_marked += marks[cells[k]];
@@ -62,7 +62,7 @@ void scatter(const BinnedPoints& binned, SortedPoints& sorted) {
     });
 }
 
-/// Weights of the cells if not all are sorted, added up in the order of sorted ones.
+/// Returns the weights of the cells, added up in the order of the sorted points.
 std::vector<double> weigh_cells(const BinnedPoints& binned) {
     const Points& points = binned.points;
     std::vector<double> sums(points.weights.empty() ? 0 : binned.counts.size());
@@ -75,7 +75,7 @@ std::vector<double> weigh_cells(const BinnedPoints& binned) {
     return sums;
 }
 
-/// Avoids a copy of the entries if it grows.
+/// Resizes without a copy of old entries.
 template <class Value>
 void resize(Uninitialized<Value>& values, std::size_t size) {
     values.clear();
@@ -115,8 +115,7 @@ void write_parts_of_cells(const BinnedPoints& binned, std::span<const Part> part
         visit_cells(
             CellFinder(binned.mesh), x, 0, binned.points.count,
             [from = parts_of_cells.data(), to = parts.data()](LocalIndex i, std::size_t cell) {
-                // Without a branch, because the points come in any order: all bits of no_part are
-                // 1.
+                // Without a branch: all bits of no_part are 1.
                 const Part part = from[cell];
                 const Part keeps = part >> std::numeric_limits<Part>::digits;
                 to[i] = part ^ ((part ^ to[i]) & keeps);

@@ -12,14 +12,14 @@ namespace rrcb {
 /// Copy of one rank's points in the order of the cells of its support mesh.
 ///
 /// Points of one cell keep the order they came in. Cell c holds the entries begins[c] up to, not
-/// including, begins[c + 1]. Those of cells that are left out are not written.
+/// including, begins[c + 1]. Entries of cells that are left out are not written.
 struct SortedPoints {
     SupportMesh mesh;
     Uninitialized<double> coordinates;     ///< interleaved
     Uninitialized<double> weights;         ///< empty when every point weighs 1
-    Uninitialized<LocalIndex> original;    ///< index each entry had before
+    Uninitialized<LocalIndex> original;    ///< index of each entry before
     std::vector<LocalIndex> begins;        ///< length num_cells + 1
-    std::vector<std::uint8_t> is_sorted;   ///< 1 for each cell that is; empty: none is left out
+    std::vector<std::uint8_t> is_sorted;   ///< 1 for each sorted cell; empty: all are
     const BinnedPoints* binned = nullptr;  ///< borrowed if cells are or were left out
     std::vector<double> cell_weights;      ///< likewise; empty when every point weighs 1
 
@@ -38,15 +38,15 @@ struct SortedPoints {
     }
 };
 
-/// Copies binned points, sorted in one pass, into the memory of other ones. Leaves cells out for
-/// which `is_sorted` is 0, unless it is empty; then `binned` is borrowed. Not collective.
+/// Copies binned points in the order of the cells, in one pass, into `memory`. If `is_sorted` is
+/// not empty, leaves out the cells for which it is 0 and borrows `binned`. Not collective.
 SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory = {},
                           std::vector<std::uint8_t> is_sorted = {});
 
 /// Sorts the points of the cells that were left out. Throws std::bad_alloc.
 void sort_rest(SortedPoints& points);
 
-/// Writes the part of each point of a cell that has one in `parts_of_cells`, else no_part.
+/// Writes the parts of all points except those of cells with no_part in `parts_of_cells`.
 void write_parts_of_cells(const BinnedPoints& binned, std::span<const Part> parts_of_cells,
                           std::span<Part> parts);
 

@@ -29,7 +29,7 @@ struct Lane {
     std::size_t bytes;  ///< of a point
 };
 
-/// Bytes of a point in all columns.
+/// Returns the bytes of a point in all columns.
 std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
     std::size_t bytes = 0;
     for (const ByteColumn& column : columns) {
@@ -96,7 +96,7 @@ void refuse_types(std::span<const ByteColumn> columns, Participant& self) {
     agree(self);
 }
 
-/// Compares the counts that the ranks send, `sent`, with those that this one expects of them.
+/// Throws Error if the counts that ranks send to this one, `sent`, are not those `expected`.
 void check_agreement(std::span<const RankCount> expected, std::span<const RankCount> sent) {
     const auto differ = std::ranges::mismatch(expected, sent, [](const auto& a, const auto& b) {
         return a.rank == b.rank && a.count == b.count;
@@ -143,7 +143,7 @@ void keep(const Delivery& delivery, const Lane& lane) {
     copy_run(delivery.num_points);
 }
 
-/// The compiler knows the number of bytes if it is a common one.
+/// Copies by a constant number of bytes if it is a common one, which is faster.
 void gather(const Lane& lane, std::span<const LocalIndex> points, std::byte* to) {
     const auto gather_by = [&](auto bytes) {
         for (const LocalIndex point : points) {
@@ -164,7 +164,7 @@ void gather(const Lane& lane, std::span<const LocalIndex> points, std::byte* to)
 }
 
 void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, Participant& self) {
-    // In a piece one column follows the other.
+    // In each piece of a message one column follows the other.
     const auto pack = [&](std::size_t first, std::size_t count, std::byte* place) {
         for (const Lane& lane : lanes) {
             gather(lane, delivery.sent.subspan(first, count), place);

@@ -10,13 +10,13 @@
 
 namespace rrcb {
 
-/// Points of this rank that are sent and that come.
+/// Points that this rank keeps, sends and receives.
 struct Delivery {
     LocalIndex num_points = 0;              ///< that this rank holds
-    LocalIndex num_kept = 0;                ///< of them, which come first in the result
-    std::span<const LocalIndex> removed{};  ///< ascending: all others are kept, if any
-    std::span<const LocalIndex> sent{};     ///< for one rank after the other
-    std::vector<RankCount> to{};            ///< how many of them; ranks ascending
+    LocalIndex num_kept = 0;                ///< of these, first in the result
+    std::span<const LocalIndex> removed{};  ///< ascending; if any are kept, all others
+    std::span<const LocalIndex> sent{};     ///< sorted by rank
+    std::vector<RankCount> to{};            ///< number for each rank, ascending
     std::vector<RankCount> from{};
 };
 
@@ -48,8 +48,8 @@ void check_column(const detail::ByteColumn& column, LocalIndex count, const std:
 
 /// Moves columns into their results.
 ///
-/// Collective as exchange_counts() is, then one reduction and the messages. An earlier failure on
-/// one rank is thrown on all.
+/// Collective: exchange_counts(), one reduction and the messages. An earlier failure on one rank is
+/// thrown on all.
 void deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
              const TransferLimits& limits, TransferReport* report, Participant& self);
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-// As the public functions, over a communicator that is a duplicate already. A failure of one rank
-// before a call is thrown on all. Collective.
+// As the public functions, with a communicator that is a duplicate already. An earlier failure on
+// one rank is thrown on all. Collective.
 
 namespace rrcb {
 

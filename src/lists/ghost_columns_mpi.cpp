@@ -24,7 +24,7 @@ LocalIndex check(const GhostPlan& plan, int num_ranks) {
     return num_ghosts;
 }
 
-/// Throws Error unless the groups are consistent; returns how many other ranks have.
+/// Throws Error unless the groups are consistent; returns the number that other ranks own.
 LocalIndex check(const Groups& groups, int num_ranks) {
     const LocalIndex num_elsewhere = check(groups.plan, num_ranks);
     const LocalIndex num_groups = groups.plan.num_points + num_elsewhere;

@@ -11,7 +11,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the rule for groups as parts, of which each keeps the points of its present number.
+/// Returns the rule for groups in place of parts; their origins are their earlier numbers.
 NumberRule rule_of_groups(const NumberRule& rule) {
     return {(rule.num_parts - 1) / rule.shape.group_size + 1, rule.num_ranks, false};
 }
@@ -19,7 +19,7 @@ NumberRule rule_of_groups(const NumberRule& rule) {
 /// The groups of a rank's points.
 struct GroupsHere {
     std::vector<Part> groups;   ///< of the parts of its points
-    std::vector<Part> origins;  ///< groups whose numbers keep them; no_part: none
+    std::vector<Part> origins;  ///< groups whose numbers keep the points; no_part: none
 };
 
 GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previous,
@@ -28,7 +28,7 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
     here.groups.resize(parts.size());
     here.origins.resize(parts.size());
     const Origins origins(previous, rule, rank);
-    // Only groups of the same size may change places, which the last one may not have.
+    // Only groups of equal size may swap numbers; the last one may be smaller.
     const int num_full = rule.num_parts / rule.shape.group_size;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::int32_t origin = origins.of(i);

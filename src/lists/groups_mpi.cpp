@@ -13,9 +13,9 @@
 #include <utility>
 
 // The ranks of a group find each other in three exchanges:
-//   keys      from each rank that has some to one by their hash, which learns all ranks of a key
-//   owners    back to the ranks that share a group but are not the lowest of them
-//   sums      from these to the lowest one, which adds them up and notes who has points
+//   keys      to the rank given by their hash, which thus learns all ranks of a key
+//   owners    back to all ranks of a key except the lowest, which owns the group
+//   sums      from these to the owner, which adds them up and notes their ranks
 
 namespace rrcb {
 
@@ -27,8 +27,8 @@ struct GroupSum {
     std::uint64_t count = 0;
     Vector place{};
 
-    /// Weighted, or of all points as long as none has weight. Stays between the positions whatever
-    /// the rounding, and does not overflow.
+    /// Adds a sum. If `moves`, the position becomes the weighted mean, or that of all points as
+    /// long as none has weight; by lerp, so that it stays between the positions without overflow.
     void add(const GroupSum& other, bool moves) {
         count += other.count;
         weight += other.weight;
@@ -79,7 +79,7 @@ LocalGroups groups_here(const Points& points, std::span<const std::uint64_t> key
     for (LocalIndex i = 0; i < points.count; ++i)
         if (keys[i] != no_group) sorted.emplace_back(keys[i], i);
     std::ranges::sort(sorted);
-    std::vector<LocalIndex> first(points.count);  // point with the key of each
+    std::vector<LocalIndex> first(points.count);  // first point with the key of each
     for (LocalIndex i = 0; i < points.count; ++i) first[i] = i;
     for (std::size_t k = 1; k < sorted.size(); ++k)
         if (sorted[k].first == sorted[k - 1].first)
@@ -101,7 +101,7 @@ LocalGroups groups_here(const Points& points, std::span<const std::uint64_t> key
     return local;
 }
 
-/// Sends each record to its rank; returns those that come, by rank. Collective.
+/// Sends each record to its rank; returns those received, by rank. Collective.
 template <class Record>
 std::vector<Arrived<Record>> exchange(std::span<const int> ranks, std::span<const Record> records,
                                       std::initializer_list<Shared> arguments, Participant& self) {
@@ -141,7 +141,7 @@ struct Outgoing {
     }
 };
 
-/// Answers all but the lowest rank of each key.
+/// Answers all ranks of each key except the lowest, the owner.
 Outgoing<OwnerNotice> name_owners(std::vector<Arrived<KeyNotice>>& keys) {
     std::ranges::sort(
         keys, {}, [](const auto& notice) { return std::pair(notice.second.key, notice.first); });
@@ -156,7 +156,7 @@ Outgoing<OwnerNotice> name_owners(std::vector<Arrived<KeyNotice>>& keys) {
     return owners;
 }
 
-/// Numbers the groups of this rank and those of others; lists the sums for the others.
+/// Numbers the groups that this rank owns, then the others; returns the sums for their owners.
 Outgoing<SumNotice> number_groups(const LocalGroups& local,
                                   std::span<const Arrived<OwnerNotice>> owners, int num_ranks,
                                   Groups& result, std::vector<LocalIndex>& numbers) {

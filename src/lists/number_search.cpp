@@ -133,7 +133,7 @@ bool NumberSearch::choose(Butterfly& offers) {
     return refuses_any;
 }
 
-/// Parts keep their number if they can. The others get the rest, both ascending.
+/// Parts keep their number if it is among these. The others get the rest, both ascending.
 void NumberSearch::give_numbers(std::vector<Offer>& accepted, PartRange numbers,
                                 std::vector<double>& answer) {
     std::ranges::sort(accepted, {},
@@ -174,7 +174,7 @@ NumberSearch::Counts NumberSearch::left() const {
 }
 
 void NumberSearch::meet(const Counts& before, Butterfly& left) const {
-    std::map<std::int64_t, std::vector<double>> numbers;  // of the parts of these counts
+    std::map<std::int64_t, std::vector<double>> numbers;  // unused one, if any, by count
     const auto [num_parts, num_numbers] = this->left();
     for (std::int64_t k = 0; k < num_parts; ++k) numbers[before[0] + k] = {};
     std::int64_t next = before[1];

@@ -42,8 +42,7 @@ struct NumberRule {
         return shape.group_size == 1 || origin == no_origin ||
                group_of(origin) == group_of_part(part);
     }
-    /// Returns the group of the numbers that keep the points of an origin; -1 if there are several
-    /// groups.
+    /// Returns the group of the numbers that keep the points of an origin; -1 if there are several.
     int group_of(std::int32_t origin) const;
     int group_of_part(Part part) const { return shape.end_of(part, num_parts) / shape.group_size; }
 
@@ -100,14 +99,15 @@ class NumberSearch {
     using Counts = std::array<std::int64_t, 2>;
     Counts left() const;
 
-    /// Adds both, after `before` on other ranks, to be joined by append() and answered as they are.
+    /// Adds both, counted on from `before`, those of lower ranks; append() joins a part and a
+    /// number with the same count. Each record is its own answer.
     void meet(const Counts& before, Butterfly& left) const;
     void take(const Counts& before, const Butterfly& left);
 
-    /// Points of this rank's parts: all, and those kept under the old numbers and the new.
+    /// Counts the points of this rank's parts: all, and those kept by the old and the new numbers.
     std::array<GlobalCount, 3> count_points() const;
 
-    /// Leaves the numbers unchanged.
+    /// Gives all parts their old numbers.
     void reset();
 
     /// Parts of this rank and their numbers.

@@ -23,15 +23,15 @@ struct Notice {
 };
 
 /// Returns the destination among the ranks of the part: this rank if the point can stay, else one
-/// by the sender's number, which spreads them.
+/// chosen by this rank's number, so that points spread.
 int destination_of(Part part, int num_parts, int rank, int num_ranks) {
     const RankRange ranks = ranks_of_part(part, num_parts, num_ranks);
     if (rank >= ranks.first_rank && rank < ranks.first_rank + ranks.count) return rank;
     return ranks.first_rank + rank % ranks.count;
 }
 
-/// Returns the first rank of a part if ranks outnumber parts. The ranks left over go one each to
-/// the parts before the last.
+/// Returns the first rank of a part if ranks outnumber parts. The parts just before the last get
+/// the ranks left over, one each.
 int first_rank_of(Part part, int num_parts, int num_ranks) {
     if (part == num_parts) return num_ranks;
     const int left_over = num_ranks % num_parts;
@@ -48,7 +48,7 @@ void check_parts(std::span<const Part> parts, int num_parts) {
 void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Plan& plan) {
     const int rank = mpi::rank_of(comm);
     const int num_ranks = mpi::size_of(comm);
-    // Neighbours in the list mostly have one part, whose ranks take divisions to find.
+    // Consecutive points mostly have one part, and destination_of() divides.
     Part part = -1;
     int destination = rank;
     for (LocalIndex i = 0; i < parts.size(); ++i) {
@@ -63,7 +63,6 @@ void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Pla
     }
 }
 
-/// Adds the exports to the exchange.
 void post(const Plan& plan, Exchange& exchange) {
     exchange.fill(plan.export_ranks, [&](std::size_t k, std::byte* place) {
         const Notice notice{plan.export_indices[k], plan.export_parts[k]};

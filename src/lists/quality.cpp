@@ -18,7 +18,6 @@ void check_sizes(std::span<const double> part_weights, std::span<const double> p
             "part_sizes must hold one entry per part, or none for equal parts");
 }
 
-/// Returns the weight each part should have.
 std::vector<double> ideal_weights(std::span<const double> part_weights,
                                   std::span<const double> part_sizes) {
     const double total = std::accumulate(part_weights.begin(), part_weights.end(), 0.0);

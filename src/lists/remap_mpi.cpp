@@ -57,8 +57,8 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
     return overlaps;
 }
 
-/// Keeps the origins of the overlaps that keep their number and of the largest others: 16 for each
-/// part per rank, and 65,536 of all ranks.
+/// Limits the search to the overlaps that keep their number and the largest others: 16 for each
+/// part per rank plus 65,536 on all ranks. The others lose their origin.
 void limit_overlaps(const NumberRule& rule, std::vector<Overlap>& overlaps) {
     std::ranges::sort(overlaps, {}, [&](const Overlap& overlap) {
         return std::tuple(overlap.origin == no_origin, rule.home_of(overlap.part) != overlap.origin,
@@ -71,7 +71,7 @@ void limit_overlaps(const NumberRule& rule, std::vector<Overlap>& overlaps) {
     std::ranges::sort(overlaps, {}, [](const Overlap& o) { return std::tuple(o.part, o.origin); });
 }
 
-/// Brings the overlaps to the ranks that search for their parts.
+/// Sends the overlaps to the ranks that search for their parts.
 void hand_in(std::span<const Part> parts, const PreviousParts& previous, RemapBuffers& buffers,
              Participant& self) {
     auto& search = buffers.search;
@@ -138,7 +138,7 @@ Remap make_summary(std::span<const GlobalCount, 3> sums) {
     return summary;
 }
 
-/// Shares the numbers that rank 0 found, or a failure that it knows. Collective: one broadcast.
+/// Broadcasts the numbers that rank 0 found, or a failure known to it. Collective.
 NewNumbers share_decision(RemapBuffers& buffers, Participant& self) {
     auto& [search, told, offers, left, messages, numbers, decision] = buffers;
     if (mpi::rank_of(self.comm) == root) {
@@ -264,7 +264,7 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
         Shared{"shape.group_size", static_cast<std::uint64_t>(shape.group_size)},
         Shared{"shape.dealt", static_cast<std::uint64_t>(shape.dealt)}};
     agree(self, shared);
-    // A rank without points may not have known.
+    // A rank without points may lack `previous`, but must search by the same rule.
     self.attempt([&] {
         NumberSearch& search = buffers->parts.search;
         NumberRule rule = search.rule();

@@ -28,8 +28,7 @@ class Origins {
         if (by_rank_ && first < end) own_ = rank;
     }
 
-    /// Returns the origin of all points if origins are ranks; no_origin if no number keeps any, and
-    /// otherwise.
+    /// Returns this rank if origins are ranks and some number keeps its points, else no_origin.
     std::int32_t own() const { return own_; }
 
     std::int32_t of(std::size_t point) const {
@@ -68,12 +67,12 @@ struct NewNumbers {
 
 /// Renumbers as the public functions do, from checked arguments.
 ///
-/// Each rank gets the numbers of the parts of its points and of those that it searched for, unless
-/// it wants all; then no array is as long as there are parts or ranks. Some ranks may lack
-/// `previous`. Collective: one pass to rank 0 and one broadcast. If all ranks search: one pass, two
-/// for each round of offers, up to three more and two reductions; two passes and a reduction if
-/// nothing changes. Throws on all ranks a failure on one, also from before the call. If all ranks
-/// search, a failure in the last pass is reported by the next pass or agreement.
+/// Each rank gets all numbers, or, unless it wants all, those of the parts of its points and of
+/// those that it searched for; then no array is as long as there are parts or ranks. Ranks without
+/// points may lack `previous`. Collective: one pass to rank 0 and one broadcast. If all ranks
+/// search: one pass, two for each round of offers, up to three more and two reductions; two passes
+/// and a reduction if nothing changes. Throws on all ranks a failure on one, also from before the
+/// call. If all ranks search, a failure in the last pass is reported by the next pass or agreement.
 NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
                         RemapBuffers& buffers, Participant& self);
 

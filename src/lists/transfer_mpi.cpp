@@ -27,7 +27,7 @@ void check_lists(const Plan& plan, int num_ranks) {
             "the plan names a rank that is none of this communicator");
 }
 
-/// Returns indices of the exports for one rank after the other, ascending for each.
+/// Returns the indices of the exports, sorted by rank and ascending for each.
 std::vector<LocalIndex> sort_by_rank(const Plan& plan, RankOrder& order) {
     std::vector<LocalIndex> sorted(plan.export_indices.size());
     order.for_each(

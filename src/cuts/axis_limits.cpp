@@ -41,9 +41,9 @@ double AxisLimits::line(double k) const {
 }
 
 double AxisLimits::line_below(double value) const {
-    // By parts, as the difference might overflow.
+    // Two quotients, as the difference might overflow.
     double k = std::floor(value / grid_.spacing - grid_.origin / grid_.spacing);
-    // A line has no place if its number times the spacing overflows.
+    // The number of a line times the spacing must not overflow.
     constexpr double most = std::numeric_limits<double>::max();
     const double last = grid_.spacing < 1 ? most : std::floor(most / grid_.spacing);
     k = std::clamp(k, -last, last);
@@ -56,7 +56,7 @@ double AxisLimits::next_behind(double face) const {
     if (!has_grid())
         return least_double(face, std::max(face + min_width_, std::nextafter(face, infinity)),
                             [&](double x) { return is_apart(face, x); });
-    // There are more cells than different doubles behind all points.
+    // As the grid resolves() the points, the next place is beyond them.
     if (!(min_width_ / grid_.spacing < 0x1p52)) return infinity;
     double k = line_below(std::min(face + min_width_, std::numeric_limits<double>::max()));
     while (is_apart(face, line(k))) --k;

@@ -8,9 +8,9 @@
 
 namespace rrcb {
 
-// Doubles in their order as whole numbers: neighbours differ by 1, both zeros are one.
+// Doubles in ascending order as whole numbers: neighbours differ by 1, both zeros are equal.
 
-/// Number of doubles between 0 and `value`, negative below 0.
+/// Returns the number of doubles from 0 to `value`, negative below 0.
 inline std::int64_t double_rank(double value) {
     if (value == 0) return 0;
     const auto bits = std::bit_cast<std::int64_t>(value);
@@ -21,12 +21,12 @@ inline double double_of_rank(std::int64_t rank) {
     return rank >= 0 ? std::bit_cast<double>(rank) : -std::bit_cast<double>(-rank);
 }
 
-/// Allowed places of cuts across one axis, and their least distance.
+/// Allowed places of cuts across one axis.
 ///
-/// Boxes are side by side between two faces, which may be anywhere, with a cut between two of them.
-/// `upper - lower` of each box, as computed, is at least `min_width`; above 0 without one. All
-/// results are exact to the bit: first_behind() and last_before() are each other's inverse, so that
-/// boxes that fit when counted from one end fit from the other.
+/// Boxes are side by side between two faces, which may be anywhere, with a cut between neighbours.
+/// `upper - lower` of each box, as computed, is at least `min_width`, and above 0. Results are
+/// exact: first_behind() and last_before() are inverse, so that boxes that fit when counted from
+/// one end fit from the other.
 class AxisLimits {
   public:
     /// `min_width` 0 and a `spacing` of 0 stand for none.
@@ -45,20 +45,20 @@ class AxisLimits {
     /// Returns the greatest place of a cut with room for `count` boxes between it and `face`.
     double last_before(double face, int count) const;
 
-    /// Number of boxes with room between two faces, from 1 to `most`.
+    /// Returns the number of boxes with room between two faces, from 1 to `most`.
     int count_between(double lower, double upper, int most) const;
 
     /// Returns the place nearest to `value` in [first, last], which are places.
     double nearest(double value, double first, double last) const;
 
-    /// The next place above and below a value, wherever the faces are.
+    /// Return the next place above and below a value, for any faces.
     double place_behind(double value) const;
     double place_before(double value) const;
 
-    /// Line number `k` of the grid.
+    /// Returns the position of line number `k` of the grid.
     double line(double k) const;
 
-    /// The number of the greatest line that is not above `value`.
+    /// Returns the number of the last line that is not above `value`.
     double line_below(double value) const;
 
   private:

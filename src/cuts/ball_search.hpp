@@ -18,7 +18,7 @@ class Ball {
           reach_(std::min(radius * (1 + 4 * epsilon), std::numeric_limits<double>::max())),
           unit_(reach_ > 0 ? reach_ : 1) {}
 
-    /// Returns true if it is in the interior of a box.
+    /// Returns true if the ball is in the interior of a box.
     bool is_inside(const Box& box, int dimension) const {
         for (int a = 0; a < dimension; ++a)
             if (!(centre_[a] - box.lower[a] > reach_ && box.upper[a] - centre_[a] > reach_))
@@ -26,7 +26,7 @@ class Ball {
         return true;
     }
 
-    /// True when it touches a region at these distances of the centre along the axes.
+    /// Returns true if the ball touches a region at these distances from the centre along the axes.
     bool touches(const Vector& apart, int dimension) const {
         double square = 0;
         for (int a = 0; a < dimension; ++a) {
@@ -50,7 +50,7 @@ class Ball {
     static constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
     Vector centre_;
-    double reach_;  ///< the radius, and what rounding may add to a distance
+    double reach_;  ///< the radius, plus the rounding errors of a distance
     double unit_;   ///< of lengths, so that their squares do not overflow
 };
 
@@ -64,9 +64,9 @@ class BallSearch {
               return is_in(ranges, part) || is_region_empty(cuts, part, region) ? left_out : part;
           }) {}
 
-    /// Calls visit(part), and lack(node) for nodes whose cut is unknown, both ascending. Time: such
-    /// parts times the depth of the tree. The regions are limited to a box at the distances `apart`
-    /// from the centre.
+    /// Calls visit(part), and lack(node) for nodes whose cut is unknown, both ascending. Time:
+    /// these calls times the depth of the tree. `apart` are the distances from the centre to the
+    /// box that limits all regions.
     template <class Visit, class Lack>
     void for_each_part(const Ball& ball, Visit&& visit, Lack&& lack,
                        const Vector& apart = {}) const {
@@ -79,8 +79,7 @@ class BallSearch {
         return next != ranges.begin() && part < std::prev(next)->end;
     }
 
-    /// Each entry of `apart` is the distance of the centre, along that axis, to the region of the
-    /// node.
+    /// `apart` are the distances from the centre to the region of the node along the axes.
     template <class Visit, class Lack>
     void descend(std::int32_t node, const Ball& ball, const Vector& apart, Visit&& visit,
                  Lack&& lack) const {

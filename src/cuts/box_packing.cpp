@@ -8,7 +8,7 @@ namespace rrcb {
 
 namespace {
 
-/// Levels that can halve this much room.
+/// Returns the number of levels of cuts that can halve a room.
 int halvings(int room) {
     return std::bit_width(static_cast<unsigned>(room)) - 1;
 }
@@ -60,7 +60,7 @@ std::size_t BoxPacking::shape_of(const Descent& at) const {
 }
 
 bool BoxPacking::fits(std::size_t shape, const Room& room) {
-    // Along the axis of most room, which needs the fewest look-ups.
+    // The least length along the axis of most room needs the fewest look-ups.
     Room sorted = room;
     std::ranges::sort(sorted);
     if (sorted[2] >= shapes_[shape].num_parts) return true;
@@ -75,7 +75,7 @@ int BoxPacking::least_room(const Descent& at, int axis, Room room, int most) {
     });
 }
 
-/// Returns the least room along one axis, given that along the others.
+/// Returns the least room along one axis for given room along the others.
 int BoxPacking::least_length(std::size_t number, int width, int height) {
     const Shape shape = shapes_[number];
     if (shape.num_parts <= 1) return 1;
@@ -99,7 +99,8 @@ int BoxPacking::shared_length(const Shape& shape, int width, int height) {
         return std::max(length(shape.lower, below), length(shape.upper, width - below));
     };
     if (width < 2) return shape.num_parts;
-    // With more below the cut the lower child needs less length, the upper more.
+    // With more width below the cut the lower child needs less length, the upper one more. The
+    // longer of both is least where they cross.
     const int crossing = least_number(1, width - 2, [&](int below) {
         return length(shape.lower, below) <= length(shape.upper, width - below);
     });

@@ -9,26 +9,26 @@
 
 namespace rrcb {
 
-/// Number of boxes with room side by side, along each axis.
+/// Number of boxes that fit side by side along each axis.
 using Room = std::array<int, max_dimension>;
 
-/// Bisections that have room, if each part takes one unit of room along each axis.
+/// Finds whether a bisection has room, if each part takes one unit of room along each axis.
 ///
 /// A cut divides the room along its axis: i units below, the others above. A node fits if some axis
 /// and division fit both children. More room never harms, so there is a least room along one axis
-/// for given room along the others. Found by recursion over the shapes of nodes: two per level of
-/// halving, if no part has size 0.
+/// for given room along the others. It is found by recursion over the shapes of nodes, of which
+/// halving makes two per level if no part has size 0.
 class BoxPacking {
   public:
-    /// Of the tree that bisects parts of these relative sizes; those of size 0 take no room.
+    /// Takes the relative sizes of the parts; those of size 0 take no room.
     BoxPacking(std::span<const double> sizes, const TreeShape& shape);
 
     int num_parts(const Descent& at) const { return shapes_[shape_of(at)].num_parts; }
 
     bool fits(const Descent& at, const Room& room) { return fits(shape_of(at), room); }
 
-    /// Returns the least room along `axis` in which the node fits, without reading room[axis]; more
-    /// than `most` if that is not enough.
+    /// Returns the least room along `axis` in which the node fits; more than `most` if that is not
+    /// enough. Does not read room[axis].
     int least_room(const Descent& at, int axis, Room room, int most);
 
   private:

@@ -44,7 +44,7 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension, G
         if (!axes_[a].resolves(std::max(std::abs(points.lower[a]), std::abs(points.upper[a]))))
             reject("axes.grid is finer along axis " + std::to_string(a) +
                    " than doubles resolve at these coordinates; give a larger spacing");
-        // A line through the last points has a cell of points above it.
+        // Points on a line belong to the cell above it, so a cut through the last points divides.
         if (options.axes.min_width.empty())
             region_.upper[a] = std::nextafter(points.upper[a], infinity);
     }
@@ -58,7 +58,7 @@ bool CutLimits::has_room() {
     return true;
 }
 
-/// True when the first cuts across `axis` on each way down the tree have places.
+/// Returns true if the first cut across `axis` on each way down the tree has places.
 bool CutLimits::has_room_across(const Descent& at, int axis) {
     if (at.is_part()) return true;
     if (divides(at) && given_.axes[at.node] == axis) return !places(at, region_, axis).empty();

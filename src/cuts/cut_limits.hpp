@@ -22,24 +22,24 @@ struct Places {
     bool all() const { return first < -std::numeric_limits<double>::max(); }
 };
 
-/// Axes of the cuts of a tree in preorder, and the places that each may have by itself: any if
-/// `gaps` is empty. Both are empty if axes are free.
+/// Axes of the cuts of a tree in preorder, and the places allowed to each by itself: all if `gaps`
+/// is empty. Both are empty if axes are free.
 struct GivenAxes {
     std::vector<int> axes{};
     std::vector<Places> gaps{};
 };
 
-/// Allowed places of the cuts of a tree: all parts keep their widths, and all cuts are on lines.
+/// Allowed places of the cuts of a tree: all parts have the least width, and all cuts are on lines.
 ///
-/// If there is room for the complete tree, a cut leaves places to all cuts below it exactly if it
-/// is at one of its own.
+/// If the complete tree has room, a cut leaves places to all cuts below it exactly if it is at one
+/// of its own.
 class CutLimits {
   public:
-    /// By complete options that limit the cuts, for points in the box `points`. Throws Error if the
+    /// Takes complete options that limit the cuts, and the box of the points. Throws Error if the
     /// grid is too fine.
     CutLimits(const Options& options, const Box& points, int dimension, GivenAxes given = {});
 
-    /// Box that the cuts divide.
+    /// Returns the box that the cuts divide.
     const Box& region() const { return region_; }
 
     int dimension() const { return dimension_; }
@@ -67,7 +67,7 @@ class CutLimits {
   private:
     Room room_in(const Box& region, int most) const;
     bool has_room_across(const Descent& at, int axis);
-    /// Returns the side of the parts of a node that does not divide.
+    /// Returns the child with parts of a node that does not divide.
     Descent with_parts(const Descent& at) const {
         return packing_.num_parts(at.lower()) > 0 ? at.lower() : at.upper();
     }
@@ -83,7 +83,7 @@ class CutLimits {
     const char* limiting_;  ///< options, with a verb
 };
 
-/// A cut without ties.
+/// Returns a cut without ties.
 Cut plane(int axis, double value);
 
 }  // namespace rrcb

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the cut of a node that the look-up needs.
+/// Returns the cut of a node; throws Error if it is unknown or invalid.
 const Cut& known_cut(const Cuts& cuts, const Descent& at) {
     const Cut* cut = find_cut(cuts, at.node);
     if (cut == nullptr) reject_unknown();
@@ -131,7 +131,7 @@ Box region_of(const Cuts& cuts, Part part) {
 }
 
 bool is_region_empty(const Cuts& cuts, Part part, const Box& region) {
-    // Only bounds that meet or are reversed leave nothing.
+    // A region can be empty only if bounds are equal or reversed.
     bool may_be_empty = false;
     for (int a = 0; a < cuts.dimension; ++a)
         may_be_empty = may_be_empty || !(region.lower[a] < region.upper[a]);

@@ -9,15 +9,13 @@
 
 namespace rrcb {
 
-/// Gives every rank of `comm` all cuts. One rank has each cut, the others have zeros. Collective
-/// over `comm`; `self` holds errors back.
+/// Gives every rank of `comm` all cuts; at the call one rank has each cut, the others zeros.
+/// Collective over `comm`; `self` holds errors back.
 void join_cuts(std::span<Cut> tree, MPI_Comm comm, Participant& self);
 
-/// Returns all cuts, as the public function, over a duplicated communicator.
+/// As the public functions, over a duplicated communicator. An earlier failure on one rank is
+/// thrown on all.
 Cuts gather_cuts(const Cuts& cuts, Participant& self);
-
-/// Does the same as the public function, over a duplicated communicator. An earlier failure is
-/// thrown on all ranks as well.
 std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self);
 
 }  // namespace rrcb

@@ -14,7 +14,7 @@ namespace rrcb {
 
 namespace {
 
-/// Box of points, without bounds if a coordinate is not finite.
+/// Returns the box of points, without bounds if a coordinate is not finite.
 Box box_around(const Points& points) {
     const Box box = bounding_box(points);
     for (int a = 0; a < points.dimension; ++a)
@@ -30,8 +30,8 @@ class Assigner {
         : tree_(is_whole(cuts) ? PackedTree(cuts) : PackedTree(cuts, box_around(points))),
           bins_are_parts_(is_whole(cuts)) {}
 
-    /// Calls `visit(first, length)` after each block whose bins were written in place of its parts.
-    /// Returns whether all coordinates are finite; stops at the first block in which one is not.
+    /// Calls `visit(first, length)` for each block while `parts` holds its bins. Returns whether
+    /// all coordinates are finite; stops at the first block in which one is not.
     template <class Visit>
     bool run(const Points& points, std::span<Part> parts, Visit&& visit) {
         std::uint64_t carries = 0;
@@ -57,7 +57,7 @@ class Assigner {
     Columns columns_{};
 };
 
-/// Counts in turns, as a number is read again no sooner than it was written.
+/// Counts in turns, as an increment waits for the last one of the same number.
 class Counter {
   public:
     explicit Counter(std::size_t num_parts) : counts_(num_parts) {}

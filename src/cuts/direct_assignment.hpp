@@ -12,7 +12,7 @@ struct PartTotals {
     std::vector<double> weights;  ///< one per part
     std::vector<double> counts;   ///< one per part
     std::vector<Part> parts{};    ///< of each entry; empty: entry p of part p
-    bool all_finite = true;  ///< no coordinate is NaN or infinite; otherwise the rest is undefined
+    bool all_finite = true;       ///< coordinates; otherwise the rest is undefined
 };
 
 /// Finds the end of the tree for every point, see TreeShape, or unknown_below() an unknown node.
@@ -22,9 +22,9 @@ bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts)
 /// Finds the end of the tree for every point, into `parts` (length points.count), and the totals of
 /// each end, in one pass over the coordinates.
 ///
-/// Memory depends only on the number of parts or known cuts. Each part below an unknown node is
-/// unknown_below() it, in `parts` and in the totals, which name no part twice. The lengths of the
-/// arrays are checked before, the coordinates here.
+/// Memory depends only on the number of parts or known cuts. Parts below an unknown node are
+/// unknown_below() it, in `parts` and in the totals, which name no part twice. Checks the
+/// coordinates, but not the lengths of the arrays.
 PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 }  // namespace rrcb

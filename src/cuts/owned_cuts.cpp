@@ -8,7 +8,7 @@ namespace rrcb {
 
 namespace {
 
-/// The first part whose first rank is `rank` or a later one.
+/// Returns the first part whose first rank is `rank` or a later one.
 Part first_part_from(int rank, int num_parts, int num_ranks) {
     Part first = 0;
     Part last = num_parts;
@@ -37,7 +37,7 @@ PartRange parts_from(int rank, int num_parts, int num_ranks) {
 }
 
 PartRange parts_from(int rank, std::span<const RankRange> ranks_of_parts) {
-    // Not equal_range, whose answer clang 14 cannot read with GCC's library.
+    // Not equal_range: clang 14 cannot compile it with GCC's library.
     const auto first = std::ranges::lower_bound(ranks_of_parts, rank, {}, &RankRange::first_rank);
     const auto end = std::ranges::upper_bound(ranks_of_parts, rank, {}, &RankRange::first_rank);
     return {static_cast<Part>(first - ranks_of_parts.begin()),

@@ -15,15 +15,14 @@ inline int owner_of(const Descent& node, int num_parts, int num_ranks) {
     return ranks_of_part(node.first_part, num_parts, num_ranks).first_rank;
 }
 
-/// Parts that a rank holds, alone or with others: from `first` to `end` - 1.
+/// Parts from `first` to `end` - 1; parts_on() returns those of a rank, alone or shared.
 struct PartRange {
     Part first;
     Part end;
 };
 PartRange parts_on(int rank, int num_parts, int num_ranks);
 
-/// Returns the parts whose first rank is `rank`: as ranks_of_part() lays them out, or as listed,
-/// ascending.
+/// Returns the parts whose first rank is `rank`, by ranks_of_part() or by an ascending list.
 PartRange parts_from(int rank, int num_parts, int num_ranks);
 PartRange parts_from(int rank, std::span<const RankRange> ranks_of_parts);
 

@@ -6,8 +6,8 @@ namespace rrcb {
 
 namespace {
 
-/// Finds the exit of each point of a block. Makes all comparisons, so that no branch depends on a
-/// point.
+/// Finds the exit of each point of a block. Makes all comparisons instead of branches, which points
+/// in any order would mispredict.
 RRCB_VECTOR_CLONES
 void descend_top(const PackedTree::Top& top, const Columns& columns, LocalIndex length,
                  std::int32_t* found) {
@@ -26,7 +26,7 @@ void descend_top(const PackedTree::Top& top, const Columns& columns, LocalIndex 
     }
 }
 
-/// Takes each point of a block down one level, and marks those on a plane on request.
+/// Moves each point of a block down one level; if `marks`, marks those on a plane.
 template <bool marks>
 void descend_level(const double* planes, const std::int32_t* axes, const std::int32_t* lowers,
                    const double* columns, LocalIndex length, std::int32_t* nodes,
@@ -40,7 +40,7 @@ void descend_level(const double* planes, const std::int32_t* axes, const std::in
     }
 }
 
-/// Marks all points on a plane, beyond its box as well.
+/// Marks all points on a plane, even beyond the region of its node.
 RRCB_VECTOR_CLONES
 void mark_tied(double plane, const double* x, LocalIndex length, std::int32_t* tied) {
     for (LocalIndex i = 0; i < length; ++i) tied[i] |= x[i] == plane ? 1 : 0;

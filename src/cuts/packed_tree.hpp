@@ -11,7 +11,7 @@
 
 namespace rrcb {
 
-/// Returns a number that stands for a part below a node whose cut is unknown.
+/// Returns the number for all parts below a node whose cut is unknown.
 constexpr Part unknown_below(std::size_t node) {
     return ~static_cast<Part>(node);
 }
@@ -22,13 +22,13 @@ constexpr std::size_t unknown_node(Part part) {
     return static_cast<std::size_t>(~part);
 }
 
-/// Stands for a part that a search leaves out.
+/// Number of a part that a search leaves out.
 inline constexpr Part left_out = std::numeric_limits<Part>::min();
 
 /// The known cuts of a tree in arrays, for many look-ups.
 ///
-/// Both nodes below a cut are neighbours. The tree ends at parts and at nodes whose cuts are
-/// unknown. A point remains at its end, so all points of a block take the same number of steps.
+/// The two nodes below a cut are neighbours. The tree ends at parts and at nodes whose cuts are
+/// unknown. An end is its own child, so all points of a block take the same number of steps.
 class PackedTree {
   public:
     /// Returns the entry for a part, given the box between the cuts above it, see region_of().
@@ -42,13 +42,13 @@ class PackedTree {
     /// Packs only the cuts that divide a box.
     PackedTree(const Cuts& cuts, const Box& box);
 
-    /// Reserves memory for all cuts between so many parts, which may be 0.
+    /// Reserves memory for all cuts between this many parts, which may be 0.
     void reserve(std::size_t num_parts);
 
-    /// Packs as the constructor, once, within the memory reserved for so many parts.
+    /// Packs as the constructor does, once, in the reserved memory.
     void pack(const Cuts& cuts, const EntryOf& entry_of);
 
-    /// Part of each end in ascending order, or the number in place of it.
+    /// Returns the part of each end in ascending order, or the number in place of it.
     const std::vector<Part>& entries() const { return entries_; }
 
     /// Finds the number of the end of each point of a block.
@@ -58,7 +58,7 @@ class PackedTree {
     std::int32_t end_of(const double* position) const {
         std::int32_t node = 0;
         for (std::int32_t lower = 0; (lower = lower_of(node)) != node;)
-            // An index in place of a branch, which unordered positions would make unpredictable.
+            // No branch, which unordered positions would mispredict.
             node = lower + (is_above(node, position) ? 1 : 0);
         return items_[node];
     }
@@ -66,7 +66,7 @@ class PackedTree {
     bool is_end(std::int32_t node) const { return lower_of(node) == node; }
     Part entry_at(std::int32_t node) const { return entries_[items_[node]]; }
 
-    /// The lower node of a cut, followed by the upper one.
+    /// Returns the lower node of a cut, which the upper one follows.
     std::int32_t lower_of(std::int32_t node) const { return lowers_[node]; }
 
     int axis_of(std::int32_t node) const { return axes_[node]; }

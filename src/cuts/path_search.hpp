@@ -9,7 +9,7 @@
 
 namespace rrcb {
 
-/// Finds the parts of points by cuts of which each rank knows some.
+/// Finds the parts of points by cuts that are distributed over the ranks.
 class PathSearch : public TierSearch {
   public:
     /// Takes points whose `parts` were found by `known`, or are unknown_below() a node. The points
@@ -20,14 +20,14 @@ class PathSearch : public TierSearch {
     /// any are missing.
     bool ask(Butterfly& asked);
 
-    /// Points whose parts were not known at first.
+    /// Returns the points whose parts were unknown at first.
     std::span<const LocalIndex> searched() const { return searched_; }
 
   private:
     const Points& points_;
     std::span<Part> parts_;
     std::vector<LocalIndex> searched_;
-    std::vector<LocalIndex> left_;  ///< of them, those whose parts are not known yet
+    std::vector<LocalIndex> left_;  ///< of these, those whose parts are still unknown
 };
 
 }  // namespace rrcb

@@ -6,7 +6,7 @@
 
 namespace rrcb {
 
-/// A coordinate shifted by some periods of a box.
+/// Returns a coordinate shifted by some periods of a box.
 double image_of(double x, const Box& box, int axis, std::int32_t shift);
 
 /// Images of balls in a box that repeats along the axes on which it is finite.
@@ -14,7 +14,7 @@ class PeriodicImages {
   public:
     PeriodicImages(const Box& box, int dimension);
 
-    /// Throws Error unless the box is usable, for such a radius.
+    /// Throws Error unless the box is valid, and long enough for the greatest radius.
     void check(double radius) const;
     /// Throws Error that names the first point outside the box.
     void check(const Points& points) const;
@@ -37,10 +37,9 @@ class PeriodicImages {
                     visit(shift, ball.moved_to(image(ball.centre(), shift)));
     }
 
-    /// Distances of a position to the box.
+    /// Returns the distances from a position to the box along the axes.
     Vector apart(const Vector& x) const;
 
-    /// For comparison between ranks.
     std::uint64_t hash() const;
 
   private:

@@ -15,7 +15,7 @@ namespace rrcb {
 
 inline constexpr LocalIndex block_length = 512;
 
-/// Stands for a plane that all points are below.
+/// A plane with all points below it.
 inline constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// The coordinates of the points of a block, one array per axis.
@@ -42,7 +42,7 @@ RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, L
     return carries;
 }
 
-/// Calls look_up(i, position) for the points of a block on such a plane.
+/// Calls look_up(i, position) for the tied points of a block.
 template <class LookUp>
 void for_each_tied(const TiedPoints& tied, const Columns& columns, LocalIndex length, int dimension,
                    LookUp&& look_up) {

@@ -15,12 +15,12 @@ namespace {
 constexpr int top_depth = 6;
 constexpr int tier_depth = 7;
 
-/// First level of the tier that a level belongs to.
+/// Returns the first level of the tier that a level belongs to.
 constexpr int tier_begin(int depth) {
     return depth < top_depth ? 0 : depth - (depth - top_depth) % tier_depth;
 }
 
-/// A node and its cut as they travel.
+/// A node and its cut in a message.
 struct NamedCut {
     std::int64_t node;
     Cut cut;
@@ -37,7 +37,7 @@ void TierSearch::join_cuts(std::span<const double> a, std::span<const double> b,
     joined.insert(joined.end(), b.begin(), b.end());
 }
 
-/// The first node of the tier that a node is in.
+/// Returns the first node of the tier that contains a node.
 Descent TierSearch::tier_of(std::size_t node) const {
     Descent first = root_of(cuts_);
     Descent at = first;

@@ -10,14 +10,14 @@
 
 namespace rrcb {
 
-/// Local part of a search for cuts of which each rank knows some, without the messages.
+/// Local part, without messages, of a search for cuts that are distributed over the ranks.
 ///
 /// The tree is divided into tiers, of 6 levels at the top and of 7 below. First each rank shares
 /// the cuts that it owns: the owner of the first node of a tier gets its cuts, at most 127. Then
 /// ranks ask these owners for missing tiers: once for each tier on the way down, or twice in trees
 /// of up to 2^20 parts if all ranks know the top tier.
 ///
-/// Join the shared with join_cuts() and the asked with join_questions().
+/// Butterflies named `shared` join by join_cuts(), those named `asked` by join_questions().
 class TierSearch {
   public:
     explicit TierSearch(const Cuts& known) : cuts_(known) {}

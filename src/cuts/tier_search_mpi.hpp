@@ -27,8 +27,8 @@ struct SearchBuffers {
 
 /// Asks until no rank lacks cuts. Returns whether any rank did.
 ///
-/// Collective. One pass through the ranks if none asks; otherwise one to share cuts, two for each
-/// round of questions, and one to end. All ranks have made their buffers and agreed on that.
+/// Collective, after all ranks have agreed that their buffers are made. One pass through the ranks
+/// if none asks; otherwise one to share cuts, two for each round of questions, and one to end.
 template <class Search>
 bool search_together(SearchBuffers<Search>& buffers, Participant& self) {
     for (bool is_shared = false;; is_shared = true) {

@@ -42,7 +42,7 @@ inline Part end_of(const Cuts& cuts, Part part) {
     return cuts.shape.end_of(part, cuts.num_parts);
 }
 
-/// Writes the parts in place of the ends of the tree.
+/// Replaces ends of the tree by their parts.
 void number_parts(const Cuts& cuts, std::span<Part> ends);
 
 /// Returns the number of levels of cuts above the parts of a node.
@@ -87,7 +87,7 @@ inline Sides sides_of(const Box& box, const Cut& cut, int dimension) {
     return {!is_above(cut, box.lower, dimension), is_above(cut, box.upper, dimension)};
 }
 
-/// Boxes on the two sides of a cut.
+/// Return the boxes on the two sides of a cut.
 inline Box box_below(Box region, const Cut& cut) {
     region.upper[cut.axis] = std::min(region.upper[cut.axis], cut.at[cut.axis]);
     return region;
@@ -115,15 +115,15 @@ inline Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
     return at;
 }
 
-/// Without bounds.
+/// A box without bounds.
 inline constexpr Box everywhere{Box{}.upper, Box{}.lower};
 
 /// Returns the least box between the cuts above a part. Its bounds may be reversed if the region is
 /// empty. Throws Error if a cut is unknown.
 Box region_of(const Cuts& cuts, Part part);
 
-/// Returns true if the cuts above a part, all known, leave no position to its region along some
-/// axis, and no coincident points that a cut divides. `region` is its region_of().
+/// Returns true if the cuts above a part, all known, leave no position to it, and no coincident
+/// points that a cut divides. `region` is its region_of().
 bool is_region_empty(const Cuts& cuts, Part part, const Box& region);
 
 /// Returns true if a closed box contains the position of coincident points on both sides of a cut.

@@ -31,11 +31,11 @@ struct StepMessage {
           all(mine) {}
 
     mpi::ContiguousType type;
-    std::vector<double> mine;  ///< stays until the reduction is done
+    std::vector<double> mine;  ///< unchanged until the reduction is done
     std::vector<double> all;
 };
 
-/// Reduces the step of each rank, and follows the rule on the root. Its decision travels with the
+/// Reduces the steps of all ranks, and applies the rule on the root. Its decision is sent with the
 /// next reduction, so the ranks agree even if they round a sum differently.
 ///
 /// start() and finish() reduce on a communicator of their own, together with the sums of a cost
@@ -46,12 +46,11 @@ struct Controller::State {
     State& operator=(const State&) = delete;
     ~State();
 
-    /// Owns the communicator from now on, also if it throws.
+    /// Takes ownership of the communicator, even if it throws.
     void open(MPI_Comm comm);
     /// Throws Error if a reduction has started, or carries sums.
     void check_free() const;
-    /// Makes each reduction carry the sums that this message has room for, joined by
-    /// join_carried().
+    /// Adds the sums that this message has room for to each reduction, joined by join_carried().
     void carry(std::unique_ptr<StepMessage> message) noexcept { message_ = std::move(message); }
     void start(const RankLoad& load, std::span<const double> carried = {},
                BadInput fault = BadInput::none);
@@ -69,7 +68,7 @@ struct Controller::State {
     /// Notes that points have other weights from now on: rebalances may leave less imbalance.
     void change_weights();
 
-    /// Returns the step of this rank.
+    /// Returns this rank's record of a step, and resets the costs for the next.
     StepRecord hand_in(const RankLoad& load, BadInput fault = BadInput::none);
     /// Takes the joined steps of all ranks. Throws the same Error on each.
     void take(const StepRecord& all);
@@ -87,7 +86,7 @@ struct Controller::State {
     MPI_Comm comm_ = MPI_COMM_NULL;
     int rank_ = 0;
     int num_ranks_ = 1;
-    int key_ = MPI_KEYVAL_INVALID;  ///< of an attribute of MPI_COMM_SELF: its deletion closes this
+    int key_ = MPI_KEYVAL_INVALID;  ///< attribute of MPI_COMM_SELF: its deletion closes this
     bool closes_itself_ = false;    ///< the attribute is set
     std::unique_ptr<StepMessage> message_;
     std::optional<mpi::Reduction> reduction_;
@@ -101,9 +100,9 @@ struct Controller::State {
 
     double num_heeded_ = 0;    ///< rebalances known to the latest decision, on all ranks
     RebalanceRule rule_;       ///< fed on the root only, as are those below
-    double num_followed_ = 0;  ///< rebalances that it knows of
+    double num_followed_ = 0;  ///< rebalances known to the rule
     bool root_asks_ = false;
-    int num_to_skip_ = 0;  ///< steps that end before a decision made can be heeded
+    int num_to_skip_ = 0;  ///< steps until the ranks can act on a decision
 };
 
 }  // namespace rrcb

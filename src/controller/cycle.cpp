@@ -44,7 +44,7 @@ void LatestSteps::add(const Waste& step) {
         first = earlier;
         earlier = latest;
         latest = block;
-        // invariant: two blocks make one of the next length when their number is even
+        // Two blocks make one of the next length when their number is even.
         if ((count_ >> k) % 2 == 1) return;
         block = earlier + latest;
     }

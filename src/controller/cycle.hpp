@@ -20,10 +20,10 @@ struct Waste {
     }
 };
 
-/// Runs of steps have lengths 2^k of k below this: more steps than any program makes.
+/// Runs of steps have lengths 2^k with k below this: more steps than any program makes.
 inline constexpr std::size_t num_lengths = 48;
 
-/// Number of steps of length k.
+/// Returns 2^k.
 inline double steps_of(std::size_t k) {
     return static_cast<double>(std::size_t{1} << k);
 }
@@ -58,8 +58,8 @@ class Cycle {
 
 /// Blocks of the latest steps, three of each length 2^k.
 ///
-/// A mean over a block takes every step as it was measured, so an imbalance of every fifth step
-/// counts as much as a fifth of it in each. Of three blocks in a row, one stall raises only one.
+/// In the mean of a block, an imbalance of every fifth step counts as much as a fifth of it in each
+/// step. One stall raises only one of three blocks.
 class LatestSteps {
   public:
     static constexpr std::size_t num_blocks = 3;

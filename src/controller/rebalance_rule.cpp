@@ -6,18 +6,18 @@ namespace rrcb {
 
 namespace {
 
-/// Excess that equal loads may show.
+/// Excess of equal loads by rounding.
 constexpr double rounding = 1e-12;
 
 /// An excess is expected to last four times as long as it has.
 constexpr double foresight = 4;
 
-/// Waste, in rebalances, after which one is tried even if earlier ones did not help.
+/// Waste, in costs of a rebalance, after which one is tried even if earlier ones did not help.
 constexpr double patience = 8;
 
 constexpr std::size_t start_length = 2;  ///< 2^2 steps
 
-/// The smaller of two.
+/// Returns the median; of two values the smaller.
 double median(const std::array<double, 3>& values, std::size_t count) {
     const auto [a, b, c] = values;
     if (count == 1) return a;
@@ -60,15 +60,15 @@ void RebalanceRule::expect_less() {
     knows_rebalances_ = false;
 }
 
-/// Returns the work of the first steps of the cycle beyond that of any others as many, in units: a
-/// rebalance may slow them down, as by cold caches.
+/// Returns the work, in units, of the first steps of the cycle beyond the most of as many later
+/// ones: a rebalance may slow them down, as by cold caches.
 double RebalanceRule::slow_start() const {
     if (!(busiest_ > 0)) return slow_start_;
     return std::max(0.0, cycle_.first(start_length).work - busiest_);
 }
 
-/// Returns the cost of the next rebalance, in units: that of the latest, unless it is an outlier,
-/// and of the steps that it slows down.
+/// Returns the cost of the next rebalance, in units: that of the latest, outliers limited, plus the
+/// slow steps that follow.
 double RebalanceRule::cost() const {
     if (num_rebalances_ == 0) return cycle_.total().work / static_cast<double>(cycle_.count());
     const double middle = median(costs_, num_rebalances_);

@@ -41,14 +41,14 @@ class RebalanceRule {
     double cost() const;
     double slow_start() const;
 
-    double unit_ = 0;  ///< the first mean load: sums of loads in it overflow nowhere
+    double unit_ = 0;  ///< the first mean load, so that sums do not overflow
     LatestSteps latest_;
     Cycle cycle_;
     Cycle earlier_;                  ///< average of the cycles before this one
-    bool knows_rebalances_ = false;  ///< the steps since the latest show the excess that one leaves
+    bool knows_rebalances_ = false;  ///< the cycle shows the excess that one leaves
     double busiest_ = 0;             ///< most work of 4 steps in this cycle, after the first
     double slow_start_ = 0;          ///< of the last cycle
-    std::array<double, 3> costs_{};  ///< the latest, in turns
+    std::array<double, 3> costs_{};  ///< the last three, cyclic
     std::size_t num_rebalances_ = 0;
     double least_ = 0;  ///< excess that no rebalance removes
 };

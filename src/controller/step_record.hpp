@@ -4,11 +4,11 @@
 
 namespace rrcb {
 
-/// Invalid number that a rank gave.
+/// Invalid input of a rank.
 enum class BadInput { none, load, cost, columns };
 
-/// Step of one rank, or of all: the shares add up, of the others the largest counts. A smallest
-/// value travels as the largest of its negative.
+/// Step of one rank, or of all joined: shares are added, other fields take the largest value. A
+/// minimum is sent as the negative of a maximum.
 struct StepRecord {
     double work = 0;       ///< share of the mean load as measured
     double mean_load = 0;  ///< share of the mean of the loads that are compared
@@ -24,7 +24,7 @@ struct StepRecord {
 /// Adds the step of other ranks.
 void join(const StepRecord& theirs, StepRecord& ours);
 
-/// Adds the numbers that go with the step of other ranks; of the last of them the largest counts.
+/// Adds the carried sums of other ranks; the last one becomes the larger of both.
 void join_carried(std::span<const double> theirs, std::span<double> ours);
 
 bool is_amount(double value);

@@ -79,7 +79,7 @@ const Word& word_of(const Choice& choice, const Options& options) {
     return *std::ranges::find(choice, choice.get(options), &Word::value);
 }
 
-/// Limits of a range in words, such as ", 1 or more" or " from 1 to 4096".
+/// Returns the limits of a range in words: ", 1 or more", " from 1 to 4096".
 template <class Number>
 std::string bounds_of(const Range<Number>& range) {
     const std::string least = text_of(range.least);

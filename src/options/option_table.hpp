@@ -14,7 +14,7 @@
 
 // Describes each option once. The checks, the comparison between ranks, the parameters of the
 // plug-in, the list for Teuchos and the table of docs/parameters.md follow from it. C++17, as the
-// header of Teuchos' validators is no C++20.
+// header of Teuchos' validators is not valid C++20.
 
 namespace rrcb {
 
@@ -45,12 +45,12 @@ struct Range {
     Number least;
     Number most;
     bool above_least = false;    ///< `least` itself is not legal
-    Number most_in_3d = most;    ///< the most for points in space
-    const char* unit = "";       ///< as it follows a number
-    const char* zero = nullptr;  ///< meaning of 0, if it is legal besides the range
+    Number most_in_3d = most;    ///< `most` in 3-D
+    const char* unit = "";       ///< follows a number
+    const char* zero = nullptr;  ///< meaning of 0, if legal beyond the range
 };
 
-/// A value of an option by its name.
+/// A named value of an option.
 struct Word {
     const char* word;
     int value;
@@ -71,14 +71,14 @@ struct Choice {
 /// Throws Error that names the option; `options` have their number of parts.
 using Check = void (*)(const Options& options, int dimension);
 
-/// Values of one option, or of several that belong together, without a form as text.
+/// Values of one option, or of several that belong together. They cannot be written as text.
 struct Lists {
     std::vector<double> (*get)(const Options&);  ///< compared between ranks
     Check check;
 };
 
-/// Values of an option of several numbers for each axis, as text NONE or a row for each axis. They
-/// are compared between ranks among those of Lists.
+/// Values of an option with several numbers for each axis, as text NONE or a row for each axis.
+/// Ranks compare them as part of Lists.
 struct Rows {
     std::vector<double> (*get)(const Options&);
     Check check;
@@ -89,7 +89,7 @@ struct Rows {
 };
 
 struct Option {
-    const char* name;       ///< in Options, as errors have it
+    const char* name;       ///< in Options and errors
     const char* parameter;  ///< in the plug-in and in Teuchos' list; empty: in neither
     const char* text;       ///< its effect
     std::variant<Range<int>, Range<double>, Choice, Lists, Rows> kind;
@@ -150,7 +150,7 @@ std::vector<double> grid_of(const Options& options);
 bool set_grid(Options& options, const std::vector<double>& numbers);
 void check_grid(const Options& options, int dimension);
 
-/// Every option but the observer, which belongs to its rank alone.
+/// All options except the observer, which may differ between ranks.
 inline constexpr Option option_table[] = {
     {"num_parts", "NUM_GLOBAL_PARTS", "Parts to make",
      Range<int>{field<&Options::num_parts>, 1, std::numeric_limits<int>::max(), false,
@@ -187,7 +187,7 @@ inline constexpr Option option_table[] = {
      choice_of<HeldCuts, &Options::cuts>(held_cuts_words)},
 };
 
-/// True when the value of the option is compared between ranks by itself.
+/// Returns true if ranks compare the value of the option by itself.
 constexpr bool is_compared(const Option& option) {
     return !std::holds_alternative<Rows>(option.kind);
 }
@@ -202,7 +202,7 @@ decltype(auto) visit_kind(const Option& option, Visit&& visit) {
     return std::visit(visit, option.kind);
 }
 
-/// True when the value in `options` is legal for points of this dimension; of lists always.
+/// Returns true if the value in `options` is legal in this dimension; always for lists.
 bool is_legal(const Option& option, const Options& options, int dimension);
 
 /// Returns the condition on a number for the text of an error: "at least 1".
@@ -224,7 +224,6 @@ bool read_option(const Option& option, std::string_view text, Options& options);
 /// Returns the value in the form of read_option().
 std::string write_option(const Option& option, const Options& options);
 
-/// Copies the option of `from`.
 void copy_option(const Option& option, const Options& from, Options& to);
 
 }  // namespace rrcb

@@ -21,7 +21,6 @@ std::uint64_t bits_of(int value) {
     return static_cast<std::uint64_t>(value);
 }
 
-/// Adds a number to a hash.
 void add(double value, std::uint64_t& hash) {
     hash = mix(hash ^ bits_of(value));
 }
@@ -61,7 +60,7 @@ std::uint64_t bits_of(const Option& option, const Options& options) {
 }
 
 std::uint64_t bits_of(const Cuts& cuts) {
-    // Of cuts that are spread over the ranks each has others.
+    // Ranks hold different ones of distributed cuts.
     if (!is_whole(cuts))
         return hash_of(std::array{-1.0, 1.0 * cuts.num_parts, 1.0 * cuts.dimension,
                                   1.0 * cuts.shape.group_size, 1.0 * cuts.shape.larger_below,

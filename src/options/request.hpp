@@ -12,7 +12,7 @@
 
 namespace rrcb {
 
-/// Number of options that are compared between ranks by themselves.
+/// Number of options that ranks compare by themselves.
 inline constexpr std::size_t num_compared = [] {
     std::size_t count = 0;
     for (const Option& option : option_table) count += is_compared(option) ? 1 : 0;
@@ -24,8 +24,8 @@ inline constexpr std::size_t num_compared = [] {
 /// call, and the arithmetic of this thread.
 using Request = std::array<std::uint64_t, num_compared + 3>;
 
-/// Returns a number that depends on rounding and subnormal numbers in this thread, by computing.
-/// Ranks with different numbers get different results from the same operands.
+/// Returns a number that shows how this thread rounds and treats subnormal numbers. Ranks with
+/// different ones get different results from the same operands.
 std::uint64_t arithmetic_in_use();
 
 inline constexpr std::string_view name_of_arithmetic =
@@ -37,16 +37,16 @@ std::uint64_t hash_of(std::span<const double> values);
 /// Returns the bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);
 
-/// Returns a hash of cuts; a constant if they are spread over the ranks.
+/// Returns a hash of cuts; if they are distributed, of the shape of their tree only.
 std::uint64_t bits_of(const Cuts& cuts);
 
-/// Request of options in which empty `part_sizes` still stand for equal parts.
+/// Returns the request of options, in which empty `part_sizes` still stand for equal parts.
 Request request_of(const Options& options, int dimension, const Cuts* previous);
 
-/// Index of the first value in which two ranks differ.
+/// Returns the index of the first value that differs.
 std::optional<std::size_t> first_difference(const Request& a, const Request& b);
 
-/// Name of a value of a request.
+/// Returns the name of a value.
 std::string_view name_of_request(std::size_t index);
 
 }  // namespace rrcb

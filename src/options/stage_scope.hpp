@@ -6,8 +6,8 @@
 
 namespace rrcb {
 
-/// One stage, from here to the end of the scope; nothing at all without an observer, which runs
-/// outside of `arithmetic`.
+/// Reports a stage, which lasts until the end of the scope, to the observer, if there is one. The
+/// observer runs outside of `arithmetic`.
 class StageScope {
   public:
     StageScope(StageObserver* observer, Stage stage, const NonStop& arithmetic)

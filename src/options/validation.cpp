@@ -40,7 +40,7 @@ void check_weights(const Points& points) {
     reject("the sum of the weights overflows; scale them down");
 }
 
-/// True when `axes` are in one array, point after point.
+/// Returns true if `axes` are in one array, point after point.
 template <class Axes>
 bool are_interleaved(const Points& points, const Axes& axes) {
     const auto dimension = static_cast<std::size_t>(points.dimension);
@@ -70,8 +70,8 @@ void check_axes(const Points& points, const Axes& axes) {
     }
 }
 
-/// Throws Error when the coordinates do not fit the dimension and number of the points. Not whether
-/// they are finite.
+/// Throws Error if the coordinates do not fit the dimension and number of the points. They may be
+/// NaN or infinite.
 void check_coordinates(const Points& points) {
     check_dimension(points.dimension, "points");
     require(points.stride >= 1,
@@ -85,7 +85,7 @@ void check_coordinates(const Points& points) {
     }
 }
 
-/// Whether the tree holds all of its cuts, or some and their numbers.
+/// Returns true if the tree holds all of its cuts, or some and their numbers.
 bool has_its_cuts(const Cuts& cuts) {
     const std::vector<std::int32_t>& nodes = cuts.nodes;
     if (cuts.num_parts < 1 || cuts.shape.group_size < 1 || !cuts.shape.number_fits(cuts.num_parts))
@@ -122,8 +122,8 @@ void check_given(std::span<const int> axes, int num_parts, int dimension) {
         require(axis >= 0 && axis < dimension, "axes.order must hold axes of the points");
 }
 
-/// Groups of the parts of each machine; none where halving the parts makes the same tree, or where
-/// machines do not hold as many parts each.
+/// Returns groups of the parts of each machine. Returns none if halving makes the same tree, or if
+/// parts cannot be shared evenly by the ranks.
 TreeShape shape_by_machines(int num_parts, const Ranks& ranks) {
     const bool is_full = ranks.number % ranks.per_machine == 0;
     const auto machines = static_cast<unsigned>((ranks.number - 1) / ranks.per_machine + 1);
@@ -141,7 +141,7 @@ Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
         require(options.tree.dealt == 0, "tree.dealt needs tree.group_size; set both, or neither");
         const TreeShape shape =
             previous ? previous->shape : shape_by_machines(options.num_parts, ranks);
-        // Ranks hold the cuts above consecutive parts if many make them.
+        // If many ranks make the parts, each needs consecutive ones.
         const bool is_central =
             std::min(options.num_parts, ranks.number) <= options.tuning.central_parts;
         const bool fits = shape.dealt == 0 || (is_central && shape.number_fits(options.num_parts));

@@ -15,45 +15,44 @@ struct Ranks {
     bool dealt = false;
 };
 
-/// Options with nothing left to default except the sizes of equal parts. `previous` may be null.
+/// Returns options with all defaults filled in, except the sizes of equal parts. `previous` may be
+/// null.
 Options complete(Options options, const Ranks& ranks, const Cuts* previous);
 
-/// Throws Error naming the option and its range when `options` can't be used.
+/// Throws Error with the option and its range if `options` are illegal.
 void check_options(const Options& options, int dimension);
 
-/// Throws Error when the arrays of the points do not fit together, or weights are unusable.
+/// Throws Error if the arrays of the points do not fit together, or weights are illegal.
 void check_arrays(const Points& points);
 
-/// Throws the Error that names the first coordinate that is NaN or infinite, of points that have
-/// one, and how many there are.
+/// Throws Error with the first coordinate that is NaN or infinite, and their number. Some must be.
 [[noreturn]] void reject_coordinates(const Points& points);
 
-/// Box of the points; throws Error naming the first object and how many there are when they are
-/// unusable.
+/// Returns the box of the points. Throws Error with the first illegal one and their number.
 Box check_points(const Points& points);
 
-/// True when all coordinates are in one array, point after point, without anything else.
+/// Returns true if all coordinates are in one array, point after point, without anything else.
 bool is_interleaved(const Points& points);
 
-/// Throws Error that names what has another number of axes than 1, 2 or 3.
+/// Throws Error with `name` unless the dimension is 1, 2 or 3.
 void check_dimension(int dimension, const char* name);
 
-/// Throws Error when cuts are neither a tree nor a part of one.
+/// Throws Error if cuts are neither a tree nor a part of one.
 void check_tree(const Cuts& cuts);
 
-/// Throws Error when a look-up of positions by these cuts would leave an array. Weights, and
-/// whether coordinates are finite, are not looked at.
+/// Throws Error if a look-up of positions by these cuts would leave an array. Ignores weights, and
+/// coordinates that are not finite.
 void check_positions(const Points& positions, const Cuts& cuts);
 
-/// Throws Error when cuts are no whole tree.
+/// Throws Error if cuts are not a complete tree.
 void check_cuts(const Cuts& cuts);
 
-/// Throws Error when the cuts of an earlier call don't fit these options.
+/// Throws Error if the cuts of an earlier call do not fit these options.
 void check_previous(const Cuts& previous, const Options& options, int dimension);
 
 /// Scales checked sizes to a sum in [1, 2), so that weights over sizes stay in range; makes equal
-/// ones if there are none. A power of two keeps the bits of their ratios, except for sizes hundreds
-/// of decades below their sum.
+/// ones if there are none. By a power of two, which leaves ratios bit-identical, except for sizes
+/// hundreds of decades below the sum.
 void normalize(std::vector<double>& sizes, int num_parts);
 
 }  // namespace rrcb

@@ -43,7 +43,7 @@ void check(const PaperOptions& options, int dimension) {
             "cut_rule must be one of CutRule");
 }
 
-/// Throws on every rank alike if one has failed, or if their options differ. Collective.
+/// Throws on all ranks if one has failed, or if their options differ. Collective.
 void agree_on(const PaperOptions& options, const Points& points, const Participant& self) {
     agree(self, {{"dimension", static_cast<std::uint64_t>(points.dimension)},
                  weights_given(points),

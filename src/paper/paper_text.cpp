@@ -20,7 +20,6 @@ bool read_number(Number& number, std::string_view text) {
     return true;
 }
 
-/// Reads a number above 0, at most `most`.
 bool read_positive(double& number, std::string_view text, double most) {
     double value = 0;
     if (!read_number(value, text) || !(value > 0 && value <= most)) return false;
@@ -28,7 +27,6 @@ bool read_positive(double& number, std::string_view text, double most) {
     return true;
 }
 
-/// Returns the word equal to a text, or null.
 const Word* find_word(const Choice& words, std::string_view text) {
     const auto* found = std::ranges::find(words, text, &Word::word);
     return found == words.end() ? nullptr : found;

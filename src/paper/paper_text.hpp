@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-// Options of the paper's methods as text, for the plug-in and the comparisons. The readers take the
-// whole text, words in upper case; an illegal one returns false and sets nothing. ANALYTIC, RRCB's
-// own method, is no domain of the paper.
+// Options of the paper's methods as text, for the plug-in and the comparisons. Readers accept only
+// complete texts, words in upper case; otherwise they return false and set nothing. ANALYTIC,
+// RRCB's own method, is no domain of the paper.
 
 namespace rrcb {
 

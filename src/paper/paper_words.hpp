@@ -4,9 +4,8 @@
 
 #include <iterator>
 
-// The words of the paper's enumerations, for the checks, the plug-in, the comparisons and Teuchos'
-// list, in their order; each value is its number there. C++17, as the header of Teuchos' validators
-// is no C++20.
+// The words of the paper's enumerations, in order of their values, for the checks, the plug-in, the
+// comparisons and Teuchos' list. C++17, as the header of Teuchos' validators is not valid C++20.
 
 namespace rrcb {
 
@@ -23,7 +22,7 @@ inline constexpr Word words_of_domain[] = {
 };
 inline constexpr Choice domain_words{words_of_domain, std::size(words_of_domain), nullptr, nullptr};
 
-/// RRCB_DOMAIN for RRCB's own method, beside the words of PaperOptions::domain.
+/// RRCB_DOMAIN for RRCB's own method, in addition to the words of PaperOptions::domain.
 inline constexpr Word own_domain{"ANALYTIC", -1, "RRCB's own method"};
 
 }  // namespace rrcb

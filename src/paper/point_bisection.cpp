@@ -34,9 +34,9 @@ struct Task {
     Bisection result;
 };
 
-/// Brings the points below a plane to the front; returns their number.
+/// Moves the points below a plane to the front; returns their number.
 std::size_t divide_by(const Cut& cut, int dimension, std::span<MassPoint> points) {
-    // Clang 14 can't read the library's partition of ranges.
+    // Not ranges::partition: clang 14 cannot compile it with GCC's library.
     const auto above = std::partition(points.begin(), points.end(), [&](const MassPoint& point) {
         return !is_above(cut, point.position, dimension);
     });
@@ -50,7 +50,7 @@ std::size_t cut_points(std::span<MassPoint> points, double below, const Task& ta
     const Box box = extent_of(points);
     const double weight = weight_of(points);
     const int axis = longest_axis(box, dimension, longest_only);
-    // First, because a side of size 0 is always empty.
+    // First: a side of size 0 is empty even if the points have no weight.
     cut = plane(axis, below >= 1 ? infinity : -infinity);
     if (below >= 1) return points.size();
     if (below <= 0 || !(weight > 0)) return 0;

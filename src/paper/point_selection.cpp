@@ -17,8 +17,8 @@ struct Place {
     double below;  ///< weight of the points before it
 };
 
-/// Sorts the point at which the cumulative weight reaches the target into its position, and smaller
-/// points before it.
+/// Moves the point at which the cumulative weight reaches the target to its sorted position, and
+/// smaller points before it.
 Place select(std::span<MassPoint> points, const PositionOrder& before, double target) {
     // Round-off must not decide the side of a gap between clusters.
     const double enough = target - 1e-12 * target;
@@ -51,7 +51,7 @@ struct Ties {
     double weight;
 };
 
-/// Gathers the points equal to the one selected about its place.
+/// Moves the points equal to the selected one next to it.
 Ties gather_ties(std::span<MassPoint> points, const PositionOrder& before, const Place& place) {
     const Vector selected = points[place.index].position;
     const auto lower = points.first(place.index);
@@ -69,8 +69,8 @@ Ties gather_ties(std::span<MassPoint> points, const PositionOrder& before, const
     return ties;
 }
 
-/// A cut between the last point below it and the first above, halfway or `on` the latter, along the
-/// first axis on which they differ.
+/// Makes a cut between the last point below it and the first above, halfway or `on` the latter,
+/// along the first axis on which they differ.
 void cut_between(const Vector& last_below, const Vector& first_above, const PositionOrder& order,
                  bool on, Cut& cut) {
     auto deciding = order.axes().begin();

@@ -31,12 +31,12 @@ std::vector<GlobalCount> apportion(std::span<const double> weights, GlobalCount 
     return shares;
 }
 
-/// Uniform in [0, 1): 53 bits of the engine, as the standard's distributions vary by library.
+/// Returns 53 bits of the engine in [0, 1): the standard's distributions vary by library.
 double uniform(std::mt19937_64& engine) {
     return static_cast<double>(engine() >> 11) * 0x1p-53;
 }
 
-/// Box of mean +- multiplier * deviation, cut off at the largest double.
+/// Returns the box mean +- multiplier * deviation, cut off at the largest double.
 Box sampling_box(const Moments& moments, double multiplier) {
     constexpr double largest = std::numeric_limits<double>::max();
     Box box;

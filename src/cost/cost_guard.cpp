@@ -7,12 +7,12 @@ namespace rrcb {
 
 namespace {
 
-/// With fewer than 100 steps, noise of 7 % hides that costs predict seconds to 4 %.
+/// Remembers about 200 steps: in 100, noise of 7 % would hide that costs predict seconds to 4 %.
 constexpr double forgetting = 1 - 1.0 / 200;
 constexpr double fewest = 10;  ///< steps before learned costs are used
-/// Gain that learned costs must have to be used, in standard deviations of noise.
+/// Least gain of learned costs that are used, in standard deviations of noise.
 constexpr double certainty = 3;
-/// ... and as a share of the squared error of counting.
+/// Least gain as a share of the squared error of counting.
 constexpr double margin = 0.02;
 /// Share of all steps that learned costs may lose before they are put aside.
 constexpr double allowed_loss = 0.005;
@@ -24,7 +24,7 @@ void CostGuard::add_errors(double learned, double counted, double between) {
     counted_error_ = forgetting * counted_error_ + counted;
     between_ = forgetting * between_ + between;
     weight_ = forgetting * weight_ + 1;
-    // With independent noise the gain varies by twice the noise times the difference.
+    // Deviation of the gain by independent noise: twice the noise times the difference.
     const double gain = counted_error_ - learned_error_;
     const double noise = 2 * std::sqrt(between_ * learned_error_ / (weight_ * num_ranks_));
     const double needed = predicts_ ? 0 : std::max(certainty * noise, margin * counted_error_);
@@ -33,7 +33,7 @@ void CostGuard::add_errors(double learned, double counted, double between) {
 
 void CostGuard::add_excess(double excess, bool is_learned) {
     ++num_steps_;
-    // A single slow step counts as one that takes twice as long.
+    // Limits the effect of a single slow step.
     excess = std::min(excess, 1.0);
     if (!is_learned) {
         excess_ += (excess - excess_) / std::min(++excess_weight_, 50.0);

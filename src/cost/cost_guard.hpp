@@ -40,7 +40,7 @@ class CostGuard {
     double excess_ = 0;         ///< mean excess while points were counted, with forgetting
     double excess_weight_ = 0;  ///< of the steps in it
     double loss_ = 0;           ///< excess due to learned costs, in steps
-    double barred_until_ = 0;   ///< number of steps
+    double barred_until_ = 0;   ///< number of steps before which learned costs are not used
 };
 
 }  // namespace rrcb

@@ -15,7 +15,7 @@ namespace rrcb {
 namespace {
 
 bool is_number(double value) {
-    // Squares of less, and their sums, do not overflow.
+    // Up to here squares and their sums do not overflow.
     return is_amount(value) && value <= 1e100;
 }
 

@@ -8,13 +8,13 @@ namespace rrcb {
 namespace {
 
 constexpr double forgetting = 1 - 1.0 / 100;
-/// Cuts off seconds that differ from a prediction by so many times the usual error.
+/// Seconds may differ from a prediction by this multiple of the usual error; more is cut off.
 constexpr double usual = 3;
-/// ... but no less than this share of the mean seconds.
+/// They may always differ by this share of the mean seconds.
 constexpr double least_reach = 0.1;
 
-/// Place of each sum. The head is followed by the normal equations, rank 0's costs and the seconds
-/// of the slowest rank.
+/// Index of each sum. The normal equations, rank 0's costs and the seconds of the slowest rank
+/// follow.
 enum Head : std::size_t {
     seconds_sum,
     learned_sum,

@@ -9,11 +9,11 @@
 
 namespace rrcb {
 
-/// One rank's costs, with the sums they come from. Does not communicate.
+/// Learns costs: the share of one rank. Does not communicate.
 ///
 /// After each step a rank contributes sums, and receives those of all ranks one step later. Rank 0
-/// fits costs to them and judges by their predictions. Costs and judgement travel with the sums of
-/// the next step, to which the others add 0: all ranks have the same bits.
+/// fits costs to them and judges their predictions. It adds costs and judgement to the sums of the
+/// next step, and the others add 0: costs are bit-identical on all ranks.
 class CostRule {
   public:
     CostRule(int num_columns, int rank, int num_ranks);
@@ -29,7 +29,7 @@ class CostRule {
     /// Takes the sums of all ranks for the last step.
     void take(std::span<const double> all);
 
-    /// The same on all ranks, as are all that follow.
+    /// The results from here on are the same on all ranks.
     const CostVector& costs() const { return costs_; }
     double weight(std::span<const double> columns) const;
     bool uses_costs() const { return state_ == CostState::learned; }

@@ -25,7 +25,7 @@ CostVector free_minimum(const CostMatrix& a, const CostVector& b, const Active& 
     return equations.ldlt().solve(right);
 }
 
-/// Share of the way from `from` to `to` on which no free number turns negative.
+/// Returns the share of the way from `from` to `to` on which no free number turns negative.
 double allowed_share(const CostVector& from, const CostVector& to, const Active& is_free) {
     double share = 1;
     for (Eigen::Index j = 0; j < to.size(); ++j)
@@ -33,7 +33,7 @@ double allowed_share(const CostVector& from, const CostVector& to, const Active&
     return share;
 }
 
-/// Column held at 0 that lowers the sum the fastest; -1 if none does.
+/// Returns the column held at 0 that lowers the sum the fastest; -1 if none does.
 Eigen::Index column_to_free(const CostVector& descent, const Active& is_free, double least) {
     Eigen::Index best = -1;
     for (Eigen::Index j = 0; j < descent.size(); ++j) {
@@ -73,7 +73,7 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
 }
 
 CostVector fitted_costs(const NormalEquations& sums) {
-    // Far below the difference that columns need to be separable in noise.
+    // Too little to change the costs of columns that are separable in noise.
     constexpr double draw = 1e-6;
     const CostVector lengths = sums.squares.diagonal().cwiseMax(0).cwiseSqrt();
     CostVector scales = lengths;

@@ -32,7 +32,7 @@ int guarded(Body&& body) noexcept {
     return code_of(attempt(body));
 }
 
-/// Throws the Error of a null pointer.
+/// Throws Error if a pointer is null.
 void require(const void* pointer, const char* name);
 
 /// As require(), for arrays, unless they are empty.
@@ -51,7 +51,7 @@ std::span<const T> view(const T* values, std::size_t count) {
     return values == nullptr ? std::span<const T>() : std::span(values, count);
 }
 
-/// Throws Error unless the balancer has cuts, of so many parts, or a plan.
+/// Throw Error unless the balancer has cuts, cuts of so many parts, or a plan.
 void require_cuts(const rrcb_balancer& own);
 void require_parts(const rrcb_balancer& own, std::size_t num_parts);
 void require_plan(const rrcb_balancer& own);

@@ -29,7 +29,7 @@ ValueType type_of(const rrcb_column& column) {
     reject("the type of a column must be an rrcb_type");
 }
 
-/// The caller's room for a column.
+/// Returns the caller's memory for a column.
 std::byte* room_at(void* to, std::size_t num_values) {
     require_array(num_values, to, "to");
     return static_cast<std::byte*>(to);

@@ -25,8 +25,7 @@ int measured(Measure measure, size_t num_parts, const double* part_weights,
     });
 }
 
-/// Writes a measure of the parts of points over all ranks, with as many results as are given or 1.
-/// Collective.
+/// Writes a measure of the parts of points over all ranks: `num_parts` results, or 1. Collective.
 template <class Measure>
 int measured_together(Measure measure, const rrcb_balancer* balancer, const rrcb_points* points,
                       const int32_t* parts, std::optional<size_t> num_parts, double* result) {

@@ -47,7 +47,7 @@ void add_choice(ParameterList& list, const char* name, const Choice& choice,
 
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// True for options that have a parameter of the plug-in, as the list is one of its parameters.
+/// Returns true if the plug-in has a parameter for an option: only these are in the list.
 bool is_listed(const Option& option) {
     return *option.parameter != '\0';
 }
@@ -96,7 +96,7 @@ struct Getter {
     }
 };
 
-// The defaults are those of PaperOptions, whose header is C++20.
+// Repeats the defaults of PaperOptions, whose header is C++20.
 void add_parameters_of_paper(ParameterList& list) {
     static const std::vector<Word> domains = [] {
         std::vector<Word> words{own_domain};
@@ -147,7 +147,7 @@ std::string text_of(const ParameterEntry& entry) {
                 "parameter " + name + " must not be " + text_of(given) + ". " + valid.docString());
 }
 
-/// The entry, with a whole number turned into the type of the valid one.
+/// Returns the entry, with a whole number converted to the type of the valid one.
 ParameterEntry promoted(ParameterEntry entry, const ParameterEntry& valid) {
     if (entry.isList() || !entry.isType<int>()) return entry;
     const int number = entry.getValue<int>(nullptr);
@@ -186,7 +186,7 @@ std::vector<std::string> names_of(const ParameterList& list) {
                 "unknown parameter '" + name + "'; choose from: " + known);
 }
 
-/// The valid list with the values of `given`. Throws Error.
+/// Returns the valid list with the values of `given`. Throws Error.
 ParameterList completed(const ParameterList& given) {
     ParameterList list = *valid_parameters();
     for (const std::string& name : names_of(given)) {
@@ -196,7 +196,7 @@ ParameterList completed(const ParameterList& given) {
         if (!is_legal(entry, *valid, name)) reject(name, entry, *valid);
         const auto validator = valid->validator();
         valid->setAnyValue(entry.getAny(false));
-        valid->setValidator(validator);  // which a new value takes away
+        valid->setValidator(validator);  // removed by the new value
     }
     return list;
 }

@@ -15,7 +15,7 @@ void TimeMonitorObserver::begin(Stage stage) noexcept {
     try {
         running_.emplace(*timers_[static_cast<std::size_t>(stage)]);
     } catch (...) {
-        running_.reset();  // the balance goes on without a timer
+        running_.reset();  // balances without a timer
     }
 }
 

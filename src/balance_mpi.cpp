@@ -28,7 +28,7 @@
 //   keep?      are the parts that the ranks hold, or those of the earlier cuts, even enough?
 //   settle     if not, the cuts move by counts of all ranks
 //   report     imbalance, and the weight of each part
-// Only the first may fail on one rank: all ranks learn of that with the estimate.
+// Only prepare may fail on one rank; all ranks receive that failure with the estimate.
 
 namespace rrcb {
 
@@ -72,7 +72,7 @@ void introduce(const Options& given, const Box& box, const Cuts* previous, Call&
     call.result.parts.resize(points.count);
 }
 
-/// Gives parts their numbers in place of the ends of the tree. Overwrites the sizes of the parts.
+/// Replaces the ends of the tree by parts. Overwrites the sizes of the parts.
 void number_parts(Call& call) {
     const Cuts& cuts = call.result.cuts;
     if (cuts.shape.dealt == 0) return;
@@ -115,7 +115,7 @@ void prepare(const Options& given, bool may_keep, Call& call, KeptParts& kept,
     add_records(points, call.binned, call.mine);
 }
 
-/// Makes the parts, by rank 0 and if many ranks make them by these. Collective.
+/// Makes the parts from the cuts of rank 0; many ranks may divide these further. Collective.
 void settle(Call& call, Participant& self) {
     Settlement& settlement = call.settlement;
     const Verdict& verdict = call.decision.verdict;
@@ -154,14 +154,14 @@ struct EarlierParts {
     std::optional<SpreadReuse> spread{};  ///< if many ranks do
 };
 
-/// True when a call by these options may begin with earlier cuts.
+/// Returns true if a call by these options may begin with earlier cuts.
 bool may_reuse(const Cuts& previous, const CallOptions& options) {
     if (!options.is_spread()) return is_whole(previous);
     return options.parts.refine != Refine::exact && !options.parts.axes.order.is_given();
 }
 
-/// Prepares a call from earlier cuts: assigns the points by them, and counts the parts if these
-/// may be good enough. Not collective.
+/// Prepares a call from earlier cuts: assigns the points by them, and counts the parts if they may
+/// be kept. Not collective.
 void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, EarlierParts& earlier,
                       const Participant& self) {
     const StageScope stage(given.observer, Stage::assignment, self.arithmetic);
@@ -198,7 +198,7 @@ bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
     Report& report = call.result.report;
     if (report.details.num_points == 0) return true;
     if (are_cuts_limited(options)) return false;
-    // An imbalance that was not counted is NaN, whose usual comparison raises an exception.
+    // An imbalance that was not counted is NaN; > would raise a floating-point exception.
     if (is_refined(options) && !std::islessequal(report.imbalance, options.imbalance_tolerance))
         return false;
     report.details.rounds = is_refined(options) ? 1 : 0;
@@ -230,7 +230,8 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
     call.settlement.refine(call.points, std::ref(bin), decision, call.result, self);
 }
 
-/// True when parts are so uneven that the axes of earlier cuts, which stay, may be why.
+/// Returns true if parts are so uneven that the axes of the earlier cuts, which are kept, may be
+/// why.
 bool may_be_poor(const Report& report, const Options& options) {
     constexpr double factor = 1.25;
     const double within_reach =
@@ -239,7 +240,7 @@ bool may_be_poor(const Report& report, const Options& options) {
            std::isgreater(report.imbalance, factor * within_reach);
 }
 
-/// The better of two balances of the same points. Cuts from scratch have to be worth it.
+/// Returns the better balance; that from scratch only if its gain is worth moving points.
 Balance better(Balance&& reused, Balance&& anew, const Options& options) {
     const int rounds = reused.report.details.rounds + anew.report.details.rounds;
     const bool gains = is_worth_moving(reused.report.imbalance, anew.report.imbalance, options);
@@ -253,7 +254,7 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     Call call(points, given.observer, self, std::move(memory));
     EarlierParts earlier;
     self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
-    // Both begin with the same messages, so a rank that has failed does not wait alone.
+    // Both ways begin with the same messages, so a rank that has failed does not wait alone.
     if (!self.failed() && !may_reuse(previous, call.options))
         return balance_from_scratch(points, given, may_keep, self, std::move(call.result.parts));
     estimate(call, self);

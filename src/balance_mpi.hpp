@@ -14,9 +14,9 @@ Ranks ranks_of(Participant& self);
 
 /// Balances as the public functions do, over a communicator that is a duplicate already.
 ///
-/// `previous` may be null. A failure from before the call is thrown on all ranks as well. Points
-/// that are balanced well enough are kept (Report::kept) only if all ranks allow it: `may_keep` may
-/// differ between them. The parts are in the `memory` of other ones.
+/// `previous` may be null. An earlier failure on one rank is thrown on all. Points that are
+/// balanced well enough are kept (Report::kept) only if all ranks allow it: `may_keep` may differ
+/// between them. Reuses `memory` for the parts.
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self, std::vector<Part> memory = {});
 

@@ -119,7 +119,7 @@ void Settlement::divide_regions(const BinnedPoints& binned, const Verdict& verdi
     refinement_.reset();
     Report& report = result.report;
     const double weight = weight_of(report);
-    // Not counted without points, or for one region.
+    // The report has no weights without points, or for one region.
     std::vector<double> weights = std::exchange(report.part_weights, {});
     self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts), weight); });
     self.attempt([&] { number_as_in_tree(options, result); });

@@ -15,14 +15,14 @@ namespace rrcb {
 /// message.
 class Settlement {
   public:
-    /// Makes the buffers; `counts` if cuts that stay are counted as well. Borrows `options`. Not
-    /// collective. Throws Error or std::bad_alloc.
+    /// Makes the buffers; `counts` if parts are counted even if the cuts are kept. Borrows
+    /// `options`. Not collective. Throws Error or std::bad_alloc.
     void prepare(const CallOptions& options, bool counts, const Participant& self);
 
-    /// Assigns the points by the cuts as they are, and `counts` the parts or not. Collective.
+    /// Assigns the points by unchanged cuts; if `counts`, counts the parts. Collective.
     void assign(const Points& points, bool counts, Balance& result, Participant& self);
 
-    /// Takes counts of the parts of this rank, and of all, that the cuts make.
+    /// Takes the counts of the parts on this rank and on all ranks.
     void take_counts(std::span<const double> here, std::span<const double> sums);
 
     /// Moves the cuts by counts of all ranks, and assigns the points by them. Collective.
@@ -40,11 +40,11 @@ class Settlement {
     std::optional<RegionRefinement> below_regions_;  ///< if many ranks make the parts
 };
 
-/// Gives each rank the cuts that Options::cuts asks for after many ranks made the parts; with all
-/// cuts also the weights of all parts.
+/// Gives each rank the cuts by Options::cuts after many ranks made the parts; with all cuts also
+/// the weights of all parts.
 ///
-/// Collective: two reductions for all cuts. For own ones nothing, unless coincident points are
-/// divided: then as assign(), because look-ups find the upper side of a cut.
+/// Collective: two reductions for all cuts. No messages for HeldCuts::own, unless coincident points
+/// are divided: then as assign_all(), because look-ups find the upper side of a cut.
 void hold_cuts(const Points& points, const Options& options, Balance& result, Participant& self);
 
 }  // namespace rrcb

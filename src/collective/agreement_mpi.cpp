@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_shared = 12;
 
-/// Throws the same on all ranks, without the text on a rank that has no memory for it.
+/// Throws the same Error on all ranks, without the text on a rank that has no memory for it.
 template <class MakeText>
 [[noreturn]] void throw_alike(ErrorCode code, MakeText&& make_text) {
     try {
@@ -24,7 +24,7 @@ template <class MakeText>
     }
 }
 
-/// Returns the order in which failures are reported: first those that follow from no other.
+/// Returns the order in which failures are reported: first those that no other one caused.
 std::uint64_t order_of(const Participant& self, std::uint64_t num_ranks) {
     if (!self.failed()) return 2 * num_ranks;
     const auto rank = static_cast<std::uint64_t>(mpi::rank_of(self.comm));

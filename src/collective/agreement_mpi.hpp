@@ -19,15 +19,15 @@ inline constexpr int root = 0;
 
 /// Throws the same Error on every rank if any rank has failed since the last agreement.
 ///
-/// The Error is that of the lowest rank with a failure that follows from no other one's, or else of
-/// the lowest failing rank. Collective: one reduction.
+/// The Error is that of the lowest rank whose failure no other one caused, or else of the lowest
+/// failing rank. Collective: one reduction.
 void agree(const Participant& self);
 
 /// Argument that must be the same on every rank, except on those that need none.
 struct Shared {
     std::string_view name;
     std::uint64_t value = 0;
-    bool is_needed = true;  ///< on this rank; any other value then fits it
+    bool is_needed = true;  ///< on this rank; if not, it accepts any value
     std::string_view fix = "give the same value on every rank";
 };
 

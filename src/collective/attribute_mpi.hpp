@@ -8,7 +8,7 @@
 
 namespace rrcb::mpi {
 
-/// A value of its type kept with each communicator, and freed with it. Not collective.
+/// Keeps one value of a type with a communicator, which frees it. Not collective.
 template <class Value>
 class Attribute {
   public:

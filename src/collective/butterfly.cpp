@@ -29,8 +29,7 @@ const Butterfly::Halves& Butterfly::halves_at(int step) {
         step_of_halves_ = 0;
         halves_ = halves_of(0, num_ranks_);
     }
-    // Before each turn this rank is one of `halves_`. Without branches, because the half is
-    // unpredictable.
+    // This rank is always in `halves_`. Without branches, because the half is unpredictable.
     for (; step_of_halves_ < step; ++step_of_halves_) {
         const bool is_below = rank_ < halves_.middle;
         halves_ = halves_of(is_below ? halves_.begin : halves_.middle,
@@ -100,7 +99,7 @@ void Butterfly::hand_over(int step) {
     held_.keep(stays_here);
 }
 
-/// Puts the answers to records of a rank in a step into the message.
+/// Adds the answers to the records that a rank sent in a step to the message.
 void Butterfly::reply(int step, int rank) {
     const auto asked = std::ranges::find_if(
         asked_, [&](const Asked& one) { return one.step == step && one.rank == rank; });
@@ -125,14 +124,14 @@ void Butterfly::take(int step, Direction direction, const Link& link,
     merge(direction == to_owners ? held_ : answers_, incoming);
 }
 
-/// Notes the ranks that the answers to records go to.
+/// Notes the rank that gets the answers to records.
 void Butterfly::note_asked(int step, int rank, RecordReader incoming) {
     const std::size_t begin = keys_asked_.size();
     while (!incoming.at_end()) keys_asked_.push_back(incoming.next().key);
     asked_.push_back({step, rank, begin, keys_asked_.size()});
 }
 
-/// Both in the order of their keys.
+/// Merges records, both in the order of their keys.
 void Butterfly::merge(Records& records, const RecordReader& others) const {
     // If keys ascend with their owners, all answers of a half come before those of the other.
     if (records.empty() || records.last_key() < first_key(others))
@@ -150,7 +149,7 @@ Records Butterfly::merged(RecordReader mine, RecordReader others) const {
     bool has_b = !others.at_end();
     if (has_a) a = mine.next();
     if (has_b) b = others.next();
-    // All records before `a` here and before `b` there are in the result.
+    // The result has all records before `a` and before `b`.
     while (has_a || has_b) {
         const bool takes_a = has_a && (!has_b || a.key <= b.key);
         const bool takes_b = !takes_a || (has_b && b.key == a.key && join_ != nullptr);

@@ -11,7 +11,7 @@
 
 namespace rrcb {
 
-/// Numbers that all ranks know after a pass: the largest of any rank.
+/// Numbers whose maximum over the ranks all know after a pass.
 ///
 /// The first is for failures, 0 for none: its maximum names the rank whose failure agree() would
 /// report. The caller chooses the meaning of the others.
@@ -26,21 +26,21 @@ inline int failing_rank(const Flags& flags, int num_ranks) {
     return flags[0] > 0 ? static_cast<int>(2.0 * num_ranks - flags[0]) % num_ranks : no_rank;
 }
 
-/// Records of all ranks on their way to the owners of their keys, and answers on their way back:
-/// one rank's part, without the messages.
+/// Sends records of all ranks to the owners of their keys, and answers back: the part of one rank,
+/// without the messages.
 ///
 /// The ranks are halved again and again, the lower half being the larger one, until each is alone.
 /// In the step of a halving a rank sends one rank of the other half all records whose owner is
 /// there: ceil(log2 R) steps for R ranks, as in the crystal router (G. C. Fox et al.: Solving
 /// Problems on Concurrent Processors, volume 1, 1988). Records of one key are joined when they
-/// meet. Answers go back the same ways, step by step in reverse order, to all ranks that sent a
-/// record of the key on.
+/// meet. Answers take the same paths back, in reverse order, to all ranks that sent or passed on a
+/// record of the key.
 ///
 /// Flags are joined in every step, so each rank knows the largest of all ranks after a pass in
 /// either direction. Proof by induction over the halves: every rank sends its flags to one of the
 /// other half, so after a step a half knows what both halves knew before it. This also holds if
 /// ranks fail on the way, provided that they go on with pack_nothing(). The flags of the next pass
-/// then report the failure, alike on all ranks.
+/// then report the failure, the same on all ranks.
 ///
 /// The central way has fewer messages for few ranks: rank 0 owns all keys, so the upper half of
 /// each halving sends to the lower one, and receives from it on the way back: R - 1 messages a
@@ -49,7 +49,7 @@ inline int failing_rank(const Flags& flags, int num_ranks) {
 class Butterfly {
   public:
     /// Appends the payload that `a` and `b` of one key make together. Null if records of one key
-    /// stay apart; then nothing is answered.
+    /// stay apart; then there are no answers.
     using Join = void (*)(std::span<const double> a, std::span<const double> b,
                           std::vector<double>& joined);
 
@@ -101,7 +101,7 @@ class Butterfly {
         answers_.append({key, rank_, payload});
     }
 
-    /// Returns the answers to the records of this rank, and to those that went through it, after a
+    /// Returns the answers to the records of this rank, and to those that it passed on, after a
     /// pass back; ascending by key.
     const Records& answers() const { return answers_; }
 
@@ -109,7 +109,7 @@ class Butterfly {
     void start(const Flags& mine) { flags_ = mine; }
     const Flags& flags() const { return flags_; }
 
-    /// Makes the message for a link that sends. Throws std::bad_alloc; then pack_nothing() is due.
+    /// Makes the message for a link that sends. Throws std::bad_alloc; then call pack_nothing().
     void pack(int step, Direction direction, const Link& link);
 
     /// Makes a message without records. Never throws.
@@ -124,7 +124,7 @@ class Butterfly {
     /// Joins the flags of a message. Never throws.
     void hear(std::span<const double> message);
 
-    /// Adds the records of a message that came by a link. Throws std::bad_alloc.
+    /// Adds the records of a message from a link. Throws std::bad_alloc.
     void take(int step, Direction direction, const Link& link, std::span<const double> message);
 
   private:
@@ -140,7 +140,7 @@ class Butterfly {
         return {begin, begin + length / 2 + length % 2, end};
     }
 
-    /// Keys of which the records came from a rank, from `begin` to before `end` of keys_asked_.
+    /// Keys of the records from a rank: entries `begin` to `end` - 1 of keys_asked_.
     struct Asked {
         int step;
         int rank;

@@ -63,8 +63,8 @@ void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction
     fail_together(failing, self);
 }
 
-/// Sends and receives the message of a link, piece by piece at once in both directions, so that two
-/// ranks never wait for each other.
+/// Sends and receives the message of a link: each piece in both directions at the same time, so
+/// that two ranks never wait for each other.
 void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Direction direction,
                                  const Butterfly::Link& link, Participant& self) {
     butterfly.pack_nothing();
@@ -90,7 +90,7 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
     self.attempt([&] { butterfly.take(step, direction, link, arrived_); });
 }
 
-/// Receives a piece of a message; returns its length. Without memory it still receives it.
+/// Receives a piece of a message, even without memory to keep it; returns the number of pieces.
 std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant& self) {
     std::fill_n(piece_.begin(), head_.size(), 0.0);
     self.check(MPI_Recv(piece_.data(), static_cast<int>(piece_.size()), MPI_DOUBLE, from,

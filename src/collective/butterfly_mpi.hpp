@@ -11,14 +11,14 @@
 
 namespace rrcb {
 
-/// Carries the messages of butterflies.
+/// Sends and receives the messages of butterflies.
 class ButterflyMessages {
   public:
     /// Sends pieces of 64 kB at most. Not collective. Throws std::bad_alloc.
     ButterflyMessages();
 
-    /// Sends pieces of as many doubles as the buffer holds, which is the same on all ranks and at
-    /// least a head's. Not collective. Never throws. The buffer outlives it.
+    /// Sends pieces as long as the buffer: the same on all ranks, and at least a head. Not
+    /// collective. Never throws. The buffer outlives it.
     explicit ButterflyMessages(std::span<double> buffer) : piece_(buffer) {}
 
     ButterflyMessages(const ButterflyMessages&) = delete;

@@ -11,12 +11,11 @@ namespace rrcb::mpi {
 
 /// Kind of a message between two ranks, on the duplicate of a communicator.
 ///
-/// Ranks run ahead of each other into the next call, so a tag distinguishes kinds. Within a kind
-/// two rules hold. A call receives every message that is sent to it, and names the sender: MPI
-/// keeps those in order. Only an Exchange receives from any rank. A butterfly announces its
-/// records, and no rank leaves the butterfly before the flags of all have gone in. So no rank sends
-/// in an Exchange before all have entered it, and none enters it that has not received all messages
-/// of the one before.
+/// Ranks may run ahead into the next call, so a tag distinguishes kinds. Within a kind, a call
+/// receives every message sent to it by the rank of the sender, and MPI keeps these in order. Only
+/// an Exchange receives from any rank. A butterfly announces its records, which no rank leaves
+/// before all have entered it. So no rank sends in an Exchange before all have entered it, and all
+/// have received the messages of the one before.
 enum Tag : int { contribution_tag = 1, points_tag, exchange_tag, stream_tag, butterfly_tag };
 
 /// Throws Error with the text of an MPI error code that is not MPI_SUCCESS.
@@ -25,7 +24,7 @@ void check(int code, const char* call);
 /// Narrows a count to MPI's int; throws Error if it does not fit.
 int to_int(std::int64_t count);
 
-/// Bytes in one message at most; tests lower it.
+/// Most bytes in a message; tests lower it.
 inline std::size_t longest_message = std::numeric_limits<int>::max();
 
 /// Broadcasts any number of bytes, the same on each rank, as MPI_Bcast. Collective over `comm`.

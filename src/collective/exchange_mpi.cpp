@@ -50,8 +50,8 @@ void Exchange::send_all(Participant& self) {
 
 void Exchange::receive_all(Participant& self) {
     std::size_t first = 0;
-    // Ends when all records before `first` have come. The inbox has the announced length, so
-    // nothing else is awaited.
+    // All records before `first` have been received. The inbox has the announced length, so no
+    // other message is expected.
     while (first < buffers_.inbox.size()) {
         const std::size_t most =
             std::min(buffers_.inbox.size() - first, most_records() * record_bytes_);

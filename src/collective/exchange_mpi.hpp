@@ -13,11 +13,11 @@ namespace rrcb {
 
 /// Memory for records.
 struct ExchangeBuffers {
-    Uninitialized<std::byte> outbox{};  ///< for one rank after the other
+    Uninitialized<std::byte> outbox{};  ///< sorted by rank
     Uninitialized<std::byte> inbox{};   ///< in the order of arrival
 };
 
-/// Records of one size on their way from every rank to every other one, or to itself.
+/// Sends records of one size from any rank to any rank.
 class Exchange {
   public:
     /// Uses the `memory` of another exchange.
@@ -38,8 +38,8 @@ class Exchange {
                            std::size_t k, std::size_t place) { write(k, outbox + bytes * place); });
     }
 
-    /// Announces the records to their ranks; returns how many come to this one, which allocates
-    /// memory for them.
+    /// Announces the records to their ranks. Allocates memory for those to this rank, and returns
+    /// their number.
     ///
     /// Collective: one reduction, which no rank leaves before all have entered it; see mpi::Tag.
     /// A rank that failed before sends nothing.
@@ -51,7 +51,7 @@ class Exchange {
     /// mpi::longest_message. Throws Error if a message fails, on this rank only.
     void run(Participant& self);
 
-    /// Calls read(source, place) for every record that came: by rank, in the order written there.
+    /// Calls read(source, place) for every record received: by rank, in the order written there.
     template <class Read>
     void for_each(Read&& read) const {
         for (const auto& [source, first, count] : arrived_) {

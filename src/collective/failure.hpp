@@ -9,18 +9,18 @@
 
 namespace rrcb {
 
-/// Stands for the failing rank if no rank has failed.
+/// The failing rank if none has failed.
 inline constexpr int no_rank = -1;
 
-/// Stands for the failing rank if the message could not name it.
+/// The failing rank if a message could not name it.
 inline constexpr int some_rank = -2;
 
-/// Error held back until the ranks have agreed on it. Holding it takes no memory.
+/// Error held back until the ranks have agreed on it. Does not allocate.
 struct Failure {
     bool failed = false;
     ErrorCode code = ErrorCode::internal;
     std::array<char, 512> text{};  ///< cut short if it is longer; ends with a 0
-    bool may_follow = false;       ///< from the failure of another rank, see compare()
+    bool may_follow = false;       ///< from that of another rank, see compare()
 };
 
 inline Failure failure_of(ErrorCode code, std::string_view text) {

@@ -4,7 +4,7 @@
 
 namespace rrcb::mpi {
 
-/// Datatype of so many elements, one after the other; freed with the object.
+/// Datatype of consecutive elements; freed with the object.
 class ContiguousType {
   public:
     /// Throws Error.

@@ -63,7 +63,7 @@ Machines machines_of(Participant& self) {
     const int lowest = made.dealt ? rank % distance : rank / num_ranks * num_ranks;
     // If ranks are dealt in turn, only the last machine may have fewer.
     const bool ends_well = !made.dealt || (size_of(self.comm) + 1) % distance <= 1;
-    // A constant on rank 0, so that the ranks differ if any machine does not fit.
+    // Rank 0 always fits, so the ranks differ if any machine does not.
     const bool fits = here.lowest[0] == lowest && (rank == root || ends_well);
     std::array shared{Shared{"machines", fits ? 0u : 1u}};
     Machines* kept = nullptr;

@@ -12,8 +12,7 @@ namespace rrcb {
 ///
 /// All failures are handled alike, so that no rank leaves a call alone:
 /// 1. Local steps run in attempt(), messages between two ranks in check(). Both hold failures back.
-/// 2. From then on the rank skips its local steps and sends nothing in place of data, in as many
-///    messages.
+/// 2. From then on the rank skips its local steps, and sends as many messages, without data.
 /// 3. All ranks meet in agree(), which throws the error of the lowest failing rank on all of them.
 ///
 /// Messages to the root can carry the failure and save that reduction: each rank sends its

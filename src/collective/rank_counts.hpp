@@ -9,8 +9,7 @@
 
 namespace rrcb {
 
-/// Counts that ranks have for each other on their way there, in a butterfly: one rank's part in it,
-/// without the messages.
+/// Sends counts to ranks in a butterfly: the part of one rank, without the messages.
 class RankCounts {
   public:
     /// Determines whether a rank gets the sum of its counts, or the count from each rank.
@@ -22,10 +21,10 @@ class RankCounts {
     /// Takes the counts for other ranks, which ascend, and for this one. Throws std::bad_alloc.
     void add(std::span<const RankCount> to);
 
-    /// Takes them to their ranks in one pass.
+    /// Returns the butterfly, which sends the counts in one pass.
     Butterfly& butterfly() { return butterfly_; }
 
-    /// Returns the sum of the counts that have come.
+    /// Returns the sum of the counts received.
     LocalIndex total() const;
 
     /// Returns the counts of each rank that has some, ascending. Throws std::bad_alloc.

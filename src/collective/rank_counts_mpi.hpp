@@ -9,15 +9,15 @@
 
 namespace rrcb {
 
-/// Returns how many come to this rank, if each rank has `to`, of ascending ranks, for the others.
+/// Returns how many items this rank receives, if it sends `to`, by ascending rank.
 ///
 /// Collective: one pass of a butterfly. Throws on every rank the failure of one before the call. A
 /// rank that fails in it may leave out counts that it has or passes on, until the next agreement.
 LocalIndex count_arrivals(std::span<const RankCount> to, Participant& self);
 
-/// Returns how many come to this rank from each rank, ascending; otherwise as count_arrivals().
+/// As count_arrivals(), but returns the number from each rank, ascending.
 ///
-/// A contradiction to the counts may follow from such a failure, see Participant::compare().
+/// Such a failure may make counts contradict other data, so compare them in Participant::compare().
 std::vector<RankCount> exchange_counts(std::span<const RankCount> to, Participant& self);
 
 }  // namespace rrcb

@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// The order of entries by the rank that each names; entries of one rank keep their order.
+/// The order of entries by their ranks; entries of one rank keep their order.
 ///
 /// By radix sort, in time proportional to the entries. Memory: at most 8 kB up to 1024 ranks;
 /// beyond that 16 bytes an entry while it is made and 8 later.
@@ -17,11 +17,10 @@ class RankOrder {
     /// `ranks` are below `num_ranks`, not negative, and outlive it. Throws std::bad_alloc.
     RankOrder(std::span<const int> ranks, int num_ranks);
 
-    /// Returns how often each rank occurs, ascending, without the ranks that do not.
+    /// Returns how often each rank occurs, ascending, without those that do not.
     const std::vector<RankCount>& counts() const { return counts_; }
 
-    /// Calls visit(k, place) for the k-th entry and its place in the order, each once. To be called
-    /// once.
+    /// Calls visit(k, place) for each entry k and its place in the order. Call it once.
     template <class Visit>
     void for_each(Visit&& visit) {
         for (std::size_t place = 0; place < order_.size(); ++place) visit(order_[place], place);

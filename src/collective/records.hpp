@@ -20,7 +20,7 @@ struct Record {
     std::span<const double> payload{};
 };
 
-/// Reads one record after the other from the doubles that hold them.
+/// Reads records one after the other from doubles.
 class RecordReader {
   public:
     explicit RecordReader(std::span<const double> words) : words_(words) {}

@@ -12,7 +12,7 @@ namespace rrcb {
 
 namespace {
 
-/// Pieces under way in one direction if memory is short: some are packed while others travel.
+/// Pieces in transit in one direction if memory is short: some are packed while others are sent.
 constexpr std::size_t pieces_under_way = 4;
 
 }  // namespace
@@ -29,7 +29,7 @@ Stream::Stream(std::size_t record_bytes, std::size_t limit)
     most_records_ = std::max(std::size_t{1}, bytes / record_bytes_);
 }
 
-/// Pieces by the step from rank to rank; `step` gives that of a rank.
+/// Makes the pieces of a lane, in the order of step(rank).
 template <class Step>
 void Stream::lay_out(std::span<const RankCount> counts, Step&& step, Lane& lane) const {
     std::size_t first = 0;
@@ -45,7 +45,7 @@ void Stream::lay_out(std::span<const RankCount> counts, Step&& step, Lane& lane)
                       [&](const Piece& piece) { return std::pair(step(piece.rank), piece.first); });
 }
 
-/// Makes room for each piece, or for as many of the longest as fit in memory.
+/// Allocates memory for each piece, or for as many of the longest as fit in the limit.
 void Stream::make_buffer(Lane& lane) const {
     if (lane.pieces.empty()) return;
     std::size_t bytes = 0;

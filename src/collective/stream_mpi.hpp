@@ -10,8 +10,8 @@
 
 namespace rrcb {
 
-/// Records of one size on their way between ranks that know how many they send each other, in
-/// pieces within a limit of memory.
+/// Sends records of one size between ranks that know how many they get, in pieces within a limit of
+/// memory.
 class Stream {
   public:
     /// The size and the limit are the same on every rank. Throws Error if the limit does not hold a
@@ -29,13 +29,13 @@ class Stream {
 
     /// Sends and receives, after the ranks agreed that all have memory.
     ///
-    /// Collective. pack(first, count, place) writes so many of the records that leave, counted over
-    /// all ranks, and unpack(first, count, place) reads those that have come. Throws Error if a
-    /// message fails, on this rank only.
+    /// Collective. pack(first, count, place) writes records to send, numbered over all ranks;
+    /// unpack(first, count, place) reads received ones. Throws Error if a message fails, on this
+    /// rank only.
     ///
-    /// Each lane begins and ends its pieces in its order, by the steps from rank to rank, on both
-    /// ranks alike. Of all that have not ended the one of the first step is first in its lane on
-    /// both sides, so that it begins: no rank waits for ever.
+    /// No deadlock: a piece has the same step, from rank to rank, on both ranks, and each lane
+    /// begins and ends its pieces in the order of steps. Of all unfinished pieces, the one of the
+    /// first step is first in its lane on both ranks, so that it begins.
     template <class Pack, class Unpack>
     void run(Participant& self, Pack&& pack, Unpack&& unpack) {
         const auto begin_all = [&] {

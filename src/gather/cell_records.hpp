@@ -22,8 +22,8 @@ struct CellSet {
     static constexpr int no_lattice = std::numeric_limits<int>::min();
 };
 
-/// Appends the cells of a support mesh to the records that travel to the root, as LeanCells:
-/// rounded moments in an eighth of the doubles.
+/// Appends the cells of a support mesh to the records for the root, as LeanCells: rounded moments
+/// in an eighth of the doubles.
 void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
                        std::vector<double>& records);
 

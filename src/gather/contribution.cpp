@@ -91,7 +91,7 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
     const double usual = std::max(by_points, std::min(by_parts, fine_cells(dimension)));
     const double filled = per_axis(count / least_points_per_cell);
     const double cells = std::min({most_cells_per_axis(dimension), usual, filled});
-    // The root of a cube may come out a bit below the whole number.
+    // The root of a cube may be rounded to below the whole number.
     constexpr double above_rounding = 1 + 1e-12;
     return static_cast<int>(std::max(1.0, std::floor(cells * above_rounding)));
 }

@@ -17,11 +17,11 @@ namespace rrcb {
 /// Summary of one rank, or of all ranks of a subtree: failures, requests and totals.
 struct Summary {
     std::int32_t first_rank = 0;             ///< lowest rank of the summary
-    std::int32_t failing_rank = no_rank;     ///< lowest of the ranks that can't go on
-    std::int32_t differing_rank = no_rank;   ///< one whose request differs from that of ...
+    std::int32_t failing_rank = no_rank;     ///< lowest of the ranks that failed
+    std::int32_t differing_rank = no_rank;   ///< one with another request than ...
     std::int32_t reference_rank = no_rank;   ///< ... this one
-    std::int32_t weighted_rank = no_rank;    ///< one whose points have weights, and ...
-    std::int32_t unweighted_rank = no_rank;  ///< ... one whose points have none
+    std::int32_t weighted_rank = no_rank;    ///< one whose points have weights
+    std::int32_t unweighted_rank = no_rank;  ///< one whose points have none
     std::uint64_t difference = 0;            ///< see name_of_request
     Request request{};                       ///< of the first rank
     std::int64_t num_points = 0;

@@ -35,8 +35,7 @@ struct Verdict {
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
 };
 
-/// First message from the root, on every rank, whatever the options: the verdict, and as much of
-/// the decision as fits after it.
+/// First message from the root, for any options: the verdict, and as much of the decision as fits.
 using Head = std::array<std::byte, 2048>;
 
 /// Decision of the root: its verdict, and the cuts to assign by or to start from.
@@ -46,7 +45,7 @@ struct Decision {
     KeptTree kept{};                     ///< on all ranks once the points are kept
     bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
     std::vector<double> part_weights{};  ///< of their parts, if counted
-    std::vector<std::byte> message;      ///< the cuts, or the kept parts, on their way
+    std::vector<std::byte> message;      ///< the cuts, or the kept parts, as sent
 };
 
 /// Returns the report on a partition that was not measured. Empty sizes: equal parts.

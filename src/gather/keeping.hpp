@@ -8,11 +8,11 @@ namespace rrcb {
 /// complete.
 bool may_keep_parts(const Options& options, int num_ranks);
 
-/// Returns true if rank 0 reads the extents and weights of the points of all ranks, if there are
-/// not too many. It then knows the imbalance of the parts that they hold.
+/// Returns true if rank 0 reads the extents and weights of the points of all ranks, and so the
+/// imbalance of the parts that they hold. Only up to some number of ranks.
 bool reads_kept_tree(const Options& options, int num_ranks);
 
-/// Returns true for an imbalance so small that no better parts are searched.
+/// Returns true if no better parts are searched for.
 bool keeps_at_once(double kept, double tolerance);
 
 /// Returns true if parts of the imbalance `offered` are worth moving points out of parts of the

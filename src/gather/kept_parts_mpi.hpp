@@ -27,14 +27,14 @@ class KeptParts {
     /// many ranks make the parts.
     void read(const Verdict& verdict, const Balance& estimate, Participant& self);
 
-    /// Returns true if the ranks hold parts, so even that no better ones are searched.
+    /// Returns true if the ranks hold parts, so even that no better ones are searched for.
     bool are_good(double tolerance) const;
 
     /// Returns true if the ranks hold parts, and those of another `imbalance` are not worth moving
     /// points.
     bool do_as_well_as(double imbalance, const Options& options) const;
 
-    /// Makes them the result. Collective.
+    /// Makes the kept parts the result. Collective.
     void keep(const CallOptions& options, Decision& decision, Balance& result, Participant& self);
 
   private:

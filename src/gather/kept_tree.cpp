@@ -74,8 +74,8 @@ class Reader {
         return false;
     }
 
-    /// Returns the positions of a cut between the points of two groups: behind the last below, not
-    /// behind the first above.
+    /// Returns the positions of a cut between the points of two groups: above the last below, up to
+    /// the first above.
     Places gap_between(const Extent& below, const Extent& above, int axis) const {
         const auto a = static_cast<std::size_t>(axis);
         const double last = below.last[a][a];

@@ -20,7 +20,7 @@ struct KeptTree {
 };
 
 /// Returns true if no other axis of the box is much longer. This is less strict than for a new cut,
-/// whose extents are estimated; otherwise cuts might turn for ever.
+/// whose extents are estimated; otherwise cuts might turn in every call.
 bool is_long(const Box& box, int axis, int dimension);
 
 /// Returns the cut between the points of two groups of ranks, in the middle of the gap if there is

@@ -23,7 +23,7 @@ double share_of(std::byte code) {
     return std::to_integer<int>(code) / steps;
 }
 
-/// Both in half extents, which do not overflow for any coordinates.
+/// Computes with half extents, which do not overflow for any coordinates.
 std::byte code_of_mean(double mean, double lower, double upper) {
     const double half = upper / 2 - lower / 2;
     return half > 0 ? code_of((mean / 2 - lower / 2) / half) : std::byte{0};
@@ -61,7 +61,7 @@ double mean_of(std::byte code, double deviation, double lower, double upper) {
     return share > 0 ? upper - inside : lower + inside;
 }
 
-/// Seven digits of the base 128 in each byte, the last without the upper bit.
+/// Appends seven bits in each byte; the upper bit is set in all but the last.
 void append_number(std::size_t number, std::vector<std::byte>& bytes) {
     for (; number >= 128; number /= 128) bytes.push_back(std::byte(number % 128 + 128));
     bytes.push_back(std::byte(number));
@@ -81,7 +81,7 @@ std::size_t take_number(std::span<const std::byte>& bytes) {
     return number;
 }
 
-/// The numbers as runs: cells left out, cells in the run, and so on.
+/// Appends the numbers as runs: cells left out, cells in the run, and so on.
 void append_numbers(std::span<const CellMoments> cells, std::vector<std::byte>& bytes) {
     LocalIndex next = 0;
     for (std::size_t first = 0; first < cells.size();) {

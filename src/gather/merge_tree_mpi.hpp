@@ -8,8 +8,7 @@
 
 namespace rrcb {
 
-/// Tree along which contributions travel to rank 0. Each rank adds those of the ranks that follow
-/// it before it sends all on.
+/// Tree along which contributions are sent to rank 0. Each rank first adds those of its children.
 ///
 /// A rank that is a multiple of radix^k receives, for each smaller power s of the radix, the
 /// subtrees of s ranks each that begin s, 2 s, ... (radix - 1) s after it.
@@ -36,17 +35,17 @@ struct MergeTree {
     }
 };
 
-/// Brings the contributions of all ranks to rank 0, merged on the way. Collective over `comm`.
+/// Sends the contributions of all ranks to rank 0, merged on the way. Collective over `comm`.
 ///
-/// A rank that failed, before or here, sends its number instead of records. A failure after that
-/// stays with the rank for the next agreement.
+/// A rank that failed, before or here, sends its number instead of records. A later failure is held
+/// back until the next agreement.
 void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
               Participant& self);
 
 /// Appends the records of all ranks to those of the root, by rank. Collective over `comm`: each
 /// sends the number of its doubles, then the doubles.
 ///
-/// A failure stays with its rank for the next agreement.
+/// A failure is held back until the next agreement.
 void gather_records(std::vector<double>& records, Participant& self);
 
 }  // namespace rrcb

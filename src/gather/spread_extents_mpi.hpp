@@ -21,8 +21,8 @@ struct SpreadKeptTree {
     int num_divided = 0;  ///< cuts that this rank owns and that divide coincident points
 };
 
-/// Extent of this rank's points. The owners of nodes read it with those of the others as a
-/// bisection, with part r on rank r. As read_kept_tree(), except that with free axes a cut may be
+/// Extent of this rank's points. The owners of nodes read the extents of all ranks as a bisection,
+/// with part r on rank r. As read_kept_tree(), except that with free axes a cut may be
 /// across any long axis of the points that it divides.
 class SpreadExtents {
   public:
@@ -37,8 +37,8 @@ class SpreadExtents {
     ///
     /// Collective: one pass of records to their owners, and if all may keep their points one of
     /// cuts back. A message has at most 16 (1 + dimension + dimension^2) bytes for each cut above a
-    /// part. Throws the error of one rank on all; but a failure in the last messages stays with its
-    /// rank for the next agreement.
+    /// part. Throws the error of one rank on all; a failure in the last messages is held back until
+    /// the next agreement.
     std::optional<SpreadKeptTree> read(double total, bool by_count, const Cuts& regions,
                                        Participant& self);
 

@@ -25,7 +25,7 @@ void add(std::span<const double> a, std::span<const double> b, std::vector<doubl
     std::ranges::transform(a, b, std::back_inserter(joined), std::plus<>());
 }
 
-/// Returns cuts with their numbers, also if they are all.
+/// Returns cuts with their numbers, even if the tree is complete.
 Cuts numbered(Cuts cuts) {
     if (is_whole(cuts)) {
         cuts.nodes.resize(cuts.tree.size());

@@ -12,7 +12,7 @@
 
 namespace rrcb {
 
-/// Reuse of earlier cuts of which each rank knows some, or all. Memory is in proportion to the
+/// Reuse of earlier cuts, distributed or complete. Memory is in proportion to the
 /// parts of a rank's points, and the cuts above them.
 class SpreadReuse {
   public:

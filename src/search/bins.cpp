@@ -17,7 +17,7 @@ Bins::Bins(double lower, double upper, bool by_bits, int num_bins)
     num_doubles_ =
         static_cast<std::uint64_t>(double_rank(upper)) - static_cast<std::uint64_t>(lower_rank_);
     const auto bins = static_cast<std::uint64_t>(num_bins);
-    // Edges between so few doubles are rounded to each other.
+    // With so few doubles, rounded edges would coincide.
     by_bits_ = by_bits_ || num_doubles_ < bins * bins;
     doubles_a_bin_ = std::max<std::uint64_t>(1, num_doubles_ / bins + (num_doubles_ % bins != 0));
 }

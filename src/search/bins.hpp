@@ -17,17 +17,17 @@ class Bins {
   public:
     Bins(double lower, double upper, bool by_bits, int num_bins);
 
-    /// Between two lines of the grid of `limits`.
+    /// Takes two lines of the grid of `limits`.
     Bins(double lower, double upper, const AxisLimits& limits, int num_bins);
 
-    /// Edge number k of the num_bins + 1 edges, ascending from lower to upper.
+    /// Returns edge number k of the num_bins + 1 edges, ascending from lower to upper.
     double edge(int k) const {
         if (k == num_bins_) return upper_;
         if (!by_bits_) return std::min(lower_ + k * width_, upper_);
         return edge_by_number(k);
     }
 
-    /// The slot whose edges hold `value`, to the bit.
+    /// Returns the slot between whose rounded edges `value` is.
     std::int32_t slot_of(double value) const {
         if (value < lower_) return 0;
         if (!(value < upper_)) return num_bins_ + 1;

@@ -16,10 +16,10 @@ struct Candidate {
     double weight = 0;
 };
 
-/// Candidates from records of position and weight.
+/// Reads candidates from records of position and weight.
 std::vector<Candidate> read_candidates(std::span<const double> records, int dimension);
 
-/// Candidates at one position, the first of them and how many, with the weight below them.
+/// Candidates at one position, and the weight below them.
 struct Ties {
     std::size_t begin = 0;
     std::size_t count = 0;
@@ -31,7 +31,7 @@ struct Ties {
 struct Division {
     std::size_t num_below = 0;
     double below = 0;  ///< weight of the node below the cut
-    Ties ties;         ///< the target is in it, if it has several candidates; else empty
+    Ties ties;         ///< candidates that hold the target, if there are several
 };
 
 /// Returns the division with the least excess of sorted candidates, all above the base of the

@@ -21,7 +21,7 @@ class Corrector {
           counts_(counts),
           values_(values) {}
 
-    /// `is_changed` if a cut above has moved.
+    /// Corrects the cuts at and below a node; `is_changed` if a cut above has moved.
     void run(const Descent& at, bool is_changed) {
         if (at.is_part()) return;
         const Slab& slab = slabs_[at.node];
@@ -62,7 +62,7 @@ class Corrector {
         return counts.first(at.lower().num_parts);
     }
 
-    /// Brings a share of a bin below the cut of a node, or above it if the share is negative.
+    /// Moves a share of a bin below the cut of a node, or above it if the share is negative.
     void bring(const Descent& at, std::span<const double> counts, double share) {
         const std::size_t num_below = lower_of(counts, at).size();
         for (std::size_t k = 0; k < counts.size(); ++k) {

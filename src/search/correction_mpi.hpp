@@ -15,7 +15,7 @@ namespace rrcb {
 /// The constructor makes the buffers of the messages.
 class Correction {
   public:
-    /// For the tree below `top`; `memory` is borrowed. Not collective. Throws std::bad_alloc.
+    /// Takes the root of the tree; `memory` is borrowed. Not collective. Throws std::bad_alloc.
     Correction(const Descent& top, bool is_root, UndecidedPoints& memory);
 
     /// Moves `cuts`, whose parts are too uneven, until the counted parts are within the tolerance
@@ -41,7 +41,7 @@ class Correction {
     std::unique_ptr<double[]> joined_;  ///< the sums of `here_` over all ranks; null except on the
                                         ///< root
     std::vector<double> values_;        ///< of moving cuts, then how many ranks failed
-    std::vector<double> expected_;      ///< weights of the parts once the cuts have moved
+    std::vector<double> expected_;      ///< weights of the parts after the move
 };
 
 }  // namespace rrcb

@@ -26,7 +26,7 @@ void finish(CutSearch& search, double value, double below) {
     search.below = below;
 }
 
-/// Ends with the cut at a position, which is then the first above it.
+/// Ends with the cut at a position, the first one above it.
 void finish_at(CutSearch& search, const Vector& position, double below) {
     const PositionOrder order = order_of(search);
     for (const std::size_t axis : order.axes()) search.cut.at[axis] = position[axis];
@@ -34,7 +34,7 @@ void finish_at(CutSearch& search, const Vector& position, double below) {
     search.below = below;
 }
 
-/// Ends with the cut behind a position, which is then the last below it.
+/// Ends with the cut behind a position, the last one below it.
 void finish_behind(CutSearch& search, Vector position, double below) {
     const std::size_t last = order_of(search).axes().back();
     position[last] = std::nextafter(position[last], infinity);
@@ -91,7 +91,7 @@ void narrow(CutSearch& search, CutTarget& target, const Bins& bins, int num_bins
     const double lower = slot == 0 ? extent.smallest : bins.edge(slot - 1);
     const double upper =
         slot > num_bins ? std::nextafter(extent.largest, infinity) : bins.edge(slot);
-    // The cut may not be among some of the candidates: another count finds their weight.
+    // The cut must not be among some of the candidates: another count finds their weight.
     const bool is_limited =
         search.tied == 0 && (lower < target.places.first || upper > target.places.last);
     // The first two counts use bins of equal width. Candidates that are still undecided are
@@ -119,8 +119,8 @@ struct Chosen {
 Chosen choose(double base, double target, std::span<const double> weights) {
     Chosen chosen{0, base};
     const int last = static_cast<int>(weights.size()) - 1;
-    // All slots before this one together, with the base, weigh less than the target. So the target
-    // is in this slot, or round-off left the target behind all slots and the last one is taken.
+    // The base and all slots before this one weigh less than the target. So the target is in this
+    // slot, or by round-off behind all slots, and the last one is taken.
     while (chosen.slot < last) {
         const double next = chosen.below + weights[chosen.slot];
         if (next >= target) break;
@@ -130,7 +130,7 @@ Chosen choose(double base, double target, std::span<const double> weights) {
     return chosen;
 }
 
-/// Excess that a cut at either edge of a slot leaves.
+/// Excess of a cut at either edge of a slot.
 struct EdgeErrors {
     double lower;
     double upper;

@@ -13,7 +13,7 @@
 
 namespace rrcb {
 
-/// State of the search for one cut, decided by its owner; the same on every rank that takes part.
+/// State of the search for one cut, decided by its owner; the same on every participating rank.
 ///
 /// The cut is in [lower, upper) of the axis number `tied` of its axes: first the axis of the cut,
 /// then the others in ascending order. Along the axes before that one it is already fixed in `cut`.
@@ -22,11 +22,11 @@ namespace rrcb {
 struct CutSearch {
     enum Stage : std::int32_t {
         over_fragments,   ///< count all points of the node, in bins of the bracket
-        over_candidates,  ///< count those in the bracket that are left
-        sampling,         ///< bring a sample of those left to the owner, for splitters
-        over_splitters,   ///< count those left between the splitters
-        gathering,        ///< bring all those left to the owner
-        centring,         ///< find the gap around the cut, which is known
+        over_candidates,  ///< count the candidates left in the bracket
+        sampling,         ///< send a sample of the candidates to the owner, for splitters
+        over_splitters,   ///< count the candidates between the splitters
+        gathering,        ///< send all candidates to the owner
+        centring,         ///< find the gap around the known cut
         done
     };
     Stage stage = over_fragments;
@@ -43,8 +43,7 @@ struct CutSearch {
     double below = 0;                    ///< weight of the node below the cut, once done
     std::int32_t coincident = 0;  ///< 1: points that no cut separates hold the target, once done
     std::int32_t divides = 0;     ///< 1: these points are to be divided, those of lower ranks below
-    double lot_below = 0;         ///< weight of these points that belongs below, 0 for none, once
-                                  ///< done
+    double lot_below = 0;         ///< weight of these points that belongs below, once done
 };
 
 /// State of a search at the owner only.
@@ -57,9 +56,9 @@ struct CutTarget {
     int num_counts = 0;              ///< times that candidates were counted in bins
     Places places{};                 ///< allowed for the cut; any place if cuts are not limited
 
-    /// Returns the excess weight of one side, times twice the share of the other side. This is in
-    /// proportion to the factor by which that side exceeds its share; for halves it is the distance
-    /// from the target.
+    /// Returns the excess weight of one side, times twice the share of the other side: proportional
+    /// to the factor by which the side exceeds its share. For halves it is the distance from the
+    /// target.
     double excess(double below) const {
         return below < target ? 2 * share * (target - below) : 2 * (1 - share) * (below - target);
     }
@@ -96,9 +95,8 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
 void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
                          std::span<const Vector> splitters, std::span<const double> histogram);
 
-/// Ends the search with the best cut between the gathered positions: the weight below it is as near
-/// to the target as these allow. `records` hold position and weight of each. Returns true if the
-/// cut is in the middle of two of them.
+/// Ends the search with the best cut between the gathered positions. `records` hold position and
+/// weight of each. Returns true if the cut is in the middle of two of them.
 bool decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
                   int dimension);
 

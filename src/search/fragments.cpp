@@ -31,7 +31,7 @@ bool touches(const Box& box, const Cut& cut, int dimension) {
     return true;
 }
 
-/// Determines the sides of a cut for points, each asked for once: those of a lot are counted.
+/// Finds the sides of a cut that points are on. Ask for each once: those of a lot are counted.
 class Divider {
   public:
     Divider(const Cut& cut, const Lot& lot, const SortedPoints& points)
@@ -62,12 +62,12 @@ class Divider {
     const SortedPoints& points_;
 };
 
-/// Brings the entries below a cut to the front; returns the index of the first above it.
+/// Moves the entries below a cut to the front; returns the index of the first above it.
 template <class IsAbove>
 LocalIndex partition(const Fragment& fragment, IsAbove&& is_above, SortedPoints& points) {
     LocalIndex front = fragment.begin;
     LocalIndex back = fragment.end;
-    // Every entry is asked for once: those before `front` and behind `back` already were.
+    // Entries before `front` are below, entries from `back` on above; each is asked for once.
     while (front < back) {
         if (!is_above(front)) {
             ++front;

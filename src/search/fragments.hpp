@@ -13,8 +13,8 @@
 
 namespace rrcb {
 
-/// Consecutive entries of the sorted points that are in one node of the tree: a cell, or the piece
-/// of a cell that earlier cuts left.
+/// Consecutive entries of the sorted points that are in one node of the tree: a cell, or a piece of
+/// one after cuts.
 struct Fragment {
     LocalIndex begin = 0;
     LocalIndex end = 0;
@@ -37,8 +37,8 @@ inline bool is_left_out(const Fragment& fragment, const SortedPoints& points) {
     return fragment.cell_left_out != Fragment::none && points.is_left_out(fragment.cell_left_out);
 }
 
-/// Lot of the points exactly at a cut, which no cut separates. They form one row over all ranks, in
-/// the order of the ranks; the first of the row go below the cut.
+/// The points exactly at a cut, which no cut separates. They form one row over all ranks, in the
+/// order of the ranks; the first of the row go below the cut.
 struct Lot {
     double before = 0;  ///< weight of those on lower ranks
     double below = 0;   ///< weight of the row that belongs below; 0: all of it stays above
@@ -51,8 +51,8 @@ double weight_of(const std::vector<Fragment>& fragments);
 double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
                  const SortedPoints& points);
 
-/// Returns the fragments below and above a cut. Those it crosses are divided in place: entries of
-/// `points` change places within the fragment.
+/// Returns the fragments below and above a cut. Those it crosses are divided in place: their
+/// entries of `points` are permuted.
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points);
 

@@ -7,7 +7,7 @@
 
 namespace rrcb {
 
-/// The gap between the points on either side of a cut, to be joined by the maximum of each entry.
+/// The gap between the points on both sides of a cut; ranks join gaps by the maximum of each entry.
 ///
 /// Along the axis number k of its order of positions, entry 2 k is minus the smallest coordinate
 /// above the cut and entry 2 k + 1 the largest below. Only points exactly at the cut along the axes

@@ -26,7 +26,6 @@ struct HistogramLayout {
     std::size_t length() const { return num_extents + 2 * num_slots(); }
 };
 
-/// Makes an empty histogram.
 void clear_histogram(std::span<double> histogram);
 
 /// Makes an empty sample of positions; returns its entries.
@@ -37,7 +36,7 @@ inline std::span<const double> sample_in(std::span<const double> histogram) {
     return histogram.subspan(HistogramLayout::num_extents);
 }
 
-/// Joins the histogram of other ranks, of the same kind. Any order gives the same bits if weights
+/// Joins the histogram of other ranks. Any order gives the same bits if weights
 /// are multiples of a common quantum.
 void join_histograms(std::span<const double> other, std::span<double> histogram);
 

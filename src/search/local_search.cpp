@@ -14,7 +14,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The entries of a histogram, to add to.
 class Tally {
   public:
     Tally(const HistogramLayout& layout, int dimension, std::span<double> histogram)
@@ -47,8 +46,7 @@ class Tally {
 };
 
 /// Calls visit(i) for the entries of a fragment from `lower` to below `upper` across an axis;
-/// returns the number of entries below `lower`. Without branches on coordinates, because these are
-/// in no order.
+/// returns the number of entries below `lower`. Without branches on the unordered coordinates.
 template <class Visit>
 LocalIndex visit_between(double lower, double upper, int axis, const Fragment& fragment,
                          const SortedPoints& points, Visit&& visit) {

@@ -18,7 +18,7 @@ class PartSums {
     /// Makes the buffers of add_up(). Not collective. Throws std::bad_alloc.
     explicit PartSums(std::size_t num_parts) : here_(num_parts + 1), sums_(num_parts + 2) {}
 
-    /// Weights of this rank's points, one entry per part, to be written before each add_up().
+    /// Returns the weights of this rank's points in each part, to be written before each add_up().
     std::span<double> here() { return std::span(here_).first(here_.size() - 1); }
 
     /// Adds them up on every rank; returns the imbalance of the sums.

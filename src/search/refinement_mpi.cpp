@@ -108,7 +108,7 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
 }
 
 /// Returns true if there is nothing to search: the estimated cuts are good enough, or the points
-/// stay; `parts` is complete then. Collective.
+/// are kept. Then `parts` is complete. Collective.
 bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Participant& self) {
     self.attempt([&] {
         const PartTotals totals = assign_and_count(estimate_.cuts, points, parts);
@@ -130,8 +130,7 @@ bool Refinement::correct(const Points& points, std::span<Part> parts, Participan
     return refined_.imbalance <= options_.imbalance_tolerance;
 }
 
-/// Adds up the weights of the parts over all ranks, on every rank. Collective; throws if one
-/// failed.
+/// Adds up the weights of the parts over all ranks. Collective; throws if one failed.
 void Refinement::measure(const Participant& self) {
     refined_.imbalance = sums_.add_up(options_.part_sizes, self);
     tree_.rule.counted_weight = sum_of(sums_.sums());

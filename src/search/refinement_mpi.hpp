@@ -30,11 +30,11 @@ class TreeRounds {
     /// Ends a search, which this rank lacks if it has failed; returns the number of rounds.
     ///
     /// Collective: each round is a pass to the owners and one back, and a spread search ends with
-    /// one to the owners. Throws on every rank the failure of one, before or here; but a failure in
-    /// the last messages stays with its rank for the next agreement.
+    /// one to the owners. Throws on every rank the failure of one, before or here; a failure in the
+    /// last messages is held back until the next agreement.
     int run(std::optional<TreeSearch>& search, Participant& self);
 
-    /// Imbalance of all parts after a spread search; the same on every rank.
+    /// Returns the imbalance of all parts after a spread search; the same on every rank.
     double imbalance() const { return butterfly_.flags()[2]; }
 
     int rank() const { return butterfly_.rank(); }
@@ -58,7 +58,7 @@ struct Estimate {
     Box box{};                ///< of all points, if cuts are limited
 };
 
-/// Returns the points by cells, for a search. May throw. Made of a std::ref, it takes no memory.
+/// Returns the points by cells, for a search. May throw. Made of a std::ref, it does not allocate.
 using Bin = std::function<const BinnedPoints&()>;
 
 /// Refined cuts and their measured imbalance; the same on every rank. After a central refinement
@@ -70,7 +70,7 @@ struct Refined {
     int coincident_cuts = 0;  ///< cuts that keep points together although the target divides them
 };
 
-/// Moves estimated cuts until all parts are as even as asked, as rank 0 decides.
+/// Moves estimated cuts until all parts are as even as requested; rank 0 decides.
 ///
 /// To a tolerance, all cuts are first corrected at once, see Correction. If that is not enough,
 /// they are searched, see TreeSearch. Buffers are made before the first message.
@@ -85,8 +85,8 @@ class Refinement {
     /// Collective. Writes the part of each point into `parts`; a search works on a sorted copy of
     /// the points. A tolerance can be missed because upper levels used slack that lower ones need.
     /// Then it searches once more, exactly, and keeps the better cuts. Limited cuts are all
-    /// searched in their places, and the estimate is kept if it is better. Without any weight the
-    /// cuts stay. A failure on one rank, before or here, is thrown on all.
+    /// searched in their places, and the estimate is kept if it is better. Without weight the cuts
+    /// are kept. A failure on one rank, before or here, is thrown on all.
     Refined refine(Estimate&& estimate, const Points& points, const Bin& bin, std::span<Part> parts,
                    Participant& self);
 
@@ -110,8 +110,8 @@ class Refinement {
     Refined refined_;
 };
 
-/// Makes the parts below regions by the decisions of the nodes' owners, with buffers made before
-/// the first message.
+/// Makes the parts below regions. The owners of nodes decide. Buffers are made before the first
+/// message.
 class RegionRefinement {
   public:
     /// Not collective. Throws Error or std::bad_alloc.
@@ -122,8 +122,8 @@ class RegionRefinement {
     ///
     /// Collective. `regions` and `tree` are the same on every rank. If a tolerance is missed, it
     /// searches once more, exactly and without the regions, and keeps the better cuts. Throws on
-    /// every rank the failure of one, before or here; but a failure in the last messages stays with
-    /// its rank for the next agreement.
+    /// every rank the failure of one, before or here; a failure in the last messages is held back
+    /// until the next agreement.
     Refined refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
                    std::span<Part> parts, Participant& self);
 

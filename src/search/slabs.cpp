@@ -17,7 +17,7 @@ std::size_t counts_below(const Descent& at) {
     return at.is_part() ? 0 : counts_of(at) + counts_below(at.lower()) + counts_below(at.upper());
 }
 
-/// Lays slabs from the root of the tree on.
+/// Lays slabs from the root of the tree down.
 class Layer {
   public:
     Layer(const TargetRule& rule, const Cuts& cuts, std::span<const Bracket> brackets,
@@ -28,7 +28,7 @@ class Layer {
           part_weights_(part_weights),
           slabs_(slabs) {}
 
-    /// `gain` is the weight that cuts above may bring into the node or take out of it.
+    /// `gain` is the weight that cuts above may move into the node or out of it.
     void lay(const Descent& at, int depth, double gain) {
         if (at.is_part()) return;
         const Cut& cut = cuts_.tree[at.node];

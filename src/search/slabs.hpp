@@ -15,7 +15,7 @@
 namespace rrcb {
 
 /// Range across the axis of a cut in which the cut is corrected: lower <= cut <= upper. A single
-/// value if the cut stays.
+/// value if the cut is kept.
 struct Slab {
     static constexpr std::size_t stays = ~std::size_t{0};
 
@@ -33,21 +33,20 @@ struct SlabTotals {
     std::size_t counts = 0;  ///< in bins of their slabs
 };
 
-/// Returns the most that slabs of all cuts at or below a node need.
+/// Returns upper bounds for slabs of all cuts at or below a node.
 SlabTotals most_slabs(const Descent& top);
 
 /// Lays slabs of all cuts, into `slabs` (length of the tree), by the counted weights of the parts
 /// and the weight that brackets expect about the cuts.
 ///
-/// A slab reaches three times as far as its cut is off, plus the weight that cuts above may bring
-/// along. No cut moves if the slabs would hold half the weight: a search is better then. Allocates
-/// no memory.
+/// A slab holds three times the missing weight of its cut, plus the weight that cuts above may move
+/// into it. No cut moves if the slabs would hold half of all weight: a search is better then. Does
+/// not allocate.
 SlabTotals lay_slabs(const TargetRule& rule, const Cuts& cuts, std::span<const Bracket> brackets,
                      std::span<const double> part_weights, std::span<Slab> slabs);
 
-/// Bins on either side of a cut in its slab, numbered from the end of the slab on. They get
-/// narrower towards the cut, two for each halving of the distance, because the distance the cut has
-/// to move is unknown.
+/// Bins on either side of a cut in its slab, numbered from the end of the slab. They get narrower
+/// towards the cut, two for each halving of the distance: how far the cut has to move is unknown.
 inline constexpr int bins_a_side = 16;
 
 /// Returns the bin of a position across the axis, in the slab, on this side of the cut.
@@ -62,7 +61,7 @@ inline int bin_of(const Slab& slab, double cut, bool above, double position) {
     return std::clamp(outermost - number, 0, bins_a_side - 1);
 }
 
-/// Returns the place of a cut that leaves this share of a bin (0 ... 1, from the cut on) behind it.
+/// Returns the place of a cut that has passed this share (0 ... 1) of a bin.
 double place_in_bin(const Slab& slab, double cut, bool above, int bin, double share);
 
 /// Returns the counts in a bin, one for each part of the node of its cut. For parts on the side of

@@ -19,8 +19,8 @@ double smallest_weight(std::span<const double> sizes, const TargetRule& rule) {
     return smallest;
 }
 
-/// Returns the tolerance with which the smallest of the parts still holds whole points, if all of
-/// them weigh the same: if 16.16 points are allowed it holds at most 16.
+/// Returns the tolerance that the smallest part can use. It holds whole points if all weigh the
+/// same: at most 16 if 16.16 are allowed.
 double attainable_tolerance(std::span<const double> sizes, const TargetRule& rule) {
     if (rule.common_weight == 0) return rule.tolerance;
     const double smallest = smallest_weight(sizes, rule);
@@ -69,8 +69,8 @@ double TargetRule::most_weight(const Descent& at) const {
     return weight_per_size * sum_of(sizes) * (1 + excess);
 }
 
-/// Returns the end of the allowed weights below a cut that is nearest to the present weight, less a
-/// margin for the search to end in.
+/// Returns the allowed weight below a cut that is nearest to the present weight, with a margin in
+/// which the search may end.
 CutTarget TargetRule::nearest_target(const Descent& at, double weight, double below) const {
     constexpr double share_of_gap = 16;
     const double most = std::min(most_weight(at.lower()), weight);
@@ -98,15 +98,14 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     CutTarget target;
     target.share = share_below(at);
     target.target = target.share * weight;
-    // The point on the target goes to one of the sides.
+    // The point that holds the target goes to one of the sides.
     const double of_both = 2 * target.share * (1 - target.share);
     target.slack = of_both * common_weight;
-    // Slightly less: an odd point goes above the cut, wherever the search began.
+    // Slightly less: an odd point then always goes above the cut.
     if (is_exact) target.target = std::max(0.0, target.target - std::ldexp(common_weight, -12));
     if (is_exact || !(weight > 0)) return target;
     if (is_earlier && below >= 0) return nearest_target(at, weight, below);
-    // A part may be too heavy by the tolerance in all. The rest of the tolerance at this node is
-    // shared evenly with the levels below, as factors.
+    // The tolerance left at this node is divided evenly, as factors, among its levels.
     const double ideal = weight_per_size * sum_of(sizes);
     const int levels = num_levels(at.shape, at.num_parts);
     const double growth =

@@ -28,7 +28,7 @@ struct TargetRule {
         return part_sizes.subspan(at.first_part, at.num_parts);
     }
 
-    /// Share of a node's weight that belongs below its cut.
+    /// Returns the share of a node's weight that belongs below its cut.
     double share_below(const Descent& at) const;
 
     /// Returns whether the parts of a node weigh no more than the tolerance allows. `part_weights`
@@ -39,8 +39,8 @@ struct TargetRule {
     /// so that weights in bins determine the cuts.
     bool are_points_light() const;
 
-    /// Returns whether a cut may stay: each side either is within the tolerance or weighs so little
-    /// that cuts below can bring it there.
+    /// Returns whether a cut may be kept: each side is within the tolerance, or weighs so little
+    /// that the cuts below can meet it.
     bool may_stay(const Descent& at, std::span<const double> part_weights) const;
 
     /// Returns the target of a node's cut, from the counted weight of the node, and the weight

@@ -14,7 +14,7 @@ namespace rrcb {
 
 namespace {
 
-/// Box of the points in a histogram.
+/// Returns the box of the points in a histogram.
 Box box_in(std::span<const double> histogram) {
     Box box;
     for (std::size_t a = 0; a < max_dimension; ++a) {
@@ -32,7 +32,7 @@ void append(const Value& value, std::vector<double>& doubles) {
     std::memcpy(&doubles[size], &value, sizeof value);
 }
 
-/// Ranks and their weights, in the order of the ranks.
+/// Returns ranks and their weights, by rank.
 std::vector<std::pair<double, double>> weights_in(std::span<const double> payload) {
     std::vector<std::pair<double, double>> weights;
     for (std::size_t k = 1; k < payload.size(); k += 2)
@@ -126,7 +126,7 @@ CutTarget TreeSearch::target_of(const Node& node, double weight) const {
         return target;
     }
     TargetRule rule = tree_.rule;
-    // For equal parts an exact cut asks only for the number of parts on each side.
+    // For equal parts an exact cut needs only the number of parts on each side.
     const int below = at.lower_parts();
     const std::array<double, 2> sides{1.0 * below, 1.0 * (at.num_parts - below)};
     const bool by_sides = tree_.part_sizes.empty() && rule.is_exact;

@@ -13,7 +13,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the value that doubles begin with.
+/// Returns the value at the beginning of doubles.
 template <class Value>
 Value read(std::span<const double> doubles) {
     Value value;
@@ -63,7 +63,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     }
 }
 
-/// Appends the gap of this rank's points around the cut of a node, which is known.
+/// Appends the gap of this rank's points around the known cut of a node.
 void TreeSearch::find_gap(const Node& node, std::vector<double>& payload) {
     const Cut& cut = node.search.cut;
     const auto& fragments = node.content.fragments;
@@ -80,8 +80,7 @@ void TreeSearch::join(std::span<const double> a, std::span<const double> b,
     const bool adds = !a.empty() && !b.empty() && a.size() == b.size() &&
                       (a[0] == mark_of_histogram || a[0] == mark_of_parts || a[0] == mark_of_gap);
     joined.insert(joined.end(), a.begin(), a.end());
-    // Records that do not fit together follow from a failure, which all ranks learn of after the
-    // pass.
+    // Records differ only because of a failure, which all ranks learn of after the pass.
     if (!is_alike) return;
     const auto sum = std::span(joined).last(adds ? a.size() - 1 : 0);
     if (!adds) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Box of the entries of a fragment.
+/// Returns the box of the entries of a fragment.
 Box box_of(const Fragment& fragment, const SortedPoints& points) {
     Box box = fragment.box;
     const int d = points.dimension();
@@ -148,8 +148,8 @@ bool TreeSearch::ends_at(const Descent& at, Content& content) {
     return ends;
 }
 
-/// Returns the cut of a node that needs no counting. Nothing goes to a side of size 0. Without
-/// weight all goes below, unless a guide's cut stays.
+/// Returns the cut of a node that needs no counting. A side of size 0 gets nothing. Without weight
+/// all goes below, unless a guide's cut is kept.
 Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double share) {
     if (!is_central())
         return plane(tree_.cut_axes.empty() ? 0 : tree_.cut_axes[at.node],
@@ -197,7 +197,6 @@ void TreeSearch::divide(const Descent& at, const Content& content, const Cut& cu
     enter(at.upper(), side(std::move(upper), box_above(content.box, cut), above));
 }
 
-/// Notes the cut of a node.
 void TreeSearch::note(std::size_t node, const Cut& cut) {
     if (is_central()) {
         guide_->cuts.tree[node] = cut;
@@ -233,7 +232,6 @@ TreeSearch::Halves TreeSearch::split_tightly(const std::vector<Fragment>& fragme
     return halves;
 }
 
-/// Splits fragments by the parts of their points.
 TreeSearch::Halves TreeSearch::split_by_parts(const std::vector<Fragment>& fragments,
                                               Part first_above) {
     Halves halves = rrcb::split_by_parts(fragments, first_above, parts_, points_);
@@ -269,7 +267,7 @@ void TreeSearch::end_at_part(const Descent& at, const Content& content) {
     }
 }
 
-/// Share of the weight that a part should have.
+/// Returns the share of the weight that a part should have.
 double TreeSearch::ideal_share(const Descent& at) const {
     return (tree_.part_sizes.empty() ? 1.0 : sizes_of(at)[0]) / all_sizes_;
 }

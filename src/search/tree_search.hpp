@@ -20,7 +20,7 @@
 
 namespace rrcb {
 
-/// Number of a node or a part, in preorder.
+/// Returns the number of a node or a part, in preorder.
 inline Key key_of(const Descent& at) {
     constexpr Key shift = 32;
     return (static_cast<Key>(at.first_part) << shift) + std::numeric_limits<std::uint32_t>::max() -
@@ -40,16 +40,15 @@ struct PartTree {
     TargetRule rule{};            ///< of a spread search without the sizes and the weight per size
     double share_of_longest = 1;  ///< see longest_axis()
     bool plain_cuts = false;
-    bool centres_cuts = false;  ///< moves cuts to the middle between points, whatever ranks hold
-                                ///< these
-    bool divides_coincident = false;                 ///< divides coincident points, see Coincident
+    bool centres_cuts = false;        ///< moves cuts to the middle between points of all ranks
+    bool divides_coincident = false;  ///< divides coincident points, see Coincident
     std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
 
     /// Returns the first rank that holds the first part of a node.
     int first_rank_of(const Descent& at) const;
 };
 
-/// Regions that a tree begins with, their number a power of two; the same on every rank.
+/// Regions at the top of a tree, their number a power of two; the same on every rank.
 struct Regions {
     Cuts cuts{};                        ///< between them
     std::span<const double> weights{};  ///< over all ranks
@@ -59,7 +58,7 @@ struct Regions {
 
 /// Cuts to start from; the same on every rank.
 struct Guide {
-    Cuts& cuts;  ///< whose axes stay; the search moves the cuts
+    Cuts& cuts;  ///< the search moves them, but keeps their axes
     std::span<const Bracket> brackets;
     CutLimits* limits;  ///< null if cuts are not limited
     PartSums& sums;     ///< of the parts that the cuts make, if they were counted; moved as well
@@ -79,8 +78,8 @@ struct Guide {
 /// 1.2 kB a node. Owners also hold gathered positions and weights.
 ///
 /// Central: rank 0 owns all nodes, in which all ranks take part. Cuts start from a Guide, which
-/// fixes their axes, and may be limited. A cut that is good enough as counted stays, with all cuts
-/// below; if an earlier cut moves, the parts below are counted once more.
+/// fixes their axes, and may be limited. If the counted parts of a node are good enough, its cuts
+/// are kept. If an earlier cut moves, the parts below are counted once more.
 class TreeSearch {
   public:
     /// Starts a spread search below the regions; `parts` and the spans of `tree` are borrowed. If a
@@ -113,8 +112,8 @@ class TreeSearch {
     static void join(std::span<const double> a, std::span<const double> b,
                      std::vector<double>& joined);
 
-    /// The cuts that this rank knows after a spread search, with their numbers, which may be all.
-    /// Throws std::bad_alloc.
+    /// Returns the cuts, possibly all, that this rank knows after a spread search, with their
+    /// numbers. Throws std::bad_alloc.
     Cuts cuts() const;
 
     /// Returns the imbalance of the parts that this rank owns, in a spread search; 0 if these are
@@ -125,11 +124,10 @@ class TreeSearch {
     /// search, those that this rank owns in a spread one.
     int num_coincident() const { return num_coincident_; }
 
-    /// Writes the parts of the points in cells that the search has left out. To be called when it
-    /// is over.
+    /// Writes the parts of the points in cells that the search has left out. Call it at the end.
     void write_rest();
 
-    /// The points, for another search; this one is over. They are in the order of their cells.
+    /// Returns the points, by cells, for another search; ends this one.
     SortedPoints take_points() { return std::move(points_); }
 
   private:
@@ -144,7 +142,7 @@ class TreeSearch {
     /// Question of a round about a node.
     enum class Question {
         cut,    ///< the place of the cut, or the weight of a part
-        lot,    ///< the weight of each rank at the cut, which is known
+        lot,    ///< the weight of each rank at the known cut
         parts,  ///< the weights of the parts below by the current cuts
     };
 
@@ -153,7 +151,7 @@ class TreeSearch {
         std::vector<Fragment> fragments;
         Box box;                 ///< spread: holds its points on all ranks; central: see CutLimits
         double weight = 0;       ///< over all ranks
-        bool is_counted = true;  ///< false if the weight is off by a part of a point's
+        bool is_counted = true;  ///< false if the weight is wrong by up to a point
         bool are_parts_counted = false;  ///< the guide's sums hold its parts' weights
         int depth = 0;                   ///< number of cuts above
     };
@@ -178,7 +176,7 @@ class TreeSearch {
         Cut cut;
     };
 
-    /// Answer of an owner. It is followed by the weights of the parts below, the sample for
+    /// Answer of an owner, followed by the weights of the parts below, the sample for
     /// splitters, a LotAnswer, or the box of a node that was first counted in a spread search.
     struct Answer {
         CutSearch search;
@@ -235,8 +233,8 @@ class TreeSearch {
     const Guide* guide_ = nullptr;  ///< of a central search
     int rank_;
     int dimension_;
-    Part first_own_ = 0;        ///< of the parts that this rank holds ...
-    Part end_own_ = 0;          ///< ... the first, and the one behind the last
+    Part first_own_ = 0;        ///< first of the parts that this rank holds
+    Part end_own_ = 0;          ///< the one behind the last
     double all_sizes_ = 0;      ///< sum of the sizes of all parts
     std::vector<double> ones_;  ///< sizes of the parts of a region, see sizes_of()
     HistogramLayout layout_;

@@ -80,7 +80,7 @@ class Selection {
         return is_inside != 0;
     }
 
-    /// Without branches but at the end, as the points come in any order.
+    /// Without branches in the loop, because the points come in any order.
     void take(LocalIndex first, LocalIndex last) {
         std::array<LocalIndex, block_length> undecided;
         std::size_t num_undecided = 0;
@@ -117,7 +117,7 @@ class Selection {
     UndecidedPoints& selected_;
 };
 
-/// A cut on the way to a part, which moves.
+/// A moving cut on the way to a part.
 struct Step {
     Descent at;
     bool above;
@@ -137,7 +137,7 @@ void add_ways(const Cuts& cuts, std::span<const Slab> slabs, const Descent& at,
     if (moves) way.pop_back();
 }
 
-/// The moving cuts on the way to each part.
+/// Returns the moving cuts on the way to each part.
 std::vector<std::vector<Step>> ways_to_parts(const Cuts& cuts, std::span<const Slab> slabs) {
     std::vector<Step> way;
     std::vector<std::vector<Step>> ways;

@@ -9,7 +9,7 @@
 
 namespace rrcb {
 
-/// Copies of one rank's points in slabs, whose parts are open while the cuts move there.
+/// Copies of one rank's points in slabs, whose parts may change while the cuts move there.
 struct UndecidedPoints {
     int dimension = 0;
     std::vector<double> coordinates;      ///< interleaved

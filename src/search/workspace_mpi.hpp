@@ -11,7 +11,7 @@ namespace rrcb {
 
 /// Memory for each point that the calls on a communicator reuse.
 ///
-/// A step may move an entry out; if it does not put it back, the memory is freed.
+/// A step may move an entry out. If it does not put the entry back, the memory is freed.
 struct Workspace {
     SortedPoints sorted{};  ///< of searches: 8 bytes a point for each coordinate, 8, 8 weighted
     UndecidedPoints undecided{};  ///< of corrections: some of the points

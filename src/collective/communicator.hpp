@@ -12,10 +12,10 @@ namespace rrcb::mpi {
 /// Kind of a message between two ranks, on the duplicate of a communicator.
 ///
 /// Ranks may run ahead into the next call, so a tag distinguishes kinds. Within a kind, a call
-/// receives every message sent to it by the rank of the sender, and MPI keeps these in order. Only
-/// an Exchange receives from any rank. A butterfly announces its records, which no rank leaves
-/// before all have entered it. So no rank sends in an Exchange before all have entered it, and all
-/// have received the messages of the one before.
+/// receives every message sent to it and names the sender, so that MPI keeps the order. Only an
+/// Exchange receives from any rank. A butterfly announces its records, and no rank leaves the
+/// butterfly before all have entered it. So no rank sends in an Exchange before all have entered
+/// it, and have received all messages of the one before.
 enum Tag : int { contribution_tag = 1, points_tag, exchange_tag, stream_tag, butterfly_tag };
 
 /// Throws Error with the text of an MPI error code that is not MPI_SUCCESS.

@@ -12,8 +12,8 @@
 
 namespace rrcb {
 
-/// Reuse of earlier cuts, distributed or complete. Memory is in proportion to the
-/// parts of a rank's points, and the cuts above them.
+/// Reuse of earlier cuts, distributed or complete. Memory is in proportion to the parts of a rank's
+/// points, and the cuts above them.
 class SpreadReuse {
   public:
     /// Assigns the points, whose `parts` it writes. `options`, `points` and `parts` outlive it. Not

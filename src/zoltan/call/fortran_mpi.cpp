@@ -17,7 +17,8 @@ std::atomic<bool> registered = false;
 /// Kinds of arrays, as Zoltan_Special_Malloc numbers them.
 enum class Kind : int { integers, global_ids, local_ids };
 
-/// Arrays of one list in the caller's variables. The destructor frees them unless they are to stay.
+/// Arrays of one list in the caller's variables. The destructor frees them unless stay() was
+/// called.
 class FortranList {
   public:
     FortranList(Zoltan_Struct* zz, const CallerList& to) : zz_(zz), to_(to) {}

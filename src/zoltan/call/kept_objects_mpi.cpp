@@ -53,7 +53,7 @@ Placed find_placed(const Objects& objects, const LastPartition& last, const Kept
     const int* named = objects.initial_parts;
     parts.assign(count, rank);
     if (named != nullptr) std::copy_n(named, count, parts.begin());
-    // Cuts that this rank does not know, or that divide coincident objects, put none elsewhere.
+    // Only complete cuts that divide no coincident objects show that one is elsewhere.
     const bool ask_cuts = is_whole(last.cuts()) && kept.report.details.coincident_cuts == 0 &&
                           last.cuts().dimension == objects.points.dimension;
     for (std::size_t i = 0; i < count; ++i) {

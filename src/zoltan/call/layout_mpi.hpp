@@ -17,8 +17,9 @@ struct Layout {
 
 /// Returns the layout that the ranks ask for together.
 ///
-/// Collective only if NUM_LOCAL_PARTS or part sizes are set on any rank. Throws ZoltanError on all
-/// ranks alike for numbers of parts that do not add up. `self` holds other errors back.
+/// Collective only if NUM_LOCAL_PARTS or part sizes are set on any rank. Throws the same
+/// ZoltanError on all ranks for numbers of parts that do not add up. `self` holds other errors
+/// back.
 Layout make_layout(const Outcome& outcome, const State& state, Participant& self);
 
 }  // namespace rrcb::zoltan

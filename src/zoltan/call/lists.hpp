@@ -34,13 +34,13 @@ struct CallerLists {
 /// object is in the part of its rank's number, as in Zoltan.
 class Moves {
   public:
-    /// Finds them if `objects` has room for their indices. Borrows all. Never throws.
+    /// Finds these objects if `objects` has room for their indices. Borrows all. Never throws.
     Moves(Objects& objects, std::span<const Part> parts, const PartMap& map, int my_rank);
 
     int count() const { return count_; }
 
-    /// Writes them to `list`, which has room for them, in their order. It may hold the ids of all
-    /// objects. Never throws.
+    /// Writes these objects, in order, to `list`, which has room for them and may hold the ids of
+    /// all objects. Never throws.
     void write(const IdWidths& widths, List& list) const;
 
     /// Lists all objects with their new ranks and parts, in the room that holds the ids.

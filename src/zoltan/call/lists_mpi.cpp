@@ -10,7 +10,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Objects on their way: words of a global id, of a local id, and a part. Copies, so that the
+/// Objects as sent: words of a global id, of a local id, and a part. Copies, so that the
 /// compiler knows that writes do not change them.
 template <class Widths>
 struct Records {

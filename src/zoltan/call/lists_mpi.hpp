@@ -7,7 +7,7 @@ namespace rrcb::zoltan {
 
 /// Makes the lists that RETURN_LISTS asks for, without imports if no object of any rank `changes`
 /// its rank or part. Imports answer the export lists of all ranks, by rank, in the order of that
-/// rank's list. They travel in `memory`, which grows.
+/// rank's list. Messages use `memory`, which grows.
 ///
 /// Collective over `self.comm` if imports are asked for, as Exchange is, with a reduction. Throws
 /// Error on all ranks if one has no memory, on one alone if its message fails.

@@ -36,7 +36,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Returns the numbers of all boxes, of which each rank knows those of its own at least.
+/// Returns the numbers of all boxes; each rank knows at least those of its own.
 /// Collective: two reductions, one of them with an entry for each part; throws Error on all ranks
 /// alike.
 Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Participant& self) {
@@ -189,8 +189,8 @@ void serve_fortran(const Call& call, Partition& result, Participant& self) {
     result.with_caller = true;
 }
 
-/// Returns whether each part has a rank of its own, and all objects of this rank are in its part.
-/// Objects whose parts no callback names are. Not collective.
+/// Returns whether each part has a rank of its own, and all objects of this rank are in its part,
+/// as they are if no callback names parts. Not collective.
 bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
     if (!map.one_each) return false;
     const int* named = objects.initial_parts;
@@ -278,7 +278,7 @@ int refuse_difference(const Call& call, const Objects& objects, Partition& resul
     return fail(call, objects, {ZOLTAN_FATAL, text.data()}, result);
 }
 
-/// Leaves a call to the real Zoltan. The cuts of an earlier call are of no use afterwards.
+/// Leaves a call to the real Zoltan. Earlier cuts are useless afterwards.
 int leave_to_zoltan(const Call& call, Partition& result) {
     print_forwarding(call.state, call.function);
     call.state.last.reset();

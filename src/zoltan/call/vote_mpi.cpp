@@ -45,8 +45,8 @@ void for_each_shared(const Parameters& parameters, Visit&& visit) {
             visit(option.parameter, number_of(bits_of(option, parameters.options)));
 }
 
-/// Numbers of one rank in the vote, reduced by maximum. A minimum travels as the maximum of the
-/// complement.
+/// Numbers of one rank in the vote, reduced by maximum. A minimum is sent as the maximum of
+/// the complement.
 struct Ballot {
     int severity = 0;
     int failing_rank_from_last = 0;  ///< ranks - lowest failing rank

@@ -26,7 +26,7 @@ struct LocalStatus {
 /// The result of a vote, the same on every rank.
 struct Outcome {
     int code = ZOLTAN_OK;          ///< the worst of all ranks
-    int failing_rank = 0;          ///< lowest rank that failed; it speaks for all
+    int failing_rank = 0;          ///< lowest rank that failed; prints the error
     int num_global_parts = -1;     ///< largest of all ranks, -1: set on no rank
     bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set on some rank
     bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called on some rank

@@ -59,10 +59,10 @@ struct DumpedRank {
 /// Makes the first folder of DIR/call-1, DIR/call-2, ... that does not exist. Throws if it cannot.
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent);
 
-/// Writes call.txt. Throws when it cannot.
+/// Writes call.txt. Throws if it cannot.
 void write_dump(const std::filesystem::path& folder, const DumpedCall& call);
 
-/// Writes rank-N.txt. Throws when it cannot.
+/// Writes rank-N.txt. Throws if it cannot.
 void write_dump(const std::filesystem::path& folder, const DumpedRank& mine);
 
 }  // namespace rrcb::zoltan

@@ -36,7 +36,7 @@ void write_mine(const std::filesystem::path& folder, const State& state, const D
                                   state.part_sizes, input.message});
 }
 
-/// Runs a step whose failure the call must not notice.
+/// Runs a step whose failure must not affect the call.
 template <typename Step>
 void warn_once_if_failing(const State& state, const char* function, Step step) {
     static std::atomic<bool> warned = false;

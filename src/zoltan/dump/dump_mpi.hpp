@@ -4,10 +4,10 @@
 
 namespace rrcb::zoltan {
 
-/// Why the inputs of a call are written.
+/// Reason to write the inputs of a call.
 enum class DumpReason { asked, failure };
 
-/// Dump that the ranks ask for together.
+/// Dumps that all ranks together ask for.
 struct DumpWish {
     int rank = -1;        ///< lowest rank with RRCB_DUMP, -1: none
     bool always = false;  ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
@@ -24,7 +24,7 @@ struct DumpInput {
 
 /// Writes the inputs of a call if RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it now.
 ///
-/// Collective then, nothing at all otherwise. The lowest rank with a folder chooses it for all. A
+/// Collective in that case, else does nothing. The lowest rank with a folder chooses it for all. A
 /// failure to write is warned about once, and never fails the call.
 void dump(DumpReason reason, const DumpWish& wish, const State& state,
           const DumpInput& input) noexcept;

@@ -24,7 +24,7 @@ int switch_to_rrcb(State& state, SwitchZoltan switch_zoltan) {
             "a handle filled by Zoltan_Deserialize cannot be switched to RRCB; create "
             "one with Zoltan_Create");
     }
-    // Zoltan frees its cuts even when its method stays.
+    // Zoltan frees its cuts even if its method does not change.
     const int code = state.parameters.rrcb ? ZOLTAN_OK : switch_zoltan();
     if (code == ZOLTAN_OK) state.parameters.rrcb = true;
     return code;

@@ -23,8 +23,8 @@ int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& val
     return Zoltan_Set_Param_Vec(zz, name.substr(0, bracket).c_str(), value.c_str(), index);
 }
 
-/// Gives the real Zoltan its parameters, part sizes and cuts. Its parameters come through the
-/// plug-in once more, which therefore keeps its own aside.
+/// Gives the real Zoltan its parameters, part sizes and cuts. These parameters pass through
+/// the plug-in again, which therefore keeps its own aside.
 int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     Parameters parameters = state.parameters;
     parameters.rrcb = true;

@@ -72,14 +72,14 @@ bool is_congruent(const Communicator& one, const Communicator& other) {
     return result == MPI_CONGRUENT;
 }
 
-/// Belongings of a new handle, made before the ranks agree that all of them have it.
+/// Resources of a new handle, made before the ranks agree that all have them.
 struct Draft {
     MPI_Comm duplicate = MPI_COMM_NULL;  ///< until the state has it
     State state;                         ///< until the table has it
     bool asks_for_replacement = false;
 };
 
-/// Makes them. All ranks duplicate the communicator, even if one of them fails. Returns false if
+/// Makes a draft. All ranks duplicate the communicator, even if one of them fails. Returns false if
 /// some ranks take no part.
 bool make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, RollCall& roll_call,
           Participant& self) {
@@ -101,7 +101,7 @@ bool make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, RollCall& roll_c
     return true;
 }
 
-/// Frees the communicator together with the other ranks.
+/// Frees the communicator. Collective.
 void discard(Draft& draft, const Zoltan_Struct* zz) {
     remove_state(zz);
     draft.state.communicator.reset();
@@ -142,7 +142,7 @@ bool create_state(const Zoltan_Struct* zz, MPI_Comm user) {
 void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
     const State* source = find_state(from);
     if (source == nullptr || to == from) return;
-    // Zoltan_Copy makes the new handle with Zoltan_Create, which has come through here if Zoltan is
+    // Zoltan_Copy makes the new handle with Zoltan_Create, which passes through here if Zoltan is
     // a shared library.
     State* copy = find_state(to);
     const bool fits = copy != nullptr && is_congruent(*copy->communicator, *source->communicator);

@@ -11,12 +11,12 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Ranks of ascending parts, ascending.
+/// Writes the ranks of ascending parts, ascending; returns their number.
 int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks) {
     int count = 0;
     for (int i = 0; i < num_parts; ++i) {
         const RankRange range = map.ranks_of(parts[i]);
-        // The ranks of ascending parts ascend: only the last one can come twice.
+        // The ranks of ascending parts ascend: only the last one can occur twice.
         const int next = count == 0 ? 0 : ranks[count - 1] + 1;
         for (int r = std::max(range.first_rank, next); r < range.first_rank + range.count; ++r) {
             ranks[count++] = r;

@@ -10,8 +10,8 @@ namespace rrcb::zoltan {
 /// collective.
 const LastPartition& last_of(const State& state);
 
-/// Part and lowest rank of a position; `coordinates` has one entry per dimension. Not collective.
-/// All look-ups throw ZoltanError if no cuts were kept.
+/// Part and lowest rank of a position. Look-ups are not collective, take one coordinate per
+/// dimension, and throw ZoltanError if no cuts were kept.
 struct Place {
     int rank = -1;
     int part = -1;

@@ -7,7 +7,7 @@
 
 namespace rrcb::zoltan {
 
-/// Numbers of parts by REMAP, besides those of the boxes that the cuts make.
+/// Numbers by REMAP of the boxes, which are the parts as the cuts number them.
 class Numbering {
   public:
     /// A part has the number of its box.
@@ -33,7 +33,7 @@ class Numbering {
     /// Returns the box of a part, if all are known.
     Part box_of(Part number) const { return is_unchanged() ? number : boxes_[number]; }
 
-    /// Numbers of all boxes, or of the known ones.
+    /// Returns the numbers of all boxes, or of the known ones.
     const std::vector<Part>& numbers() const { return numbers_; }
 
   private:

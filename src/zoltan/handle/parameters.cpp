@@ -29,7 +29,7 @@ const ParameterRow* find_row(std::string_view name) {
     return row == std::end(parameter_table) ? nullptr : row;
 }
 
-/// Notes a tolerance whose text Zoltan has accepted, of which it reads a number at the start.
+/// Notes a tolerance whose text Zoltan has accepted. Zoltan reads the number at its beginning.
 ///
 /// Zoltan allows one tolerance per weight, as "[k]" behind the name. RRCB balances one weight.
 void note_tolerance(Options& options, std::string_view text) {

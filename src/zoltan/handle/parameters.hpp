@@ -18,7 +18,7 @@
 
 namespace rrcb::zoltan {
 
-/// Which lists a partitioning call returns (RETURN_LISTS).
+/// Lists that a partitioning call returns (RETURN_LISTS).
 enum class ReturnLists { none, imports, exports, all, parts, candidates };
 
 /// NUM_GLOBAL_PARTS if it is set to its default or to no legal number.
@@ -82,7 +82,7 @@ bool read_integer(int& value, std::string_view text) {
     return read_integer(value, text, least);
 }
 
-/// Number by which ranks compare a value: equal ones for equal values.
+/// Returns a number by which ranks compare values: equal ones for equal values.
 constexpr int number_of(std::uint64_t value) {
     return static_cast<int>(static_cast<std::uint32_t>(value ^ (value >> 32)));
 }
@@ -101,7 +101,7 @@ constexpr int number_of(std::optional<PaperDomain> value) {
     return value ? 1 + static_cast<int>(*value) : 0;
 }
 
-/// Value for DEFAULT and for illegal texts: that of a new handle, except in two cases of Zoltan's.
+/// Returns the value for DEFAULT and illegal texts: that of a new handle, with two exceptions.
 template <class Value>
 Value fallback_of(Value Parameters::*field) {
     return Parameters{}.*field;
@@ -151,7 +151,7 @@ constexpr ParameterRow flag(const char* name) {
 /// Name of the one parameter whose value keeps its case.
 inline constexpr const char* dump_folder_name = "RRCB_DUMP";
 
-/// Every parameter except LB_METHOD and those of Options, the compared ones in the order in which
+/// All parameters except LB_METHOD and those of Options, the compared ones in the order in which
 /// differences are reported.
 inline constexpr ParameterRow parameter_table[] = {
     must_agree<&Parameters::num_gid_entries, read_integer<1>>("NUM_GID_ENTRIES"),
@@ -195,16 +195,16 @@ Setting set_own(Parameters& parameters, std::string_view name, const char* value
 /// Sets IMBALANCE_TOL. Returns false for a value that is no number of at least 1, and leaves it.
 bool set_tolerance(Parameters& parameters, std::string_view value);
 
-/// The names that set_own knows.
+/// Returns the names that set_own accepts.
 std::vector<const char*> own_parameter_names();
 
 /// Notes a parameter that Zoltan itself has accepted, if RRCB needs it. Both are in upper case.
 void note_common(Parameters& parameters, std::string_view name, std::string_view value);
 
-/// Name or value in the form in which Zoltan compares it: in upper case, without leading blanks.
+/// Returns a name or value as Zoltan compares it: in upper case, without leading blanks.
 std::string clean(const char* text);
 
-/// Text without trailing blanks, which belong to no value.
+/// Returns a text without trailing blanks, which belong to no value.
 std::string_view without_trailing_blanks(std::string_view text);
 
 }  // namespace rrcb::zoltan

@@ -19,15 +19,15 @@ struct Parcel {
     std::vector<char> of_zoltan;  ///< buffer of the real Zoltan; empty: it has no cuts
 };
 
-/// The parcel of a handle as bytes, for machines of one byte order; `of_zoltan` as in Parcel. Not
-/// collective.
+/// Returns the parcel of a handle as bytes, for machines of one byte order; `of_zoltan` as in
+/// Parcel. Not collective.
 std::vector<char> serialize(const State& state, const std::vector<char>& of_zoltan);
 
-/// Whether the bytes are those of `serialize`, by their start. Otherwise they are Zoltan's.
+/// Returns true if the bytes begin as those of `serialize`. Otherwise they are Zoltan's.
 bool is_parcel(std::span<const char> bytes);
 
-/// Parcel of the bytes of `serialize`. Ignores further bytes. Throws ZoltanError for a truncated or
-/// changed buffer.
+/// Returns the parcel in the bytes of `serialize`. Ignores further bytes. Throws ZoltanError for a
+/// truncated or changed buffer.
 Parcel deserialize(std::span<const char> bytes);
 
 }  // namespace rrcb::zoltan

@@ -66,7 +66,7 @@ struct State {
     std::optional<KeptObjects> kept;    ///< of the same; none once a parameter was changed
     bool zoltan_has_cuts = false;       ///< of the last partition, which the real Zoltan made
     bool axes_changed = false;          ///< a parameter that chooses axes was changed since
-    bool deserialized = false;          ///< Zoltan's parameters were set behind the plug-in's back
+    bool deserialized = false;          ///< Zoltan's parameters were set without the plug-in
     bool replacement_asked = false;     ///< by RRCB_REPLACE, on any rank of the communicator
     bool is_verbose = false;            ///< by RRCB_VERBOSE, on any rank of the communicator
     bool inside_hier = false;           ///< made by Zoltan, for one of HIER's levels

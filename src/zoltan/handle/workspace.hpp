@@ -11,7 +11,7 @@
 
 namespace rrcb::zoltan {
 
-/// Uninitialised memory that grows and stays, so that repeated calls touch the same pages.
+/// Uninitialised memory that grows and is kept, so that repeated calls touch the same pages.
 template <typename T>
 class Scratch {
   public:

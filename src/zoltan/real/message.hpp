@@ -6,7 +6,7 @@
 
 namespace rrcb::zoltan {
 
-/// An error of one rank, on its way to becoming a Zoltan return code.
+/// An error of one rank, with its Zoltan return code.
 class ZoltanError : public std::runtime_error {
   public:
     ZoltanError(int code, const std::string& text) : std::runtime_error(text), code_(code) {}

@@ -14,7 +14,7 @@ template <typename T>
 class ZoltanArray {
   public:
     ZoltanArray() = default;
-    /// Uninitialised; null when `size` is 0. Throws std::bad_alloc.
+    /// Uninitialised; null if `size` is 0. Throws std::bad_alloc.
     explicit ZoltanArray(std::size_t size) {
         if (size == 0) return;
         data_ = reinterpret_cast<T*>(Zoltan_Malloc(size * sizeof(T), file(), __LINE__));
@@ -38,7 +38,7 @@ class ZoltanArray {
         return std::exchange(data_, nullptr);
     }
 
-    /// Gives back the memory behind the first `size` entries.
+    /// Frees the memory behind the first `size` entries.
     void shrink(std::size_t size) {
         if (size == 0) {
             *this = ZoltanArray();

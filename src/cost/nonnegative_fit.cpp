@@ -55,6 +55,7 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
         const Eigen::Index next = column_to_free(b - a * x, is_free, least);
         if (next < 0) break;
         is_free[next] = true;
+        // x >= 0 throughout: each turn reaches the minimum, or fixes a column at 0 on the way.
         for (;;) {
             const CostVector to = free_minimum(a, b, is_free);
             const double share = allowed_share(x, to, is_free);

@@ -47,6 +47,7 @@ double AxisLimits::line_below(double value) const {
     constexpr double most = std::numeric_limits<double>::max();
     const double last = grid_.spacing < 1 ? most : std::floor(most / grid_.spacing);
     k = std::clamp(k, -last, last);
+    // The quotients are rounded.
     while (line(k) > value) --k;
     while (line(k + 1) <= value) ++k;
     return k;

@@ -116,6 +116,7 @@ bool knows_path(const Cuts& cuts, Part part) {
 
 DeepNode node_at(const Cuts& cuts, std::size_t node) {
     DeepNode deep{root_of(cuts), 0};
+    // The node is at or below `deep.at`.
     for (; deep.at.node != node; ++deep.depth)
         deep.at = node >= deep.at.upper().node ? deep.at.upper() : deep.at.lower();
     return deep;

@@ -84,6 +84,7 @@ void PackedTree::resize(std::int32_t num_nodes) {
 void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::int32_t node,
                      int depth) {
     const Cut* cut = nullptr;
+    // If cuts are pruned, skips those with the whole box on one side.
     while (!at.is_part() && (cut = find_cut(packing.cuts, at.node)) != nullptr) {
         if (!packing.prunes) break;
         const Sides sides = sides_of(box, *cut, dimension_);

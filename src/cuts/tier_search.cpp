@@ -41,6 +41,7 @@ void TierSearch::join_cuts(std::span<const double> a, std::span<const double> b,
 Descent TierSearch::tier_of(std::size_t node) const {
     Descent first = root_of(cuts_);
     Descent at = first;
+    // The node is at or below `at`, and `first` begins the tier of `at`.
     for (int depth = 1; at.node != node; ++depth) {
         at = node >= at.upper().node ? at.upper() : at.lower();
         if (tier_begin(depth) == depth) first = at;

@@ -31,6 +31,7 @@ struct SearchBuffers {
 /// if none asks; otherwise one to share cuts, two for each round of questions, and one to end.
 template <class Search>
 bool search_together(SearchBuffers<Search>& buffers, Participant& self) {
+    // After a pass all ranks know the same flags, and therefore agree on the next messages.
     for (bool is_shared = false;; is_shared = true) {
         bool asks = false;
         self.attempt([&] {

@@ -54,8 +54,8 @@ double most_cells_per_axis(int dimension) {
     return dimension == 1 ? 400 : dimension == 2 ? 42 : 15;
 }
 
-/// Returns a mesh whose cells are one or more cells of the grid that limits the cuts, so that the
-/// weight between the lines is known; nullopt if the numbers do not allow it.
+/// Returns a mesh whose cells are one or more cells of the grid that limits the cuts: the weight
+/// between the lines is then known. Returns nullopt if the numbers do not allow it.
 std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Options& options) {
     SupportMesh mesh = make_support_mesh(box, dimension, 1);
     const auto limits = axis_limits(options);

@@ -13,9 +13,9 @@
 #include <utility>
 
 // The ranks of a group find each other in three exchanges:
-//   keys      to the rank given by their hash, which thus learns all ranks of a key
-//   owners    back to all ranks of a key except the lowest, which owns the group
-//   sums      from these to the owner, which adds them up and notes their ranks
+//   keys      to the rank given by their hash, which thus learns all ranks of a key.
+//   owners    back to all ranks of a key except the lowest, which owns the group.
+//   sums      from these to the owner, which adds them up and notes their ranks.
 
 namespace rrcb {
 
@@ -28,7 +28,7 @@ struct GroupSum {
     Vector place{};
 
     /// Adds a sum. If `moves`, the position becomes the weighted mean, or that of all points as
-    /// long as none has weight; by lerp, so that it stays between the positions without overflow.
+    /// long as none has weight. It stays between both positions and does not overflow.
     void add(const GroupSum& other, bool moves) {
         count += other.count;
         weight += other.weight;

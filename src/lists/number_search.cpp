@@ -215,6 +215,7 @@ void NumberSearch::reset() {
 
 void NumberSearch::add_up(std::span<const double> a, std::span<const double> b,
                           std::vector<double>& joined) {
+    // Both ascend by origin.
     while (!a.empty() || !b.empty()) {
         const bool takes_a = !a.empty() && (b.empty() || a[0] <= b[0]);
         const bool takes_b = !b.empty() && (a.empty() || b[0] <= a[0]);

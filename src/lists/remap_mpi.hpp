@@ -68,11 +68,12 @@ struct NewNumbers {
 /// Renumbers as the public functions do, from checked arguments.
 ///
 /// Each rank gets all numbers, or, unless it wants all, those of the parts of its points and of
-/// those that it searched for; then no array is as long as there are parts or ranks. Ranks without
-/// points may lack `previous`. Collective: one pass to rank 0 and one broadcast. If all ranks
-/// search: one pass, two for each round of offers, up to three more and two reductions; two passes
-/// and a reduction if nothing changes. Throws on all ranks a failure on one, also from before the
-/// call. If all ranks search, a failure in the last pass is reported by the next pass or agreement.
+/// those that it searched for. In that case no array is as long as there are parts or ranks. Ranks
+/// without points may lack `previous`. Collective: one pass to rank 0 and one broadcast. If all
+/// ranks search: one pass, two for each round of offers, up to three more and two reductions; two
+/// passes and a reduction if nothing changes. Throws on all ranks a failure on one, also from
+/// before the call. If all ranks search, a failure in the last pass is reported by the next pass or
+/// agreement.
 NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
                         RemapBuffers& buffers, Participant& self);
 

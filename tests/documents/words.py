@@ -16,10 +16,10 @@ LIMITS = {"where": 2.6, "what": 0.8, "tell|tells|told": 0.5}
 LONGEST = 30
 LONG_SHARE = 0.03
 # Words as `wc -w` counts them. Others may have 250; all but examples/mpm together TOTAL.
-TOTAL = 15800
+TOTAL = 15850
 BUDGETS = {
     "README.md": 820, "CHANGELOG.md": 300, "CONTRIBUTING.md": 480, "comparisons/README.md": 800,
-    "comparisons/columns.md": 950, "docs/choosing.md": 1040, "docs/edge_cases.md": 350,
+    "comparisons/columns.md": 950, "docs/choosing.md": 1080, "docs/edge_cases.md": 350,
     "docs/errors.md": 830, "docs/first_program.md": 380, "docs/hosts.md": 640,
     "docs/install.md": 600, "docs/loop.md": 470, "docs/machines.md": 490,
     "docs/parameters.md": 880, "docs/performance.md": 730, "docs/python.md": 400,

@@ -14,9 +14,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Gap gap_at(const Cut& cut, std::span<const Fragment> fragments, const SortedPoints& points) {
-    Gap gap;
-    gap.fill(-infinity);
+void narrow(const Cut& cut, std::span<const Fragment> fragments, const SortedPoints& points,
+            Gap& gap) {
     const int dimension = points.dimension();
     for (const Fragment& fragment : fragments) {
         const bool is_within =
@@ -33,7 +32,6 @@ Gap gap_at(const Cut& cut, std::span<const Fragment> fragments, const SortedPoin
             }
         }
     }
-    return gap;
 }
 
 void centre(Cut& cut, int num_axes, std::span<const double> gap) {

@@ -14,8 +14,9 @@ namespace rrcb {
 /// before count; without any the entry is -infinity.
 using Gap = std::array<double, 2 * max_dimension>;
 
-/// Returns the gap of the points of the fragments, except those in cells that are left out.
-Gap gap_at(const Cut& cut, std::span<const Fragment> fragments, const SortedPoints& points);
+/// Narrows a gap by the points of the fragments, except those in cells that are left out.
+void narrow(const Cut& cut, std::span<const Fragment> fragments, const SortedPoints& points,
+            Gap& gap);
 
 /// Moves a cut to the middle of its gap; `num_axes` of them may break ties. With points on one side
 /// only it moves next to these.

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace rrcb {
@@ -67,9 +68,12 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
 void TreeSearch::find_gap(const Node& node, std::vector<double>& payload) {
     const Cut& cut = node.search.cut;
     const auto& fragments = node.content.fragments;
-    Gap gap = gap_at(cut, fragments, points_);
+    Gap gap;
+    gap.fill(-std::numeric_limits<double>::infinity());
+    narrow(cut, fragments, points_, gap);
+    // Only cells in this gap can narrow it further, so the second pass is short.
     sort_between(gap[1], -gap[0], cut.axis, node.content);
-    gap = gap_at(cut, fragments, points_);
+    narrow(cut, fragments, points_, gap);
     payload.push_back(mark_of_gap);
     payload.insert(payload.end(), gap.begin(), gap.begin() + 2 * node.search.num_axes);
 }

@@ -44,12 +44,17 @@ if(RRCB_FORTRAN)
           COMPONENT development)
 endif()
 
+# With the archive, a program that is not linked by C++ links these.
+set(RRCB_CXX_LIBRARIES ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+list(FILTER RRCB_CXX_LIBRARIES INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|m)$")
+list(REMOVE_DUPLICATES RRCB_CXX_LIBRARIES)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rrcbConfig.cmake.in rrcbConfig.cmake
                               INSTALL_DESTINATION ${RRCB_CONFIG_DIR})
 write_basic_package_version_file(rrcbConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(
   FILES ${PROJECT_BINARY_DIR}/rrcbConfig.cmake ${PROJECT_BINARY_DIR}/rrcbConfigVersion.cmake
         ${CMAKE_CURRENT_LIST_DIR}/rrcb_trilinos.cmake
+        ${CMAKE_CURRENT_LIST_DIR}/rrcb_without_cxx.cmake
   DESTINATION ${RRCB_CONFIG_DIR}
   COMPONENT development)
 include(${CMAKE_CURRENT_LIST_DIR}/rrcb_pkg_config.cmake)

@@ -1,7 +1,7 @@
 # Files for pkg-config: rrcb.pc, and rrcb_zoltan.pc and rrcb_fortran.pc where there are the plug-in and
 # the module.
-file(RELATIVE_PATH RRCB_PC_PREFIX /${CMAKE_INSTALL_LIBDIR} /)
-string(REGEX REPLACE "/$" "" RRCB_PC_PREFIX "${RRCB_PC_PREFIX}")
+file(RELATIVE_PATH RRCB_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR} ${CMAKE_INSTALL_PREFIX})
+file(RELATIVE_PATH RRCB_PC_INCLUDE ${CMAKE_INSTALL_FULL_LIBDIR} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 
 # Puts a flag before each word of a list, which may be empty; no -l before the path of a library.
 function(rrcb_flags result flag)
@@ -29,13 +29,7 @@ if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
   set(RRCB_PC_RUN_PATH "-Wl,-rpath,\${libdir}")
 endif()
 
-set(private ${MPI_CXX_LIBRARIES})
-foreach(library IN LISTS CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
-  if(library MATCHES "^(stdc\\+\\+|c\\+\\+|m)$")
-    list(APPEND private -l${library})
-  endif()
-endforeach()
-rrcb_flags(RRCB_PC_PRIVATE "" ${private})
+rrcb_flags(RRCB_PC_PRIVATE -l ${MPI_CXX_LIBRARIES} ${RRCB_CXX_LIBRARIES})
 rrcb_flags(RRCB_PC_MPI_FLAGS -I ${MPI_CXX_INCLUDE_DIRS})
 rrcb_install_pc(rrcb development)
 

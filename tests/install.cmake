@@ -72,13 +72,17 @@ if(RRCB_FORTRAN)
       -DRRCB_TESTS=OFF -DRRCB_EXAMPLES=OFF)
   set_tests_properties(install.fortran_is_looked_for_again PROPERTIES LABELS install TIMEOUT 120)
 endif()
-add_test(NAME install.sets_its_own_policies
-         COMMAND ${CMAKE_COMMAND} -D FAILS=TRUE -D "OUTPUT=rrcb is found" -P
-                 ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -S
-                 ${CMAKE_CURRENT_SOURCE_DIR}/install/bare -B ${CMAKE_CURRENT_BINARY_DIR}/bare -G
-                 ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix})
-set_tests_properties(install.sets_its_own_policies PROPERTIES FIXTURES_REQUIRED installed LABELS
-                                                              install TIMEOUT 120)
+# rrcb_add_bare_test(<name> <text> [component...])
+function(rrcb_add_bare_test name text)
+  add_test(NAME install.${name}
+           COMMAND ${CMAKE_COMMAND} -D FAILS=TRUE -D OUTPUT=${text} -P
+                   ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -S
+                   ${CMAKE_CURRENT_SOURCE_DIR}/install/bare -B ${CMAKE_CURRENT_BINARY_DIR}/${name} -G
+                   ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS=${ARGN})
+  set_tests_properties(install.${name} PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 120)
+endfunction()
+rrcb_add_bare_test(sets_its_own_policies "rrcb is found")
+rrcb_add_bare_test(names_missing_components "component fortran needs an rrcb built with" fortran)
 
 find_program(RRCB_PKG_CONFIG pkg-config)
 if(RRCB_PKG_CONFIG)

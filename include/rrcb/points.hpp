@@ -55,14 +55,15 @@ struct Points {
     bool has_floats() const { return float_axes[0].data() != nullptr; }
     /// Returns the coordinate of point `i` along `axis`.
     double coordinate(LocalIndex i, int axis) const {
-        return has_floats() ? float_axes[axis][i * stride] : axes[axis][i * stride];
+        const auto a = static_cast<std::size_t>(axis);
+        return has_floats() ? float_axes[a][i * stride] : axes[a][i * stride];
     }
     /// Returns the weight of point `i`.
     double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
     /// Returns the coordinates of point `i`; 0 beyond the dimension.
     Vector position(LocalIndex i) const {
         Vector x{};
-        for (int a = 0; a < dimension; ++a) x[a] = coordinate(i, a);
+        for (int a = 0; a < dimension; ++a) x[static_cast<std::size_t>(a)] = coordinate(i, a);
         return x;
     }
 };

@@ -21,6 +21,7 @@ VERSIONS = [
     ("packaging/debian/librrcb{1}.install", "usr/lib/*/librrcb.so.*"),
     ("packaging/debian/librrcb-zoltan{1}.install", "usr/lib/*/librrcb_zoltan.so.*"),
     ("packaging/debian/librrcb{1}.symbols", "librrcb.so.{1} librrcb{1} "),
+    ("packaging/debian/librrcb-zoltan{1}.symbols", "librrcb_zoltan.so.{1} librrcb-zoltan{1} "),
     ("python/rrcb/_library.py", 'VERSION = "{1}"'),
     ("packaging/spack/spack_repo/rrcb/packages/rrcb/package.py", '    version("{0}"'),
     ("tests/consumer/CMakeLists.txt", "find_package(rrcb {1} REQUIRED)"),

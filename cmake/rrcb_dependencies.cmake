@@ -25,13 +25,33 @@ function(rrcb_needs option found what)
   set(${option} OFF PARENT_SCOPE)
 endfunction()
 
-# rrcb_requires(<found> <what> <Debian packages that have it...>)
-function(rrcb_requires found what)
+# rrcb_requires(<found> <what> <variable> <its value> <Debian packages that have it...>)
+function(rrcb_requires found what variable value)
   if(NOT ${found})
     list(JOIN ARGN " " packages)
-    message(FATAL_ERROR "RRCB needs ${what}, not found (Debian packages: ${packages})")
+    message(FATAL_ERROR "RRCB needs ${what}, not found: install it (Debian packages: ${packages}), "
+                        "or set ${variable} to ${value}")
   endif()
 endfunction()
+
+# rrcb_find_mpi(<languages and options of find_package>)
+#
+# FindMPI ends in an error that names no fix if there are compilers of MPI but no headers. Debian's
+# python3-mpi4py installs the compilers only.
+macro(rrcb_find_mpi)
+  find_program(RRCB_MPI_WRAPPER NAMES ${MPI_CXX_COMPILER} mpicxx HINTS ${MPI_HOME} ENV MPI_HOME
+               PATH_SUFFIXES bin NO_CACHE)
+  set(flags)
+  if(RRCB_MPI_WRAPPER)
+    execute_process(COMMAND ${RRCB_MPI_WRAPPER} -show OUTPUT_VARIABLE flags ERROR_QUIET)
+  endif()
+  string(REGEX MATCH " -I([^ \n]+)" flags "${flags}")
+  if(NOT flags OR EXISTS "${CMAKE_MATCH_1}")
+    find_package(MPI COMPONENTS ${ARGN})
+  endif()
+  rrcb_requires(MPI_FOUND "MPI's library and headers" MPI_HOME "its folder" libopenmpi-dev
+                openmpi-bin)
+endmacro()
 
 set(examples OFF)
 if(RRCB_EXAMPLES)
@@ -68,9 +88,9 @@ set(fortran)
 if(RRCB_FORTRAN)
   set(fortran OPTIONAL_COMPONENTS Fortran)
 endif()
-find_package(MPI COMPONENTS C CXX ${fortran})
-rrcb_requires(MPI_FOUND "MPI" libopenmpi-dev openmpi-bin)
-set(RRCB_EIGEN_DIR "" CACHE PATH "Folder of Eigen's headers, if not those of the system")
+rrcb_find_mpi(C CXX ${fortran})
+set(RRCB_EIGEN_DIR "$ENV{RRCB_EIGEN_DIR}" CACHE PATH
+    "Folder of Eigen's headers, if not those of the system")
 if(RRCB_EIGEN_DIR AND NOT TARGET Eigen3::Eigen)
   find_file(RRCB_EIGEN_CORE Eigen/Core PATHS ${RRCB_EIGEN_DIR} NO_DEFAULT_PATH
             NO_CMAKE_FIND_ROOT_PATH NO_CACHE)
@@ -82,7 +102,8 @@ if(RRCB_EIGEN_DIR AND NOT TARGET Eigen3::Eigen)
 else()
   find_package(Eigen3 3.3 QUIET NO_MODULE)
 endif()
-rrcb_requires(Eigen3_FOUND "Eigen 3.3 or newer" libeigen3-dev)
+rrcb_requires(Eigen3_FOUND "Eigen 3.3 or newer" RRCB_EIGEN_DIR "the folder that contains Eigen/Core"
+              libeigen3-dev)
 
 if(RRCB_ZOLTAN)
   rrcb_find_trilinos(Zoltan)

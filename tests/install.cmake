@@ -59,8 +59,11 @@ function(rrcb_add_missing_test name text)
 endfunction()
 rrcb_add_missing_test(asked_for_but_missing "RRCB_ZOLTAN=ON needs Zoltan of Trilinos"
                       -DRRCB_ZOLTAN=ON -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON)
-rrcb_add_missing_test(names_missing_packages "RRCB needs Eigen.*libeigen3-dev"
+rrcb_add_missing_test(names_missing_packages "RRCB needs Eigen.*libeigen3-dev.*RRCB_EIGEN_DIR"
                       -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+rrcb_add_missing_test(
+  names_missing_headers "RRCB needs MPI.*libopenmpi-dev.*MPI_HOME"
+  -DMPI_CXX_COMPILER=${CMAKE_CURRENT_SOURCE_DIR}/install/mpi_without_headers)
 
 # A cache from a time when there was no compiler of Fortran.
 if(RRCB_FORTRAN)
@@ -132,4 +135,4 @@ set_tests_properties(install.left_out PROPERTIES FIXTURES_REQUIRED without_trili
                                                  TIMEOUT 60)
 set_tests_properties(
   install.clean install.install install.consumer install.builds_without_trilinos install.subdirectory
-  install.asked_for_but_missing install.names_missing_packages PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)
+  install.asked_for_but_missing install.names_missing_packages install.names_missing_headers PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)

@@ -114,7 +114,11 @@ if(Python3_FOUND)
   add_test(NAME install.recipes
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/recipes.py
                    ${PROJECT_BINARY_DIR}/CMakeCache.txt ${PROJECT_SOURCE_DIR})
-  set_tests_properties(install.symbols install.names install.recipes PROPERTIES LABELS install TIMEOUT 60)
+  add_test(NAME install.debian COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/debian.py
+                                       ${prefix} ${PROJECT_SOURCE_DIR})
+  set_tests_properties(install.debian PROPERTIES FIXTURES_REQUIRED installed)
+  set_tests_properties(install.symbols install.names install.recipes install.debian
+                       PROPERTIES LABELS install TIMEOUT 60)
   if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE)
     add_test(NAME first_steps COMMAND ${CMAKE_COMMAND} -E env CMAKE_GENERATOR=${CMAKE_GENERATOR}
                                       ${CMAKE_CURRENT_SOURCE_DIR}/first_steps/run ${prefix})

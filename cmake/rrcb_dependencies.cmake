@@ -100,7 +100,11 @@ if(RRCB_EIGEN_DIR AND NOT TARGET Eigen3::Eigen)
     set(Eigen3_FOUND TRUE)
   endif()
 else()
-  find_package(Eigen3 3.3 QUIET NO_MODULE)
+  # Eigen 5 refuses to be found as 3.3 or newer.
+  find_package(Eigen3 QUIET NO_MODULE)
+  if(Eigen3_VERSION AND Eigen3_VERSION VERSION_LESS 3.3)
+    set(Eigen3_FOUND FALSE)
+  endif()
 endif()
 rrcb_requires(Eigen3_FOUND "Eigen 3.3 or newer" RRCB_EIGEN_DIR "the folder that contains Eigen/Core"
               libeigen3-dev)

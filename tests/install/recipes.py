@@ -3,8 +3,9 @@
 
 Fails unless every file has the version of the build whose CMakeCache.txt is CACHE, and the recipe for
 Spack, run with stubs of Spack's modules, sets options of that build, names variants that exist and tests
-a folder of SOURCE.
+the installed package by a project of SOURCE.
 """
+import os
 import re
 import sys
 import types
@@ -42,20 +43,29 @@ class Recorder(types.ModuleType):
 
     def __init__(self):
         super().__init__("spack.package")
-        self.variants, self.conditions, self.cached = {}, [], []
-        self.__all__ = ["license", "version", "variant", "depends_on", "conflicts",
-                        "run_after", "cache_extra_test_sources", "join_path", "Executable"]
-        self.license = self.conflicts = self.version = lambda *args, **named: None
+        self.variants, self.conditions, self.cached, self.commands = {}, [], [], []
+        self.__all__ = ["license", "version", "variant", "depends_on", "conflicts", "requires", "run_after",
+                        "cache_extra_test_sources", "join_path", "Executable", "get_cmake_prefix_path"]
+        self.license = self.conflicts = self.requires = self.version = lambda *args, **named: None
         self.variant = lambda name, **named: self.variants.update({name: named["default"]})
         self.depends_on = lambda spec, when="", **named: self.conditions.append(when)
         self.run_after = lambda phase: lambda method: method
         self.cache_extra_test_sources = lambda package, folder: self.cached.append(folder)
-        self.join_path = self.Executable = None
+        self.join_path = os.path.join
+        self.Executable = lambda program: lambda *arguments: self.commands.append([program, *arguments])
+        self.get_cmake_prefix_path = lambda package: ["prefix of Eigen"]
 
 
 class Package:
+    prefix = "prefix of RRCB"
+
+    def __init__(self, source):
+        binary = types.SimpleNamespace(cmake="cmake", ctest="ctest")
+        self.spec = {"cmake": types.SimpleNamespace(prefix=types.SimpleNamespace(bin=binary))}
+        self.test_suite = types.SimpleNamespace(current_test_cache_dir=source)
+
     def define(self, name, value):
-        return name, None
+        return name, value
 
     def define_from_variant(self, name, variant):
         return name, variant
@@ -72,25 +82,32 @@ def run_spack_recipe(source):
     recipe = source / "packaging/spack/spack_repo/rrcb/packages/rrcb/package.py"
     scope = {}
     exec(compile(recipe.read_text(), recipe, "exec"), scope)
-    package = scope["Rrcb"]()
+    package = scope["Rrcb"](source)
     package.keep_the_consumer()
-    return recorder, package.cmake_args()
+    package.test_consumer()
+    return recorder, package
 
 
 def spack_problems(source, cache):
-    recorder, options = run_spack_recipe(source)
+    recorder, package = run_spack_recipe(source)
+    options = package.cmake_args()
     known = set(re.findall(r"^(RRCB_\w+):", cache, re.M)) | {"BUILD_SHARED_LIBS"}
-    set_by = [variant for _, variant in options]
+    set_by = [variant for _, variant in options if isinstance(variant, str)]
     yield from (f"no option of the build: {name}" for name, _ in options if name not in known)
     yield from (f"variant without an option: {name}" for name in recorder.variants if name not in set_by)
-    yield from (f"option of no variant: {name}" for name in set_by
-                if name is not None and name not in recorder.variants)
+    yield from (f"option of no variant: {name}" for name in set_by if name not in recorder.variants)
     yield from (f"condition on no variant: {when}" for when in recorder.conditions
                 if when and when.strip("+~") not in recorder.variants)
     if not recorder.variants or not recorder.cached:
         yield "no variants or no tests"
     yield from (f"no folder to test: {name}" for name in recorder.cached
                 if not (source / name / "CMakeLists.txt").exists())
+    configured = ["cmake", "-S", *(str(source / name) for name in recorder.cached), "-B", "build",
+                  ("CMAKE_PREFIX_PATH", ["prefix of RRCB", "prefix of Eigen"])]
+    if not package.test_requires_compiler or configured not in recorder.commands:
+        yield f"the test does not build the cached project: {recorder.commands}"
+    if ["ctest", "--test-dir", "build", "--no-tests=error"] not in recorder.commands:
+        yield f"the test does not run the cached project: {recorder.commands}"
 
 
 def main():

@@ -12,7 +12,9 @@ class Rrcb(CMakePackage):
     url = "https://rrcb.invalid/releases/rrcb-0.2.0.tar.gz"
     git = "https://rrcb.invalid/rrcb.git"
 
-    license("BSD-3-Clause", checked_by="The RRCB authors")
+    test_requires_compiler = True
+
+    license("BSD-3-Clause")
 
     version("main", branch="main")
     version("0.2.0", sha256="0" * 64)
@@ -30,9 +32,10 @@ class Rrcb(CMakePackage):
     depends_on("mpi")
     depends_on("trilinos+zoltan", when="+zoltan")
     depends_on("trilinos+tpetra", when="+teuchos")
-    depends_on("eigen@3.3:", type=("build", "test"))
+    depends_on("eigen@3.3:", type="build")
     depends_on("googletest", type="build", when="+tests")
 
+    requires("platform=linux", msg="other linkers do not read the version script")
     conflicts("%gcc@:10", msg="C++20 is needed")
     conflicts("%clang@:13", msg="C++20 is needed")
 
@@ -55,6 +58,7 @@ class Rrcb(CMakePackage):
         """a project of its own against the installed package"""
         source = join_path(self.test_suite.current_test_cache_dir, "tests", "consumer")
         cmake = Executable(self.spec["cmake"].prefix.bin.cmake)
-        cmake("-S", source, "-B", "build", self.define("CMAKE_PREFIX_PATH", self.prefix))
+        prefixes = [self.prefix, *get_cmake_prefix_path(self)]
+        cmake("-S", source, "-B", "build", self.define("CMAKE_PREFIX_PATH", prefixes))
         cmake("--build", "build")
         Executable(self.spec["cmake"].prefix.bin.ctest)("--test-dir", "build", "--no-tests=error")

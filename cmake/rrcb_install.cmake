@@ -15,7 +15,13 @@ function(rrcb_install_targets export component runtime)
           COMPONENT ${component})
 endfunction()
 
-rrcb_install_targets(rrcbTargets development runtime rrcb rrcb_static rrcb_shared)
+# Packages of some systems must not hold an archive beside a shared library.
+set(archive development)
+if(BUILD_SHARED_LIBS)
+  set(archive static)
+endif()
+rrcb_install_targets(rrcbStaticTargets ${archive} ${archive} rrcb_static)
+rrcb_install_targets(rrcbTargets development runtime rrcb rrcb_shared)
 install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

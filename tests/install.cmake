@@ -25,7 +25,7 @@ add_test(
     --build-options -DRRCB_SOURCE=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug
     -DCMAKE_CXX_FLAGS_DEBUG= -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_MPM=OFF -DRRCB_EXAMPLES=ON -DRRCB_EIGEN_DIR=${eigen}
-    -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
+    -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON -DBUILD_SHARED_LIBS=ON
     -DRRCB_BENCHMARKS=AUTO -DRRCB_FORTRAN=AUTO -DRRCB_WERROR=${RRCB_WERROR})
 add_test(
   NAME install.left_out
@@ -75,14 +75,24 @@ if(RRCB_FORTRAN)
       -DRRCB_TESTS=OFF -DRRCB_EXAMPLES=OFF)
   set_tests_properties(install.fortran_is_looked_for_again PROPERTIES LABELS install TIMEOUT 120)
 endif()
+# A package without archive and plug-in.
+set(bare_prefix ${CMAKE_CURRENT_BINARY_DIR}/bare_prefix)
+foreach(component IN ITEMS runtime development)
+  add_test(NAME install.${component} COMMAND ${CMAKE_COMMAND} --install
+                                             ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos/_deps/rrcb-build
+                                             --prefix ${bare_prefix} --component ${component})
+  set_tests_properties(
+    install.${component} PROPERTIES FIXTURES_REQUIRED without_trilinos FIXTURES_SETUP bare LABELS install
+                                    TIMEOUT 60)
+endforeach()
 # rrcb_add_bare_test(<name> <text> [component...])
 function(rrcb_add_bare_test name text)
   add_test(NAME install.${name}
            COMMAND ${CMAKE_COMMAND} -D FAILS=TRUE -D OUTPUT=${text} -P
                    ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -S
                    ${CMAKE_CURRENT_SOURCE_DIR}/install/bare -B ${CMAKE_CURRENT_BINARY_DIR}/${name} -G
-                   ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS=${ARGN})
-  set_tests_properties(install.${name} PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 120)
+                   ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${bare_prefix} -DCOMPONENTS=${ARGN})
+  set_tests_properties(install.${name} PROPERTIES FIXTURES_REQUIRED bare LABELS install TIMEOUT 120)
 endfunction()
 rrcb_add_bare_test(sets_its_own_policies "rrcb is found")
 rrcb_add_bare_test(names_missing_components "component fortran needs an rrcb built with" fortran)

@@ -100,13 +100,13 @@ if(RRCB_EIGEN_DIR AND NOT TARGET Eigen3::Eigen)
     set(Eigen3_FOUND TRUE)
   endif()
 else()
-  # Eigen 5 refuses to be found as 3.3 or newer.
+  # Eigen 5 refuses to be found as 3.4 or newer.
   find_package(Eigen3 QUIET NO_MODULE)
-  if(Eigen3_VERSION AND Eigen3_VERSION VERSION_LESS 3.3)
+  if(Eigen3_VERSION AND Eigen3_VERSION VERSION_LESS 3.4)
     set(Eigen3_FOUND FALSE)
   endif()
 endif()
-rrcb_requires(Eigen3_FOUND "Eigen 3.3 or newer" RRCB_EIGEN_DIR "the folder that contains Eigen/Core"
+rrcb_requires(Eigen3_FOUND "Eigen 3.4 or newer" RRCB_EIGEN_DIR "the folder that contains Eigen/Core"
               libeigen3-dev)
 
 if(RRCB_ZOLTAN)

@@ -35,12 +35,19 @@ add_test(
     ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -E cat
     ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos/_deps/rrcb-build/left_out.txt)
 
+# Finds an Eigen 5, which fits no request for an older version.
+set(eigen5 ${CMAKE_CURRENT_BINARY_DIR}/eigen5)
+file(WRITE ${eigen5}/Eigen3Config.cmake
+     "message(STATUS \"Eigen 5 is found\")\nadd_library(Eigen3::Eigen INTERFACE IMPORTED)\n")
+write_basic_package_version_file(${eigen5}/Eigen3ConfigVersion.cmake VERSION 5.0.1
+                                 COMPATIBILITY SameMajorVersion ARCH_INDEPENDENT)
 add_test(
   NAME install.subdirectory
   COMMAND
+    ${CMAKE_COMMAND} -D "OUTPUT=Eigen 5 is found" -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake --
     ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_SOURCE_DIR}/install/embedded -B
     ${CMAKE_CURRENT_BINARY_DIR}/subdirectory -G ${CMAKE_GENERATOR} -DRRCB_SUBDIRECTORY=ON
-    -DRRCB_SOURCE=${PROJECT_SOURCE_DIR})
+    -DRRCB_SOURCE=${PROJECT_SOURCE_DIR} -DEigen3_DIR=${eigen5})
 if(EXISTS ${PROJECT_SOURCE_DIR}/.git)
   add_test(NAME install.release
            COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install/release

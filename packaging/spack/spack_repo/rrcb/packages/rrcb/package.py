@@ -32,7 +32,7 @@ class Rrcb(CMakePackage):
     depends_on("mpi")
     depends_on("trilinos+zoltan", when="+zoltan")
     depends_on("trilinos+tpetra", when="+teuchos")
-    depends_on("eigen@3.3:", type="build")
+    depends_on("eigen@3.4:", type="build")
     depends_on("googletest", type="build", when="+tests")
 
     requires("platform=linux", msg="other linkers do not read the version script")

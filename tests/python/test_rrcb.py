@@ -117,6 +117,15 @@ def test_balances_from_earlier_cuts():
     assert "imbalance" in repr(later.report) and len(repr(later.report).splitlines()) == 12
 
 
+def test_reads_cuts_of_the_other_byte_order():
+    cuts = rrcb.balance(cloud(2), comm=comm, num_parts=7).cuts
+    dimension, num_parts, tree, shape = cuts.__getstate__()
+    pickled = dimension, num_parts, tree.astype(tree.dtype.newbyteorder()), shape
+    read = rrcb.Cuts.__new__(rrcb.Cuts)
+    read.__setstate__(pickle.loads(pickle.dumps(pickled)))
+    assert np.array_equal(read.boxes(), cuts.boxes())
+
+
 def test_divides_on_part_of_the_ranks():
     if RANKS < 2:
         raise Skip("needs 2 ranks")

@@ -1,6 +1,7 @@
 #include "bisection/bisection.hpp"
 
 #include "bisection/axis_choice.hpp"
+#include "bisection/limited_bisection.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/weighted_quantile.hpp"
 #include "options/option_table.hpp"
@@ -21,36 +22,50 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Task {
     const Options& options;
-    AxisChoice axis_of;
+    const AxisChoice& axis_of;
+    CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
     Bisection result;
 };
 
-/// Returns the cut that leaves the share `below` (0 ... 1) of the domain's weight below it.
-Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const Task& task) {
-    const double weight = weight_of(domain);
-    const Box box = extent_of(domain);
-    const int axis = task.axis_of(task.result.cuts.tree.size(), depth, box);
+/// Returns the cut that leaves the share `below` (0 ... 1) of the piece's weight below it.
+Cut choose_cut(const Piece& piece, double below, Task& task) {
+    const double weight = weight_of(piece.domain);
+    const Box extent = extent_of(piece.domain);
+    const int axis = task.axis_of(piece.at.node, piece.depth, extent);
+    if (task.limits && task.limits->divides(piece.at))
+        return cut_in_places(piece, below, axis, extent, task.options.axes.plain, *task.limits);
     // First: a side of size 0 is empty even if the domain has no weight.
     if (below >= 1) return plane(axis, infinity);
     if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
-    return weighted_quantile(Profile(domain, axis), below * weight, task.options.axes.plain);
+    return weighted_quantile(Profile(piece.domain, axis), below * weight, task.options.axes.plain);
 }
 
-void bisect_node(StatisticalDomain domain, const Descent& at, int depth, Task& task) {
+void bisect_piece(Piece piece, Task& task) {
+    const auto& [domain, at, region, depth] = piece;
     if (at.is_part()) {
         task.result.part_weights.push_back(weight_of(domain));
         return;
     }
     const auto sizes = std::span(task.options.part_sizes).subspan(at.first_part, at.num_parts);
     const double below = share_below(sizes, at.lower_parts());
-    const Cut cut = choose_cut(domain, below, depth, task);
+    const Cut cut = choose_cut(piece, below, task);
     task.result.cuts.tree.push_back(cut);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
     Halves halves = split_domain(domain, cut);
-    domain.patches = {};
-    bisect_node(std::move(halves.lower), at.lower(), depth + 1, task);
-    bisect_node(std::move(halves.upper), at.upper(), depth + 1, task);
+    piece.domain.patches = {};
+    bisect_piece({std::move(halves.lower), at.lower(), box_below(region, cut), depth + 1}, task);
+    bisect_piece({std::move(halves.upper), at.upper(), box_above(region, cut), depth + 1}, task);
+}
+
+/// Bisects with all cuts at allowed places, if there are limits.
+Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
+                 const AxisChoice& axis_of, CutLimits* limits) {
+    Task task{options, axis_of, limits, with_brackets, {}};
+    task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
+    const Box region = limits ? limits->region() : everywhere;
+    bisect_piece({std::move(domain), root_of(task.result.cuts), region, 0}, task);
+    return std::move(task.result);
 }
 
 }  // namespace
@@ -67,12 +82,18 @@ double expected_error(int depth) {
 }
 
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets) {
-    Task task{options, {options, extent_of(domain), domain.dimension}, with_brackets, {}};
-    task.result.cuts.dimension = domain.dimension;
-    task.result.cuts.num_parts = options.num_parts;
-    task.result.cuts.shape = options.tree;
-    bisect_node(std::move(domain), root_of(task.result.cuts), 0, task);
-    return std::move(task.result);
+    const AxisChoice axis_of(options, extent_of(domain), domain.dimension);
+    return bisect(std::move(domain), options, with_brackets, axis_of, nullptr);
+}
+
+Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
+                        bool with_brackets) {
+    const int dimension = domain.dimension;
+    const AxisChoice axis_of(options, points, dimension);
+    const std::vector<int> given = axis_of.given(root_of(options.num_parts, options.tree));
+    CutLimits limits(options, points, dimension, {given, {}});
+    limits.require_room();
+    return bisect(std::move(domain), options, with_brackets, axis_of, &limits);
 }
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes) {

@@ -57,27 +57,6 @@ struct Trial {
     double below;
 };
 
-/// A node and the domain that it divides.
-struct Piece {
-    StatisticalDomain domain;  ///< of patches
-    Descent at;
-    Box region;
-    int depth;
-};
-
-struct Task {
-    const Options& options;
-    AxisChoice axis_of;
-    CutLimits limits;
-    bool with_brackets;
-    Bisection result;
-
-    double share_below(const Descent& at) const {
-        const std::span sizes(options.part_sizes);
-        return rrcb::share_below(sizes.subspan(at.first_part, at.num_parts), at.lower_parts());
-    }
-};
-
 Trial trial_in(const StatisticalDomain& domain, int axis, double place) {
     const Cut cut = plane(axis, place);
     return {cut, weight_below(domain, cut)};
@@ -85,9 +64,8 @@ Trial trial_in(const StatisticalDomain& domain, int axis, double place) {
 
 /// Returns the cut at an allowed place of `way` with about the weight `target` below it. Of the
 /// grid lines on both sides of the exact place, takes the one with the smaller error.
-Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, const Task& task) {
-    const bool is_plain = task.options.axes.plain;
-    const AxisLimits& limits = task.limits.across(way.axis);
+Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, bool is_plain,
+               const AxisLimits& limits) {
     const Cut cut = weighted_quantile({domain, way.axis}, target, is_plain);
     const double value = cut.at[way.axis];
     const double place = limits.nearest(value, way.places.first, way.places.last);
@@ -97,62 +75,6 @@ Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, c
     if (!limits.has_grid() || other < way.places.first || other > way.places.last) return trial;
     const Trial beside = trial_in(domain, way.axis, other);
     return std::abs(beside.below - target) < std::abs(trial.below - target) ? beside : trial;
-}
-
-Trial trial_across(const Piece& piece, const Way& way, const Task& task) {
-    const double weight = weight_of(piece.domain);
-    if (weight > 0) return trial_at(piece.domain, way, task.share_below(piece.at) * weight, task);
-    const double middle = way.places.first / 2 + way.places.last / 2;
-    const AxisLimits& limits = task.limits.across(way.axis);
-    return trial_in(piece.domain, way.axis,
-                    limits.nearest(middle, way.places.first, way.places.last));
-}
-
-/// Returns the first cut with a bearable error, or else the one with the least error.
-Cut cut_in_places(const Piece& piece, int preferred, const Box& extent, Task& task) {
-    constexpr double bearable = 0.005;
-    const double weight = weight_of(piece.domain);
-    const double share = task.share_below(piece.at);
-    const double lighter = std::min(share, 1 - share) * weight;
-    Trial best{};
-    double least = infinity;
-    for (const Way& way : ways_across(piece.at, piece.region, extent, preferred, task.limits)) {
-        const Trial trial = trial_across(piece, way, task);
-        const double error = std::abs(trial.below - share * weight);
-        if (error < least) best = trial;
-        least = std::min(least, error);
-        if (least <= bearable * lighter) break;
-    }
-    return best.cut;
-}
-
-/// Returns the cut of a node. If the parts of one side have no size, all points are on the other.
-Cut choose_cut(const Piece& piece, Task& task) {
-    const Box extent = extent_of(piece.domain);
-    const int axis = task.axis_of(piece.at.node, piece.depth, extent);
-    if (task.limits.divides(piece.at)) return cut_in_places(piece, axis, extent, task);
-    return plane(axis, task.share_below(piece.at) > 0 ? infinity : -infinity);
-}
-
-void bisect_piece(Piece piece, Task& task) {
-    if (piece.at.is_part()) {
-        task.result.part_weights.push_back(weight_of(piece.domain));
-        return;
-    }
-    const Cut cut = choose_cut(piece, task);
-    task.result.cuts.tree.push_back(cut);
-    Halves halves = split_domain(piece.domain, cut);
-    if (task.with_brackets) {
-        const double below = task.share_below(piece.at);
-        task.result.brackets.push_back(bracket_of(piece.domain, cut, below, piece.depth));
-    }
-    piece.domain.patches = {};
-    bisect_piece(
-        {std::move(halves.lower), piece.at.lower(), box_below(piece.region, cut), piece.depth + 1},
-        task);
-    bisect_piece(
-        {std::move(halves.upper), piece.at.upper(), box_above(piece.region, cut), piece.depth + 1},
-        task);
 }
 
 void move_node(CutLimits& limits, const Descent& at, const Box& region, Cuts& cuts) {
@@ -169,19 +91,27 @@ void move_node(CutLimits& limits, const Descent& at, const Box& region, Cuts& cu
 
 }  // namespace
 
-Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
-                        bool with_brackets) {
-    const int dimension = domain.dimension;
-    const AxisChoice axis_of(options, points, dimension);
-    const Descent root = root_of(options.num_parts, options.tree);
-    Task task{options,
-              axis_of,
-              {options, points, dimension, {axis_of.given(root), {}}},
-              with_brackets,
-              {{dimension, options.num_parts, {}, {}, options.tree}, {}, {}}};
-    task.limits.require_room();
-    bisect_piece({std::move(domain), root, task.limits.region(), 0}, task);
-    return std::move(task.result);
+Cut cut_in_places(const Piece& piece, double share, int preferred, const Box& extent, bool is_plain,
+                  CutLimits& limits) {
+    constexpr double bearable = 0.005;
+    const StatisticalDomain& domain = piece.domain;
+    const double weight = weight_of(domain);
+    const double lighter = std::min(share, 1 - share) * weight;
+    Trial best{};
+    double least = infinity;
+    for (const Way& way : ways_across(piece.at, piece.region, extent, preferred, limits)) {
+        const AxisLimits& across = limits.across(way.axis);
+        const auto [first, last] = way.places;
+        const Trial trial =
+            weight > 0
+                ? trial_at(domain, way, share * weight, is_plain, across)
+                : trial_in(domain, way.axis, across.nearest(first / 2 + last / 2, first, last));
+        const double error = std::abs(trial.below - share * weight);
+        if (error < least) best = trial;
+        least = std::min(least, error);
+        if (least <= bearable * lighter) break;
+    }
+    return best.cut;
 }
 
 void move_into_places(const Box& points, const Options& options, Cuts& cuts) {

@@ -3,14 +3,26 @@
 #include "cuts/cut_limits.hpp"
 
 #include <rrcb/method/bisection.hpp>
+#include <rrcb/method/statistical_domain.hpp>
 
 namespace rrcb {
 
-/// Bisects as bisect(), with all cuts at allowed places, for points in the box `points`.
-///
-/// Each cut is at the allowed place that comes nearest to the share of its parts: across its
-/// preferred axis, or across another if that comes much nearer. The cuts below are not considered.
-/// Throws Error if there is no room for the parts.
+/// A node and the domain that it divides.
+struct Piece {
+    StatisticalDomain domain;  ///< of patches
+    Descent at;
+    Box region;
+    int depth;
+};
+
+/// Returns the cut of a piece with the share `share` of its weight below: the first one with a
+/// bearable error, across the preferred axis or from the longest of `extent` down, or else the one
+/// with the least error. The cuts below are not considered.
+Cut cut_in_places(const Piece& piece, double share, int preferred, const Box& extent, bool is_plain,
+                  CutLimits& limits);
+
+/// Bisects as bisect(), with all cuts at allowed places, for points in the box `points`. Throws
+/// Error if there is no room for the parts.
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
                         bool with_brackets);
 

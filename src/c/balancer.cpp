@@ -35,7 +35,7 @@ Cuts copy_of(const rrcb_cuts& given) {
     std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
         return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
     });
-    check_cuts(cuts);
+    check_tree(cuts);
     return cuts;
 }
 

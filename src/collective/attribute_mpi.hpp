@@ -1,6 +1,7 @@
 #pragma once
 
 #include "collective/communicator.hpp"
+#include "collective/failure.hpp"
 
 #include <mpi.h>
 
@@ -12,10 +13,12 @@ namespace rrcb::mpi {
 template <class Value>
 class Attribute {
   public:
-    /// Returns the value of `comm`, or null. Throws Error on a rank that has no memory for a key.
+    /// Returns the value of `comm`, or null. A rank without memory for a key has kept none, so no
+    /// rank has one for a communicator that they share.
     static Value* find(MPI_Comm comm) {
         void* value = nullptr;
         int found = 0;
+        if (attempt([] { key(); }).failed) return nullptr;
         check(MPI_Comm_get_attr(comm, key(), &value, &found), "MPI_Comm_get_attr");
         return found != 0 ? static_cast<Value*>(value) : nullptr;
     }

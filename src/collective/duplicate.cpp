@@ -1,6 +1,7 @@
 #include "collective/duplicate.hpp"
 
 #include "collective/agreement_mpi.hpp"
+#include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 
 #include <rrcb/error.hpp>
@@ -11,22 +12,14 @@ namespace rrcb::mpi {
 
 namespace {
 
-int free_duplicate(MPI_Comm, int, void* attribute, void*) {
-    const std::unique_ptr<MPI_Comm> duplicate(static_cast<MPI_Comm*>(attribute));
-    return MPI_Comm_free(duplicate.get());
-}
+/// Freed with the communicator that it is kept with.
+struct Duplicate {
+    MPI_Comm comm = MPI_COMM_NULL;
 
-int create_key() {
-    int key = MPI_KEYVAL_INVALID;
-    check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, free_duplicate, &key, nullptr),
-          "MPI_Comm_create_keyval");
-    return key;
-}
-
-int key() {
-    static const int key = create_key();
-    return key;
-}
+    ~Duplicate() {
+        if (comm != MPI_COMM_NULL) MPI_Comm_free(&comm);
+    }
+};
 
 void refuse_two_groups(MPI_Comm user) {
     int has_two = 0;
@@ -36,24 +29,11 @@ void refuse_two_groups(MPI_Comm user) {
                     "an intercommunicator has two groups; merge them by MPI_Intercomm_merge");
 }
 
-void keep(MPI_Comm duplicate, MPI_Comm user) {
-    auto kept = std::make_unique<MPI_Comm>(duplicate);
-    check(MPI_Comm_set_errhandler(duplicate, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-    check(MPI_Comm_set_attr(user, key(), kept.get()), "MPI_Comm_set_attr");
-    kept.release();
-}
-
 }  // namespace
 
 const MPI_Comm* find_duplicate(MPI_Comm user) {
-    void* attribute = nullptr;
-    int found = 0;
-    // A rank without a key has kept no duplicate, so no rank has one for a communicator that they
-    // share.
-    const Failure failure = attempt([] { key(); });
-    if (failure.failed) return nullptr;
-    check(MPI_Comm_get_attr(user, key(), &attribute, &found), "MPI_Comm_get_attr");
-    return found != 0 ? static_cast<MPI_Comm*>(attribute) : nullptr;
+    const Duplicate* found = Attribute<Duplicate>::find(user);
+    return found != nullptr ? &found->comm : nullptr;
 }
 
 MPI_Comm duplicate_of(MPI_Comm user) {
@@ -65,12 +45,15 @@ MPI_Comm duplicate_of(MPI_Comm user) {
     MPI_Comm comm = MPI_COMM_NULL;
     Participant self{user};
     self.check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup");
-    self.attempt([&] { keep(comm, user); });
+    self.attempt([&] {
+        check(MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+        Attribute<Duplicate>::keep(std::make_unique<Duplicate>(), user)->comm = comm;
+    });
     try {
         agree(self);
     } catch (...) {
         if (!self.failed()) {
-            MPI_Comm_delete_attr(user, key());
+            Attribute<Duplicate>::forget(user);
         } else if (comm != MPI_COMM_NULL) {
             MPI_Comm_free(&comm);
         }

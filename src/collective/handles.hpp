@@ -1,37 +1,28 @@
 #pragma once
 
+#include "collective/communicator.hpp"
+
 #include <mpi.h>
 
 namespace rrcb::mpi {
 
-/// Datatype of consecutive elements; freed with the object.
-class ContiguousType {
+/// A handle of MPI that make(handle) makes; freed with the object.
+template <class Handle, int (*free_handle)(Handle*)>
+class Owned {
   public:
-    /// Throws Error.
-    ContiguousType(int count, MPI_Datatype element);
-    ContiguousType(const ContiguousType&) = delete;
-    ContiguousType& operator=(const ContiguousType&) = delete;
-    ~ContiguousType();
+    /// Throws Error that names the `call` in make().
+    template <class Make>
+    Owned(Make&& make, const char* call) {
+        check(make(&handle_), call);
+    }
+    Owned(const Owned&) = delete;
+    Owned& operator=(const Owned&) = delete;
+    ~Owned() { free_handle(&handle_); }
 
-    MPI_Datatype get() const { return type_; }
+    Handle get() const { return handle_; }
 
   private:
-    MPI_Datatype type_ = MPI_DATATYPE_NULL;
-};
-
-/// Commutative reduction; freed with the object.
-class Reduction {
-  public:
-    /// Throws Error.
-    explicit Reduction(MPI_User_function* function);
-    Reduction(const Reduction&) = delete;
-    Reduction& operator=(const Reduction&) = delete;
-    ~Reduction();
-
-    MPI_Op get() const { return op_; }
-
-  private:
-    MPI_Op op_ = MPI_OP_NULL;
+    Handle handle_;
 };
 
 }  // namespace rrcb::mpi

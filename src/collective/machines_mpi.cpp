@@ -12,8 +12,7 @@ namespace rrcb::mpi {
 
 namespace {
 
-/// Returns the machines kept with `comm`, or null. A rank without a key has kept none, so no rank
-/// has.
+/// Returns the machines kept with `comm`, or null.
 const Machines* find(MPI_Comm comm) {
     const Machines* kept = nullptr;
     attempt([&] { kept = Attribute<Machines>::find(comm); });

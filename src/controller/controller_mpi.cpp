@@ -33,7 +33,8 @@ void Controller::State::open(MPI_Comm comm) {
     rank_ = mpi::rank_of(comm_);
     num_ranks_ = mpi::size_of(comm_);
     message_ = std::make_unique<StepMessage>(0);
-    reduction_.emplace(join_messages);
+    reduction_.emplace([](MPI_Op* made) { return MPI_Op_create(join_messages, 1, made); },
+                       "MPI_Op_create");
     mpi::check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, close, &key_, nullptr),
                "MPI_Comm_create_keyval");
     mpi::check(MPI_Comm_set_attr(MPI_COMM_SELF, key_, this), "MPI_Comm_set_attr");

@@ -26,11 +26,16 @@ struct StepMessage {
     static constexpr std::size_t num_doubles = sizeof(StepRecord) / sizeof(double);
 
     explicit StepMessage(std::size_t num_carried)
-        : type(static_cast<int>(num_doubles + num_carried), MPI_DOUBLE),
+        : type([length = static_cast<int>(num_doubles + num_carried)](
+                   MPI_Datatype* made) { return MPI_Type_contiguous(length, MPI_DOUBLE, made); },
+               "MPI_Type_contiguous"),
           mine(num_doubles + num_carried),
-          all(mine) {}
+          all(mine) {
+        MPI_Datatype committed = type.get();
+        mpi::check(MPI_Type_commit(&committed), "MPI_Type_commit");
+    }
 
-    mpi::ContiguousType type;
+    mpi::Owned<MPI_Datatype, MPI_Type_free> type;
     std::vector<double> mine;  ///< unchanged until the reduction is done
     std::vector<double> all;
 };
@@ -89,7 +94,7 @@ struct Controller::State {
     int key_ = MPI_KEYVAL_INVALID;  ///< attribute of MPI_COMM_SELF: its deletion closes this
     bool closes_itself_ = false;    ///< the attribute is set
     std::unique_ptr<StepMessage> message_;
-    std::optional<mpi::Reduction> reduction_;
+    std::optional<mpi::Owned<MPI_Op, MPI_Op_free>> reduction_;
     MPI_Request request_ = MPI_REQUEST_NULL;
     bool has_started_ = false;
 

@@ -167,7 +167,11 @@ void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, 
     // In each piece of a message one column follows the other.
     const auto pack = [&](std::size_t first, std::size_t count, std::byte* place) {
         for (const Lane& lane : lanes) {
-            gather(lane, delivery.sent.subspan(first, count), place);
+            if (delivery.sent.empty()) {
+                copy(lane.from + first * lane.bytes, count * lane.bytes, place);
+            } else {
+                gather(lane, delivery.sent.subspan(first, count), place);
+            }
             place += count * lane.bytes;
         }
     };
@@ -236,7 +240,7 @@ void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
     for (const Lane& lane : lanes) keep(delivery, lane);
     run(*stream, delivery, lanes, self);
     if (report != nullptr)
-        *report = {stream->num_bytes(), point_bytes * delivery.sent.size(), stream->num_messages()};
+        *report = {stream->num_bytes(), point_bytes * total(delivery.to), stream->num_messages()};
 }
 
 }  // namespace rrcb

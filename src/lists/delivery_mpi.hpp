@@ -15,7 +15,7 @@ struct Delivery {
     LocalIndex num_points = 0;              ///< that this rank holds
     LocalIndex num_kept = 0;                ///< of these, first in the result
     std::span<const LocalIndex> removed{};  ///< ascending; if any are kept, all others
-    std::span<const LocalIndex> sent{};     ///< sorted by rank
+    std::span<const LocalIndex> sent{};     ///< sorted by rank; empty: all, in their order
     std::vector<RankCount> to{};            ///< number for each rank, ascending
     std::vector<RankCount> from{};
 };

@@ -5,7 +5,6 @@
 #include "options/rejection.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace rrcb {
 
@@ -66,7 +65,6 @@ void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                std::span<const ByteColumn> of_points, const TransferLimits& limits,
                TransferReport* report, Participant& self) {
     Delivery delivery;
-    std::vector<LocalIndex> all;
     self.attempt([&] {
         delivery.num_points = check(plan, mpi::size_of(self.comm));
         for (std::size_t k = 0; k < of_points.size(); ++k) {
@@ -76,9 +74,6 @@ void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
             check_column(of_points[k], plan.num_points, "points of the plan");
             copy(of_points[k]);
         }
-        all.resize(delivery.num_points);
-        std::iota(all.begin(), all.end(), LocalIndex{0});
-        delivery.sent = all;
         delivery.to = plan.receive;
         delivery.from = plan.send;
     });
@@ -115,26 +110,19 @@ std::vector<double> sums(const Groups& groups, std::span<const double> values,
     std::vector<double> all;
     std::vector<double> elsewhere;
     std::vector<double> arrived;
-    std::vector<LocalIndex> numbers;
-    Delivery delivery;
     self.attempt([&] {
-        delivery.num_points = check(groups, mpi::size_of(self.comm));
+        const LocalIndex num_elsewhere = check(groups, mpi::size_of(self.comm));
         check_column(detail::byte_column(Column<double>{values, components}, all),
                      groups.of_points.size(), "points of the groups");
-        all.resize((groups.plan.num_points + delivery.num_points) * components);
+        all.resize((groups.plan.num_points + num_elsewhere) * components);
         detail::add_each(groups.of_points, components, values.data(), all.data());
-        elsewhere.assign(
-            all.begin() + static_cast<std::ptrdiff_t>(groups.plan.num_points * components),
-            all.end());
+        elsewhere.assign(all.end() - static_cast<std::ptrdiff_t>(num_elsewhere * components),
+                         all.end());
         all.resize(groups.plan.num_points * components);
-        numbers.resize(delivery.num_points);
-        std::iota(numbers.begin(), numbers.end(), LocalIndex{0});
-        delivery.sent = numbers;
-        delivery.to = groups.plan.receive;
-        delivery.from = groups.plan.send;
     });
-    const std::array columns{detail::byte_column(Column<double>{elsewhere, components}, arrived)};
-    deliver(delivery, columns, {}, nullptr, self);
+    const std::array sent{detail::byte_column(Column<double>{elsewhere, components}, arrived)};
+    const std::array kept{detail::byte_column(Column<double>{all, components}, all)};
+    move_back(groups.plan, sent, kept, {}, nullptr, self);
     detail::add_each(groups.plan.send_indices, components, arrived.data(), all.data());
     return all;
 }

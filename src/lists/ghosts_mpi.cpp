@@ -18,7 +18,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -227,12 +226,8 @@ class GhostSearch : public TierSearch {
 /// Sends the shifts of ghosts to the ranks that get these. Collective.
 void exchange_shifts(GhostPlan& plan, Participant& self) {
     const std::vector<Shift> sent = std::exchange(plan.shifts, {});
-    std::vector<LocalIndex> all;
     Delivery delivery{.num_points = sent.size()};
     self.attempt([&] {
-        all.resize(sent.size());
-        std::iota(all.begin(), all.end(), LocalIndex{0});
-        delivery.sent = all;
         delivery.to = plan.send;
         delivery.from = plan.receive;
     });

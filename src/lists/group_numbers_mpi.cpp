@@ -20,6 +20,7 @@ NumberRule rule_of_groups(const NumberRule& rule) {
 struct GroupsHere {
     std::vector<Part> groups;   ///< of the parts of its points
     std::vector<Part> origins;  ///< groups whose numbers keep the points; no_part: none
+    GlobalCount num_kept = 0;   ///< points that stay if no number changes
 };
 
 GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previous,
@@ -33,20 +34,11 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::int32_t origin = origins.of(i);
         const Part from = origin == no_origin ? no_part : rule.group_of(origin);
+        if (origin != no_origin && rule.home_of(parts[i]) == origin) ++here.num_kept;
         here.groups[i] = rule.group_of_part(parts[i]);
         here.origins[i] = here.groups[i] < num_full && from < num_full ? from : no_part;
     }
     return here;
-}
-
-/// Counts a rank's points that stay if their parts have these numbers. The search counts fewer: a
-/// rank may have numbers of two groups, of which a part can only get those of its own.
-GlobalCount count_kept(std::span<const Part> numbers, const Origins& origins,
-                       const NumberRule& rule) {
-    GlobalCount kept = 0;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (origins.of(i) != no_origin && rule.home_of(numbers[i]) == origins.of(i)) ++kept;
-    return kept;
 }
 
 }  // namespace
@@ -75,9 +67,14 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
     std::ranges::transform(parts, here.groups.begin(), moved);
     NewNumbers found = find_numbers(here.groups, previous, buffers.parts, self);
     Remap& remap = found.remap;
-    for (Part& part : here.groups) part = remap.numbers[part];
+    // The search counts fewer: a rank may have numbers of two groups, of which a part can only get
+    // those of its own.
     const Origins origins(previous, rule, mpi::rank_of(self.comm));
-    std::array kept{count_kept(parts, origins, rule), count_kept(here.groups, origins, rule)};
+    std::array kept{here.num_kept, GlobalCount{0}};
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (origins.of(i) != no_origin &&
+            rule.home_of(remap.numbers[here.groups[i]]) == origins.of(i))
+            ++kept[1];
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, kept.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");
     remap.kept_before = kept[0];

@@ -182,8 +182,8 @@ void check_tree_options(const Options& options, int dimension) {
 void check_tree(const Cuts& cuts) {
     check_dimension(cuts.dimension, "cuts");
     require(has_its_cuts(cuts),
-            "the tree must hold one cut less than there are parts, or the ascending number of each "
-            "one that it holds");
+            "the tree must hold one cut less than there are parts, in groups of 1 or more, or the "
+            "ascending number of each one that it holds");
     require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
 }
 
@@ -191,14 +191,6 @@ void check_positions(const Points& positions, const Cuts& cuts) {
     check_tree(cuts);
     require(positions.dimension == cuts.dimension, "positions must have the dimension of the cuts");
     check_coordinates(positions);
-}
-
-void check_cuts(const Cuts& cuts) {
-    check_dimension(cuts.dimension, "cuts");
-    require(is_whole(cuts) && has_its_cuts(cuts),
-            "the tree must hold one cut less than there are parts, in groups of 1 or more; "
-            "gather_cuts() gathers them if the ranks have a part of it each");
-    require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
 }
 
 bool set_min_width(Options& options, const std::vector<double>& numbers) {

@@ -44,9 +44,6 @@ void check_tree(const Cuts& cuts);
 /// coordinates that are not finite.
 void check_positions(const Points& positions, const Cuts& cuts);
 
-/// Throws Error if cuts are not a complete tree.
-void check_cuts(const Cuts& cuts);
-
 /// Throws Error if the cuts of an earlier call do not fit these options.
 void check_previous(const Cuts& previous, const Options& options, int dimension);
 

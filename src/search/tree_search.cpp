@@ -39,10 +39,6 @@ double sum_of_sizes(const PartTree& tree) {
 
 }  // namespace
 
-int PartTree::first_rank_of(const Descent& at) const {
-    return rrcb::owner_of(at, num_parts, num_ranks);
-}
-
 TreeSearch::TreeSearch(const PartTree& tree, int rank, const Regions& regions,
                        SortedPoints&& points, std::span<Part> parts)
     : tree_(tree),
@@ -86,7 +82,7 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, Sorte
 }
 
 int TreeSearch::owner_of(const Descent& at) const {
-    return is_central() ? 0 : tree_.first_rank_of(at);
+    return is_central() ? 0 : rrcb::owner_of(at, tree_.num_parts, tree_.num_ranks);
 }
 
 double TreeSearch::share_below(const Descent& at) const {
@@ -132,7 +128,9 @@ void TreeSearch::enter(const Descent& at, Content&& content) {
     const double below = content.are_parts_counted ? weight_of(at.lower(), guide_->sums.sums())
                          : share > 0               ? content.weight
                                                    : 0;
-    divide(at, content, cut_unsearched(at, content, share), {}, below);
+    const Cut cut = cut_unsearched(at, content, share);
+    note(at.node, cut);
+    divide(at, content, cut, {}, below);
 }
 
 /// Returns true if there is nothing to search at a node or below; then its part is written.
@@ -176,7 +174,6 @@ void TreeSearch::add_node(const Descent& at, Content&& content, Question questio
 /// Goes on below a cut.
 void TreeSearch::divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
                         double below) {
-    note(at.node, cut);
     sort_between(cut.at[cut.axis], cut.at[cut.axis], cut.axis, content);
     auto [lower, upper] = is_central() ? split(content.fragments, cut, lot, points_)
                                        : split_tightly(content.fragments, cut, lot);
@@ -253,6 +250,7 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
                                                   : told.before;
     }
     node.content.are_parts_counted = false;
+    if (node.search.stage != CutSearch::centring) note(node.at.node, cut);
     divide(node.at, node.content, cut, lot, node.search.below);
 }
 
@@ -304,16 +302,11 @@ CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double wei
 
 Cuts TreeSearch::cuts() const {
     std::vector<KnownCut> known = known_;
-    std::ranges::stable_sort(known, {}, &KnownCut::node);
+    std::ranges::sort(known, {}, &KnownCut::node);
     Cuts cuts{dimension_, tree_.num_parts, {}, {}, tree_.shape};
     for (const KnownCut& one : known) {
-        const auto node = static_cast<std::int32_t>(one.node);
-        if (!cuts.nodes.empty() && cuts.nodes.back() == node) {
-            cuts.tree.back() = one.cut;  // moved since it was found
-            continue;
-        }
         cuts.tree.push_back(one.cut);
-        cuts.nodes.push_back(node);
+        cuts.nodes.push_back(static_cast<std::int32_t>(one.node));
     }
     return cuts;
 }

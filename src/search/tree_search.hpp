@@ -43,9 +43,6 @@ struct PartTree {
     bool centres_cuts = false;        ///< moves cuts to the middle between points of all ranks
     bool divides_coincident = false;  ///< divides coincident points, see Coincident
     std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
-
-    /// Returns the first rank that holds the first part of a node.
-    int first_rank_of(const Descent& at) const;
 };
 
 /// Regions at the top of a tree, their number a power of two; the same on every rank.

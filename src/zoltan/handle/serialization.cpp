@@ -1,10 +1,11 @@
 #include "zoltan/handle/serialization.hpp"
 
+#include "collective/failure.hpp"
+#include "options/validation.hpp"
 #include "zoltan/real/message.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -137,15 +138,8 @@ bool is_consistent(const PartMap& map) {
 }
 
 bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>& numbers) {
-    const auto valid_cut = [&](const Cut& cut) {
-        return cut.axis >= 0 && cut.axis < cuts.dimension &&
-               std::ranges::none_of(cut.at, [](double x) { return std::isnan(x); });
-    };
-    return cuts.dimension >= 1 && cuts.dimension <= max_dimension && cuts.shape.group_size >= 1 &&
-           cuts.shape.number_fits(map.num_parts) && is_consistent(map) &&
-           cuts.tree.size() + 1 == static_cast<std::size_t>(map.num_parts) &&
-           (numbers.empty() || numbers.size() == cuts.tree.size() + 1) &&
-           std::ranges::all_of(cuts.tree, valid_cut) && is_permutation(numbers);
+    return is_consistent(map) && !attempt([&] { check_tree(cuts); }).failed &&
+           (numbers.empty() || numbers.size() == cuts.tree.size() + 1) && is_permutation(numbers);
 }
 
 LastPartition read_last(Reader& reader) {

@@ -289,34 +289,30 @@ Balance balance(const Points& points, const Options& options, const Cuts* previo
 
 namespace {
 
-void balance_anew(Balance& result, const Points& points, const Options& options,
-                  const Cuts* previous, MPI_Comm comm) {
+Balance balance_over(MPI_Comm comm, const Points& points, const Options& options,
+                     const Cuts* previous, std::vector<Part> memory = {}) {
     Participant self{mpi::duplicate_of(comm)};
-    result = balance(points, options, previous, true, self, std::exchange(result.parts, {}));
+    return balance(points, options, previous, true, self, std::move(memory));
 }
 
 }  // namespace
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
-    Balance result;
-    balance_into(result, points, options, comm);
-    return result;
+    return balance_over(comm, points, options, nullptr);
 }
 
 void balance_into(Balance& result, const Points& points, const Options& options, MPI_Comm comm) {
-    balance_anew(result, points, options, nullptr, comm);
+    result = balance_over(comm, points, options, nullptr, std::exchange(result.parts, {}));
 }
 
 Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
                   MPI_Comm comm) {
-    Balance result;
-    rebalance_into(result, points, options, previous, comm);
-    return result;
+    return balance_over(comm, points, options, &previous);
 }
 
 void rebalance_into(Balance& result, const Points& points, const Options& options,
                     const Cuts& previous, MPI_Comm comm) {
-    balance_anew(result, points, options, &previous, comm);
+    result = balance_over(comm, points, options, &previous, std::exchange(result.parts, {}));
 }
 
 }  // namespace rrcb

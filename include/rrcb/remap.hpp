@@ -22,7 +22,8 @@ struct Remap {
 /// Numbers the parts of a new partition so that many points stay on their rank. Collective.
 ///
 /// The largest overlap of a rank and a part gets its number first, which keeps at least half of the
-/// points that any numbers can keep, without groups. Numbers that gain nothing are left unchanged.
+/// points that any numbers can keep. With groups it may keep fewer, above all if a rank has numbers
+/// of two groups. Numbers that gain nothing are left unchanged.
 /// @param parts          the new part of each point of this rank
 /// @param ranks_of_parts one entry per part, ascending, the same on every rank; of several ranks of
 /// a part the first one counts

@@ -6,6 +6,7 @@
 #include <rrcb/cost.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,7 +60,7 @@ int make_model(MPI_Comm comm, rrcb_controller* const* controller, int num_column
 void check_columns(const rrcb_cost_model& own, std::size_t num_columns) {
     if (num_columns != own.num_columns)
         rrcb::reject("the cost model has " + std::to_string(own.num_columns) + " columns, not " +
-                     std::to_string(num_columns));
+                     std::to_string(num_columns) + "; give as many");
 }
 
 }  // namespace
@@ -125,6 +126,9 @@ int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_col
                             const double* columns, double* weights) {
     return with_model(model, [&](rrcb_cost_model& own) {
         check_columns(own, num_columns);
+        if (count > PTRDIFF_MAX / sizeof(double) / own.num_columns)
+            rrcb::reject(
+                "count and columns exceed the memory; count is the number of points of this rank");
         rrcb::c::require_array(count, columns, "columns");
         rrcb::c::require_array(count, weights, "weights");
         std::ranges::copy(own.model->weights(view(columns, count * own.num_columns)), weights);

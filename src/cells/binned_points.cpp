@@ -76,8 +76,8 @@ class Binner {
             // Copies, and one loop for each sum: otherwise the loops would not be vectorized.
             for (std::size_t a = 0; a < dimension; ++a) x[a] -= cell.origin[a];
             Position moment = x;
+            [[maybe_unused]] const double weight = Weighted ? weights[i] * weight_scale : 1;
             if constexpr (Weighted) {
-                const double weight = weights[i] * weight_scale;
                 cell.weight.sum += weight;
                 for (double& value : moment) value *= weight;
             }

@@ -96,9 +96,9 @@ std::vector<double> CostModel::weights(std::span<const double> columns) {
     rule.divide();
     const std::size_t length = rule.num_columns();
     if (columns.size() % length != 0)
-        throw Error(ErrorCode::invalid_argument, std::to_string(columns.size()) +
-                                                     " numbers are no rows of " +
-                                                     std::to_string(length) + " columns");
+        throw Error(ErrorCode::invalid_argument,
+                    std::to_string(columns.size()) + " numbers are no rows of " +
+                        std::to_string(length) + " columns; give a row for each point");
     std::vector<double> weights(columns.size() / length, 1.0);
     if (!rule.uses_costs()) return weights;
     for (std::size_t i = 0; i < weights.size(); ++i)

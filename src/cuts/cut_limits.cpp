@@ -72,12 +72,15 @@ void CutLimits::require_room() {
     const std::string limited(limiting_);
     if (given_.axes.empty())
         reject(limited + " room for " + std::to_string(most_parts(room, whole_.shape, num_parts)) +
-               " parts, but " + std::to_string(num_parts) + " are asked for");
+               " parts, but " + std::to_string(num_parts) +
+               " are asked for; ask for fewer, or set narrower limits");
     std::string side_by_side;
     for (int axis = 0; axis < dimension_; ++axis)
         side_by_side += (axis == 0 ? "" : " x ") + std::to_string(room[axis]);
-    reject(limited + " room for " + side_by_side +
-           " parts side by side, not enough for the given axes of the cuts");
+    reject(
+        limited + " room for " + side_by_side +
+        " parts side by side, not enough for the given axes of the cuts; set narrower limits, or "
+        "leave the axes free");
 }
 
 Room CutLimits::room_in(const Box& region, int most) const {

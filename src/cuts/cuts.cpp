@@ -171,7 +171,7 @@ Box box_of(const Cuts& cuts, Part part) {
     check_shape(cuts);
     if (part < 0 || part >= cuts.num_parts)
         reject("part " + std::to_string(part) + " is none of the " +
-               std::to_string(cuts.num_parts) + " parts of the cuts");
+               std::to_string(cuts.num_parts) + " parts of the cuts; they count from 0");
     const Part end = end_of(cuts, part);
     const Box region = region_of(cuts, end);
     return is_region_empty(cuts, end, region) ? Box{} : region;

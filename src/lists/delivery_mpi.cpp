@@ -34,7 +34,9 @@ std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
     std::size_t bytes = 0;
     for (const ByteColumn& column : columns) {
         if (column.components > (mpi::longest_message - bytes) / column.value_bytes)
-            reject("a point has more bytes in these columns than a message holds");
+            reject(
+                "a point has more bytes in these columns than a message holds; move the columns in "
+                "several calls");
         bytes += column.components * column.value_bytes;
     }
     return bytes;
@@ -208,10 +210,13 @@ void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int
     for (const RankCount& share : counts) {
         if (share.rank < least || share.rank >= num_ranks)
             reject("the plan names rank " + std::to_string(share.rank) + ", which is none of the " +
-                   std::to_string(num_ranks) + " of this communicator or not in ascending order");
+                   std::to_string(num_ranks) +
+                   " of this communicator or not in ascending order; give the plan as it was made, "
+                   "with its communicator");
         least = share.rank + 1;
     }
-    if (total(counts) != total_count) reject("the counts of the plan do not add up to its list");
+    require(total(counts) == total_count,
+            "the counts of the plan do not add up to its list; give the plan as it was made");
 }
 
 void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,

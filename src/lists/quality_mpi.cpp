@@ -24,7 +24,7 @@ void check_arguments(const Points& points, std::span<const Part> parts, int num_
     for (const Part part : parts)
         if (part < 0 || part >= num_parts)
             reject("part " + std::to_string(part) + " is none of the " + std::to_string(num_parts) +
-                   " parts");
+                   " parts; they count from 0");
 }
 
 std::vector<double> weights_here(const Points& points, std::span<const Part> parts, int num_parts) {

@@ -210,7 +210,7 @@ void check_parts(std::span<const Part> parts, const PreviousParts& previous,
     for (std::size_t i = 0; i < parts.size(); ++i)
         if (parts[i] < 0 || static_cast<std::size_t>(parts[i]) >= num_parts)
             reject("part " + std::to_string(parts[i]) + " of point " + std::to_string(i) +
-                   " is none of the " + std::to_string(num_parts) + " parts");
+                   " is none of the " + std::to_string(num_parts) + " parts; they count from 0");
 }
 
 }  // namespace

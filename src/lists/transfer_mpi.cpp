@@ -15,7 +15,7 @@ namespace {
 void check_lists(const Plan& plan, int num_ranks) {
     const std::vector<LocalIndex>& exports = plan.export_indices;
     require(exports.size() == plan.export_ranks.size(),
-            "the lists of exports of the plan differ in length");
+            "the lists of exports of the plan differ in length; give the plan as it was made");
     require(std::ranges::adjacent_find(exports, std::greater_equal<>()) == exports.end() &&
                 (exports.empty() || exports.back() < plan.num_points),
             "export_indices of the plan must ascend below num_points");
@@ -24,7 +24,7 @@ void check_lists(const Plan& plan, int num_ranks) {
     require(std::ranges::all_of(plan.export_ranks, is_here) &&
                 (plan.import_ranks.empty() ||
                  (is_here(plan.import_ranks.front()) && is_here(plan.import_ranks.back()))),
-            "the plan names a rank that is none of this communicator");
+            "the plan names a rank that is none of this communicator; give that of the plan");
 }
 
 /// Returns the indices of the exports, sorted by rank and ascending for each.

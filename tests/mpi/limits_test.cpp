@@ -119,11 +119,13 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
     }
     options.num_parts = 33;
     EXPECT_EQ(message_of(points, options),
-              "rank 0: axes.min_width leaves room for 32 parts, but 33 are asked for");
+              "rank 0: axes.min_width leaves room for 32 parts, but 33 are asked for; ask "
+              "for fewer, or set narrower limits");
     options.num_parts = 32;
     options.axes.min_width[0] = std::nextafter(1, 2);
     EXPECT_EQ(message_of(points, options),
-              "rank 0: axes.min_width leaves room for 28 parts, but 32 are asked for");
+              "rank 0: axes.min_width leaves room for 28 parts, but 32 are asked for; ask "
+              "for fewer, or set narrower limits");
 }
 
 TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
@@ -136,7 +138,7 @@ TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
     EXPECT_EQ(
         message_of(points, options),
         "rank 0: axes.min_width leaves room for 3 x 4 parts side by side, not enough for the given "
-        "axes of the cuts");
+        "axes of the cuts; set narrower limits, or leave the axes free");
     options.axes.order = AxisOrder::given({0, 1, 1});
     EXPECT_EQ(message_of(points, options), "");
     options.axes.order = AxisOrder::grouped({1, 0});

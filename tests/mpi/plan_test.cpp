@@ -116,8 +116,8 @@ void expect_refusal(double measure(const Points&, std::span<const Part>)) {
         measure(interleaved_points(x, 1), parts);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
-        EXPECT_EQ(error.what(),
-                  "rank " + std::to_string(num_ranks() - 1) + ": part 7 is none of the 2 parts");
+        EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) +
+                                    ": part 7 is none of the 2 parts; they count from 0");
     }
 }
 

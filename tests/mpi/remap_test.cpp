@@ -302,9 +302,9 @@ TEST(Remap, refuses_on_all_ranks_what_one_gets_wrong) {
     const std::vector<Part> too_few{0, 0};
     for (const Part bad : {-1, num_ranks()}) {
         const std::vector<Part> wrong{0, bad, 0};
-        expect_error(
-            test::is_last_rank() ? wrong : fine, fine,
-            "part " + std::to_string(bad) + " of point 1 is none of the " + number + " parts");
+        expect_error(test::is_last_rank() ? wrong : fine, fine,
+                     "part " + std::to_string(bad) + " of point 1 is none of the " + number +
+                         " parts; they count from 0");
     }
     expect_error(fine, test::is_last_rank() ? too_few : fine,
                  "previous has 2 entries, parts has 3; give one of each per point");

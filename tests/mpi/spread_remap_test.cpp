@@ -89,8 +89,9 @@ TEST(SpreadRemap, refuses_on_all_ranks_what_one_gets_wrong) {
             found(true, wrong, {}, 200);
             ADD_FAILURE() << "expected an error";
         } catch (const Error& error) {
-            EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) +
-                                        ": part 200 of point 0 is none of the 200 parts");
+            EXPECT_EQ(error.what(),
+                      "rank " + std::to_string(num_ranks() - 1) +
+                          ": part 200 of point 0 is none of the 200 parts; they count from 0");
         }
         EXPECT_EQ(found(true, dealt(200, 1), {}, 200).numbers.size(), 200u);
     }

@@ -22,13 +22,12 @@ struct Remap {
 /// Numbers the parts of a new partition so that many points stay on their rank. Collective.
 ///
 /// The largest overlap of a rank and a part gets its number first, which keeps at least half of the
-/// points that any numbers can keep. With groups it may keep fewer, above all if a rank has numbers
-/// of two groups. Numbers that gain nothing are left unchanged.
+/// points that any numbers can keep, without groups. Numbers that gain nothing are left unchanged.
 /// @param parts          the new part of each point of this rank
 /// @param ranks_of_parts one entry per part, ascending, the same on every rank; of several ranks of
 /// a part the first one counts
 /// @param comm           the ranks that have the points
-/// @param shape          that of the cuts: parts of one of its groups stay in one group
+/// @param shape          that of the cuts: parts of a group stay in one, which keeps fewer points
 /// Throws Error on every rank if one names a part that does not exist, ranks that differ or do not
 /// exist, or has no memory. Cost: one pass to rank 0, which decides, and one broadcast; with more
 /// parts and ranks than Tuning::central_parts, passes through all ranks.

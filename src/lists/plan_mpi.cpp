@@ -42,7 +42,7 @@ void check_parts(std::span<const Part> parts, int num_parts) {
     require(num_parts >= 1, "num_parts must be at least 1");
     const auto is_none = [&](Part part) { return part < 0 || part >= num_parts; };
     if (std::ranges::any_of(parts, is_none))
-        reject("a part is outside 0 ... " + std::to_string(num_parts - 1));
+        reject("a part is outside 0 ... " + std::to_string(num_parts - 1) + "; parts count from 0");
 }
 
 void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Plan& plan) {

@@ -86,9 +86,9 @@ TEST(Plan, a_part_out_of_range_on_one_rank_fails_everywhere) {
         FAIL() << "expected an error";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-        EXPECT_EQ(std::string(error.what()), "rank " + std::to_string(num_ranks() - 1) +
-                                                 ": a part is outside 0 ... " +
-                                                 std::to_string(num_ranks() - 1));
+        EXPECT_EQ(std::string(error.what()),
+                  "rank " + std::to_string(num_ranks() - 1) + ": a part is outside 0 ... " +
+                      std::to_string(num_ranks() - 1) + "; parts count from 0");
     }
 }
 

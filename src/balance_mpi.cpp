@@ -150,8 +150,8 @@ Balance balance_from_scratch(const Points& points, const Options& given, bool ma
 
 /// Counts of the parts of earlier cuts.
 struct EarlierParts {
-    PartTotals totals{};                  ///< of this rank, if rank 0 weighs all parts
-    std::optional<SpreadReuse> spread{};  ///< if many ranks do
+    PartTotals totals{};                  ///< of this rank
+    std::optional<SpreadReuse> spread{};  ///< if many ranks weigh the parts; else rank 0 does
 };
 
 /// Returns true if a call by these options may begin with earlier cuts.
@@ -169,25 +169,21 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
     check_arrays(points);
     introduce(given, Box{}, &previous, call, self);
     if (!may_reuse(previous, call.options)) return;
-    const Options& central = call.options.central();
-    std::vector<Part>& parts = call.result.parts;
-    bool all_finite = true;
-    if (call.options.is_spread()) {
-        call.decision.reuses = true;
-        earlier.spread.emplace(previous, call.options, points, parts, self.comm);
-        all_finite = earlier.spread->all_finite();
+    const CallOptions& options = call.options;
+    const Cuts& cuts = take_earlier(call.decision, options, previous);
+    if (counts_earlier_parts(options.parts)) {
+        earlier.totals = assign_and_count(cuts, points, call.result.parts);
+        if (!earlier.totals.all_finite) reject_coordinates(points);
     } else {
-        make_buffers_to_reuse(call.decision, central, previous);
-        call.settlement.prepare(call.options, are_cuts_limited(central), self);
-        if (!counts_earlier_parts(central)) {
-            check_points(points);
-            return;
-        }
-        earlier.totals = assign_and_count(call.decision.bisection.cuts, points, parts);
-        all_finite = earlier.totals.all_finite;
+        check_points(points);
+    }
+    if (options.is_spread()) {
+        earlier.spread.emplace(cuts, earlier.totals, is_whole(previous), options, points,
+                               call.result.parts, self.comm);
+    } else {
+        call.settlement.prepare(options, are_cuts_limited(options.parts), self);
         add_totals(earlier.totals, call.mine);
     }
-    if (!all_finite) reject_coordinates(points);
 }
 
 /// Returns true if the earlier cuts are kept; the report then has their imbalance. Collective if

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace rrcb {
@@ -172,12 +173,20 @@ bool counts_earlier_parts(const Options& options) {
     return !are_cuts_limited(options) && options.refine != Refine::exact;
 }
 
-void make_buffers_to_reuse(Decision& decision, const Options& options, const Cuts& previous) {
+const Cuts& take_earlier(Decision& decision, const CallOptions& call, const Cuts& previous) {
+    const Options& options = call.parts;
+    Cuts& cuts = decision.bisection.cuts;
     decision.reuses = true;
-    decision.bisection.cuts = fitted(previous, options);
-    decision.bisection.brackets.reserve(is_refined(options) ? previous.tree.size() : 0);
+    cuts = fitted(previous, options);
+    if (call.is_spread() && is_whole(cuts)) {
+        cuts.nodes.resize(cuts.tree.size());
+        std::iota(cuts.nodes.begin(), cuts.nodes.end(), 0);
+    }
+    if (call.is_spread()) return cuts;
+    decision.bisection.brackets.reserve(is_refined(options) ? cuts.tree.size() : 0);
     decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
     decision.message.resize(std::span(decision.part_weights).size_bytes());
+    return cuts;
 }
 
 void make_buffers(Decision& decision, const Options& options, int dimension, bool may_keep) {

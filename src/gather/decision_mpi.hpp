@@ -1,6 +1,7 @@
 #pragma once
 
 #include "collective/agreement_mpi.hpp"
+#include "gather/call_options.hpp"
 #include "gather/contribution.hpp"
 #include "gather/kept_tree.hpp"
 
@@ -69,8 +70,8 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
 bool counts_earlier_parts(const Options& options);
 
 /// Takes earlier cuts as the decision, fitted to the options, and makes buffers for the weights of
-/// their parts. Not collective.
-void make_buffers_to_reuse(Decision& decision, const Options& options, const Cuts& previous);
+/// their parts if rank 0 weighs these; otherwise it numbers the cuts. Not collective.
+const Cuts& take_earlier(Decision& decision, const CallOptions& options, const Cuts& previous);
 
 /// Bisects the cells of all ranks on rank 0, or weighs the parts of earlier cuts. Determines
 /// whether the ranks already hold parts good enough to be kept. Throws Error if the ranks differ or

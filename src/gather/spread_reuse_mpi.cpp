@@ -5,7 +5,6 @@
 #include "cuts/packed_tree.hpp"
 #include "cuts/part_share.hpp"
 #include "gather/decision_mpi.hpp"
-#include "gather/earlier_cuts.hpp"
 
 #include <rrcb/plan.hpp>
 
@@ -14,7 +13,6 @@
 #include <bit>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace rrcb {
@@ -25,26 +23,17 @@ void add(std::span<const double> a, std::span<const double> b, std::vector<doubl
     std::ranges::transform(a, b, std::back_inserter(joined), std::plus<>());
 }
 
-/// Returns cuts with their numbers, even if the tree is complete.
-Cuts numbered(Cuts cuts) {
-    if (is_whole(cuts)) {
-        cuts.nodes.resize(cuts.tree.size());
-        std::iota(cuts.nodes.begin(), cuts.nodes.end(), 0);
-    }
-    return cuts;
-}
-
 }  // namespace
 
-SpreadReuse::SpreadReuse(const Cuts& previous, const CallOptions& options, const Points& points,
-                         std::span<Part> parts, MPI_Comm comm)
+SpreadReuse::SpreadReuse(const Cuts& cuts, const PartTotals& totals, bool was_whole,
+                         const CallOptions& options, const Points& points, std::span<Part> parts,
+                         MPI_Comm comm)
     : options_(options),
       points_(points),
       parts_(parts),
-      was_whole_(is_whole(previous)),
-      cuts_(numbered(fitted(previous, options.parts))),
-      totals_(assign_and_count(cuts_, points, parts)),
-      buffers_(PathSearch(cuts_, points, parts), comm),
+      totals_(totals),
+      was_whole_(was_whole),
+      buffers_(PathSearch(cuts, points, parts), comm),
       sums_(mpi::rank_of(comm), mpi::size_of(comm), add) {}
 
 /// Adds up the parts found at once, and those of points that were searched one by one.

@@ -16,13 +16,12 @@ namespace rrcb {
 /// points, and the cuts above them.
 class SpreadReuse {
   public:
-    /// Assigns the points, whose `parts` it writes. `options`, `points` and `parts` outlive it. Not
-    /// collective; throws std::bad_alloc, and Error if the rank lacks a cut that it owns.
-    SpreadReuse(const Cuts& previous, const CallOptions& options, const Points& points,
-                std::span<Part> parts, MPI_Comm comm);
-
-    /// Returns false if a coordinate is NaN or infinite; then the rest is void.
-    bool all_finite() const { return totals_.all_finite; }
+    /// Takes cuts with their numbers, and the `parts` of the points and their `totals` by these.
+    /// All except the cuts outlive it. Not collective; throws std::bad_alloc, and Error if the rank
+    /// lacks a cut that it owns.
+    SpreadReuse(const Cuts& cuts, const PartTotals& totals, bool was_whole,
+                const CallOptions& options, const Points& points, std::span<Part> parts,
+                MPI_Comm comm);
 
     /// Finds the parts of all points and counts them. Returns false if they are not within the
     /// tolerance. Otherwise it completes the report of `result`, and stores the cuts above the
@@ -41,9 +40,9 @@ class SpreadReuse {
     const CallOptions& options_;
     const Points& points_;
     std::span<Part> parts_;
+    const PartTotals& totals_;
     bool was_whole_;
-    Cuts cuts_;  ///< with their numbers, even if complete
-    PartTotals totals_;
+    Cuts cuts_;  ///< those that the search has found, too
     SearchBuffers<PathSearch> buffers_;
     Butterfly sums_;
     std::map<Part, double> weights_{};  ///< of the points here, in each part

@@ -20,14 +20,11 @@ struct WeightSum<false> {};
 
 /// Sums over the points of one cell.
 template <std::size_t Dimension, bool Weighted>
-struct CellSum {
-    std::array<double, Dimension> first{};
-    std::array<double, Dimension> second{};
+struct CellSum : MomentSums<Dimension> {
     [[no_unique_address]] WeightSum<Weighted> weight{};
 
     CellSum& operator+=(const CellSum& other) {
-        for (std::size_t a = 0; a < Dimension; ++a) first[a] += other.first[a];
-        for (std::size_t a = 0; a < Dimension; ++a) second[a] += other.second[a];
+        MomentSums<Dimension>::operator+=(other);
         if constexpr (Weighted) weight.sum += other.weight.sum;
         return *this;
     }

@@ -6,6 +6,20 @@
 
 namespace rrcb {
 
+/// Sums of w d and w d^2 over points, d relative to an origin in or near their cell, in scaled
+/// lengths.
+template <std::size_t Dimension>
+struct MomentSums {
+    std::array<double, Dimension> first{};
+    std::array<double, Dimension> second{};
+
+    MomentSums& operator+=(const MomentSums& other) {
+        for (std::size_t a = 0; a < Dimension; ++a) first[a] += other.first[a];
+        for (std::size_t a = 0; a < Dimension; ++a) second[a] += other.second[a];
+        return *this;
+    }
+};
+
 /// Sums over one rank's points in each cell of a support mesh.
 struct BinnedPoints {
     SupportMesh mesh;

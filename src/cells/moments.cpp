@@ -14,27 +14,11 @@ namespace rrcb {
 
 namespace {
 
-/// Sums of w d and w d^2 over points, d relative to an origin in or near their cell, in scaled
-/// lengths.
-template <std::size_t Dimension>
-struct Sums {
-    std::array<double, Dimension> first{};
-    std::array<double, Dimension> second{};
-
-    Sums& operator+=(const Sums& other) {
-        for (std::size_t a = 0; a < Dimension; ++a) {
-            first[a] += other.first[a];
-            second[a] += other.second[a];
-        }
-        return *this;
-    }
-};
-
 /// Origins of the cells, and the sums about them.
 template <std::size_t Dimension>
 struct Centred {
     std::vector<std::array<double, Dimension>> origins;
-    std::vector<Sums<Dimension>> sums;
+    std::vector<MomentSums<Dimension>> sums;
 };
 
 template <std::size_t Dimension>
@@ -69,7 +53,7 @@ bool move_origins(const BinnedPoints& binned, Centred<Dimension>& cells) {
         const double weight = binned.scaled_weight(cell);
         if (!(weight > 0)) continue;
         for (std::size_t a = 0; a < Dimension; ++a) {
-            const Sums<Dimension>& sums = cells.sums[cell];
+            const MomentSums<Dimension>& sums = cells.sums[cell];
             if (!is_far_off(sums.first[a], sums.second[a], weight)) continue;
             cells.origins[cell][a] += sums.first[a] / weight;
             moved = true;
@@ -95,12 +79,12 @@ void sum_again(const Layout& x, const BinnedPoints& binned, const Weight& weight
     constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
     std::array<double, dimension> scale;
     std::copy_n(binned.mesh.scale.begin(), dimension, scale.begin());
-    RunningSums<Sums<dimension>> sums(cells.origins.size());
+    RunningSums<MomentSums<dimension>> sums(cells.origins.size());
     const CellFinder finder(binned.mesh);
     in_ranges(binned.points.count, sums.interval(), [&](LocalIndex begin, LocalIndex end) {
         visit_cells(finder, x, begin, end, [&](LocalIndex i, std::size_t cell) {
             const std::array<double, dimension>& origin = cells.origins[cell];
-            Sums<dimension>& sum = sums[cell];
+            MomentSums<dimension>& sum = sums[cell];
             const double w = weight(i);
             for (std::size_t a = 0; a < dimension; ++a) {
                 const double d = x(i, static_cast<int>(a)) * scale[a] - origin[a];
@@ -115,7 +99,8 @@ void sum_again(const Layout& x, const BinnedPoints& binned, const Weight& weight
 
 template <std::size_t Dimension>
 CellMoments moments_of(const BinnedPoints& binned, LocalIndex cell,
-                       const std::array<double, Dimension>& origin, const Sums<Dimension>& sums) {
+                       const std::array<double, Dimension>& origin,
+                       const MomentSums<Dimension>& sums) {
     const Vector& scale = binned.mesh.scale;
     const double weight = binned.scaled_weight(cell);
     CellMoments result{cell, cell_box(binned.mesh, cell), {}};

@@ -1,33 +1,26 @@
 #pragma once
 
+#include "cells/uninitialized.hpp"
 #include "collective/exchange_mpi.hpp"
 
 #include <rrcb/points.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace rrcb::zoltan {
 
-/// Uninitialised memory that grows and is kept, so that repeated calls touch the same pages.
+/// Memory that grows and is kept, so that repeated calls touch the same pages.
 template <typename T>
-class Scratch {
-  public:
-    /// Returns room for `size` entries. Old entries are lost if it grows. Throws std::bad_alloc.
+struct Scratch : private Uninitialized<T> {
+    /// Returns room for `size` entries. Old entries are lost. Throws std::bad_alloc.
     T* get(std::size_t size) {
-        if (size > capacity_) {
-            data_ = std::make_unique_for_overwrite<T[]>(size);
-            capacity_ = size;
-        }
-        return data_.get();
+        this->clear();
+        this->resize(size);
+        return Uninitialized<T>::data();
     }
-    const T* data() const { return data_.get(); }  ///< null before the first get
-
-  private:
-    std::unique_ptr<T[]> data_;
-    std::size_t capacity_ = 0;
+    using Uninitialized<T>::data;  ///< null before the first get()
 };
 
 /// Memory that one handle's calls share.

@@ -211,7 +211,11 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
     decision.verdict.box = box_together(box, self);
     const Box& whole = decision.verdict.box;
     if (are_cuts_limited(options))
-        self.attempt([&] { move_into_places(whole, options, call.result.cuts); });
+        self.attempt([&] {
+            CutLimits limits(options, whole, call.result.cuts.dimension);
+            limits.require_room();
+            move_into_places(limits, call.result.cuts);
+        });
     if (!is_refined(options)) return call.settlement.assign(call.points, true, call.result, self);
     if (counts_earlier_parts(options))
         call.settlement.take_counts(

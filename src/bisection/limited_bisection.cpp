@@ -114,9 +114,7 @@ Cut cut_in_places(const Piece& piece, double share, int preferred, const Box& ex
     return best.cut;
 }
 
-void move_into_places(const Box& points, const Options& options, Cuts& cuts) {
-    CutLimits limits(options, points, cuts.dimension);
-    limits.require_room();
+void move_into_places(CutLimits& limits, Cuts& cuts) {
     move_node(limits, root_of(cuts), limits.region(), cuts);
 }
 

@@ -26,8 +26,8 @@ Cut cut_in_places(const Piece& piece, double share, int preferred, const Box& ex
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
                         bool with_brackets);
 
-/// Moves the cuts of an earlier call to allowed places. A cut without one across its axis gets the
-/// longest axis that has one. Not collective. Throws Error if there is no room for the parts.
-void move_into_places(const Box& points, const Options& options, Cuts& cuts);
+/// Moves cuts to allowed places, for which there is room. A cut without one across its axis gets
+/// the longest axis that has one, if axes are free. Not collective.
+void move_into_places(CutLimits& limits, Cuts& cuts);
 
 }  // namespace rrcb

@@ -5,7 +5,13 @@
 #include <rrcb/method/bisection.hpp>
 #include <rrcb/method/statistical_domain.hpp>
 
+#include <span>
+#include <vector>
+
 namespace rrcb {
+
+/// Returns the weight of each cell, or its count if no cell has weight.
+std::vector<double> weights_of(std::span<const CellMoments> cells);
 
 double weight_of(const StatisticalDomain& domain);
 Box extent_of(const StatisticalDomain& domain);

@@ -37,4 +37,10 @@ CellSet read_cells(std::span<const double> records, int dimension);
 /// Returns the cube of the lattice of `exponent` that holds a position, in units of its edge.
 Vector cube_of(const Vector& position, int dimension, int exponent);
 
+/// Merges cells on the finest lattice on which at most `most` (>= 8) are left, in its order.
+///
+/// The lattice is never finer than one on which they were merged before. The same cells in the same
+/// order give the same bits. Not collective.
+CellSet coarsen(const CellSet& set, int dimension, std::size_t most);
+
 }  // namespace rrcb

@@ -1,4 +1,4 @@
-#include "gather/coarsening.hpp"
+#include "gather/cell_records.hpp"
 
 #include <algorithm>
 #include <cmath>

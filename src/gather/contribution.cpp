@@ -2,7 +2,6 @@
 
 #include "cuts/cut_limits.hpp"
 #include "gather/cell_records.hpp"
-#include "gather/coarsening.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 

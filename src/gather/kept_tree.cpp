@@ -1,5 +1,6 @@
 #include "gather/kept_tree.hpp"
 
+#include "bisection/limited_bisection.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/position_order.hpp"
 #include "cuts/tree.hpp"
@@ -91,16 +92,8 @@ class Reader {
         CutLimits limits(options_, joined(ranks_).box(), estimate_.dimension,
                          {axes_of(kept_.cuts.tree), gaps_});
         if (!limits.has_room()) return false;
-        move_node(root_of(estimate_), limits.region(), limits);
+        rrcb::move_into_places(limits, kept_.cuts);
         return true;
-    }
-
-    void move_node(const Descent& at, const Box& region, CutLimits& limits) {
-        if (at.is_part()) return;
-        Cut& cut = kept_.cuts.tree[at.node];
-        if (limits.divides(at)) cut = limits.nearest(cut, limits.places(at, region, cut.axis));
-        move_node(at.lower(), box_below(region, cut), limits);
-        move_node(at.upper(), box_above(region, cut), limits);
     }
 
     bool may_cross(int axis, int usual, bool as_expected, Extent all, const Extent& above) const {

@@ -9,9 +9,9 @@
 #include "options/request.hpp"
 #include "options/stage_scope.hpp"
 #include "options/validation.hpp"
-#include "paper/paper_checks.hpp"
 #include "paper/paper_records.hpp"
 #include "paper/paper_words.hpp"
+#include "paper/point_selection.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 #include <rrcb/quality.hpp>

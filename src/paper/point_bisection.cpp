@@ -4,7 +4,6 @@
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
-#include "paper/paper_checks.hpp"
 #include "paper/point_selection.hpp"
 
 #include <algorithm>

@@ -6,6 +6,12 @@
 
 namespace rrcb {
 
+/// Throws Error for options of the sampling that are out of range.
+void check_sampling(const PaperOptions& options);
+
+/// Throws Error for sizes that Options::part_sizes could not be.
+void check_sizes(int num_parts, std::span<const double> part_sizes);
+
 double weight_of(std::span<const MassPoint> points);
 
 /// Divides points in place: those below the cut come first. Expected cost linear in their number.

@@ -1,7 +1,7 @@
-#include "bisection/cell_patches.hpp"
+#include "bisection/patches.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
-#include "paper/paper_checks.hpp"
+#include "paper/point_selection.hpp"
 
 #include <algorithm>
 #include <cmath>

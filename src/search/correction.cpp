@@ -1,6 +1,5 @@
-#include "search/correction.hpp"
-
 #include "cuts/part_share.hpp"
+#include "search/slabs.hpp"
 
 #include <algorithm>
 #include <cmath>

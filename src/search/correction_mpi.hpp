@@ -1,8 +1,8 @@
 #pragma once
 
 #include "collective/participant.hpp"
-#include "search/correction.hpp"
 #include "search/part_sums_mpi.hpp"
+#include "search/undecided_points.hpp"
 
 #include <memory>
 #include <span>

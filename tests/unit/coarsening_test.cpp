@@ -1,5 +1,3 @@
-#include "gather/coarsening.hpp"
-
 #include "gather/cell_records.hpp"
 #include "gather/lean_cells.hpp"
 

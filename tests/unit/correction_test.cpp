@@ -1,8 +1,7 @@
 // Corrections of all cuts at once, on the points of one rank: what is left open, what is counted
 // and where the cuts go, against looking up every point.
-#include "search/correction.hpp"
-
 #include "../support/clouds.hpp"
+#include "search/undecided_points.hpp"
 
 #include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>

@@ -8,7 +8,6 @@
 #include "options/validation.hpp"
 #include "paper/paper_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
-#include "zoltan/call/forwarding.hpp"
 #include "zoltan/call/kept_objects_mpi.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/lists_mpi.hpp"

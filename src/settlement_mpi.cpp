@@ -6,7 +6,6 @@
 #include "cuts/cut_limits.hpp"
 #include "cuts/cuts_mpi.hpp"
 #include "cuts/direct_assignment.hpp"
-#include "cuts/path_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "options/stage_scope.hpp"

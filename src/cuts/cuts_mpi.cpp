@@ -5,7 +5,6 @@
 #include "collective/duplicate.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "cuts/owned_cuts.hpp"
-#include "cuts/path_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"

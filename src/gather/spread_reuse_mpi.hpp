@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cuts/direct_assignment.hpp"
-#include "cuts/path_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "gather/call_options.hpp"
 

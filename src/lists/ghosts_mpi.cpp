@@ -4,7 +4,6 @@
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/rank_order.hpp"
 #include "cuts/periodic_images.hpp"
-#include "cuts/tier_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"

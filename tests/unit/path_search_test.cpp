@@ -1,9 +1,8 @@
 // The search of paths by many ranks in one process.
-#include "cuts/path_search.hpp"
-
 #include "../support/clouds.hpp"
 #include "../support/virtual_butterfly.hpp"
 #include "cuts/direct_assignment.hpp"
+#include "cuts/tier_search.hpp"
 
 #include <gtest/gtest.h>
 

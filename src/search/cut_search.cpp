@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace rrcb {
 
@@ -293,9 +294,12 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
         target.num_candidates <= most_gathered ? CutSearch::gathering : CutSearch::sampling;
 }
 
-bool decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
+bool decide_among(CutSearch& search, const CutTarget& target, std::span<const double> records,
                   int dimension) {
     std::vector<Candidate> candidates = read_candidates(records, dimension);
+    // An order that does not depend on their routes to the owner.
+    std::ranges::sort(candidates, {},
+                      [](const Candidate& one) { return std::tie(one.position, one.weight); });
     const PositionOrder before = order_of(search);
     std::ranges::stable_sort(candidates, before, &Candidate::position);
 

@@ -96,8 +96,8 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
                          std::span<const Vector> splitters, std::span<const double> histogram);
 
 /// Ends the search with the best cut between the gathered positions. `records` hold position and
-/// weight of each. Returns true if the cut is in the middle of two of them.
-bool decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
+/// weight of each, in any order. Returns true if the cut is in the middle of two of them.
+bool decide_among(CutSearch& search, const CutTarget& target, std::span<const double> records,
                   int dimension);
 
 /// Candidates of one search up to which gathering costs less than another count. A quarter of this

@@ -150,39 +150,22 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
         node.content.weight = 0;
         return search;
     }
-    const auto histogram = payload.subspan(1);
+    const auto records = payload.subspan(1);
     bool is_centred = false;
     if (search.stage == CutSearch::over_fragments) {
-        decide_by_first_count(node, histogram, search);
+        decide_by_first_count(node, records, search);
     } else if (search.stage == CutSearch::over_candidates) {
-        decide_by_bins(search, node.target, layout_, histogram);
+        decide_by_bins(search, node.target, layout_, records);
     } else if (search.stage == CutSearch::sampling) {
         search.stage = CutSearch::over_splitters;
     } else if (search.stage == CutSearch::over_splitters) {
-        decide_by_splitters(search, node.target, layout_, node.local.splitters(), histogram);
+        decide_by_splitters(search, node.target, layout_, node.local.splitters(), records);
     } else {
-        is_centred = decide_among_candidates(node, payload, search);
+        is_centred = decide_among(search, node.target, records, dimension_);
     }
     const bool is_done = search.stage == CutSearch::done && !(search.lot_below > 0);
     if (tree_.centres_cuts && is_done && !is_centred) search.stage = CutSearch::centring;
     return search;
-}
-
-/// Decides among candidates in an order that does not depend on their routes to the owner.
-bool TreeSearch::decide_among_candidates(const Node& node, std::span<const double> payload,
-                                         CutSearch& search) const {
-    const std::size_t length = static_cast<std::size_t>(dimension_) + 1;
-    std::vector<std::span<const double>> candidates;
-    for (payload = payload.subspan(1); !payload.empty(); payload = payload.subspan(length))
-        candidates.push_back(payload.first(length));
-    std::ranges::sort(candidates, [](const auto& a, const auto& b) {
-        return std::ranges::lexicographical_compare(a, b);
-    });
-    std::vector<double> records;
-    for (const auto& candidate : candidates)
-        records.insert(records.end(), candidate.begin(), candidate.end());
-    CutTarget target = node.target;
-    return decide_among(search, target, records, dimension_);
 }
 
 /// Takes weight and box of the node from the first count.

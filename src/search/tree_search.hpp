@@ -218,8 +218,6 @@ class TreeSearch {
     std::vector<double> answer_to(const Record& record, const Node& node) const;
     LotAnswer place_lot(const Node& node, std::span<const double> payload) const;
     CutSearch decide_on(Node& node, std::span<const double> payload);
-    bool decide_among_candidates(const Node& node, std::span<const double> payload,
-                                 CutSearch& search) const;
     void decide_by_first_count(Node& node, std::span<const double> histogram, CutSearch& search);
     void limit_gathering();
     void follow(Node&& node, std::span<const double> payload);

@@ -4,20 +4,6 @@
 
 namespace rrcb {
 
-namespace {
-
-Key last_key(RecordReader records) {
-    Key key = 0;
-    while (!records.at_end()) key = records.next().key;
-    return key;
-}
-
-Key first_key(RecordReader records) {
-    return records.next().key;
-}
-
-}  // namespace
-
 Butterfly::Butterfly(int rank, int num_ranks, Join join, Way way)
     : rank_(rank), num_ranks_(num_ranks), join_(join), way_(way), halves_(halves_of(0, num_ranks)) {
     const auto goes_on = [&] { return way == Way::spread || halves_.begin == 0; };
@@ -121,7 +107,8 @@ void Butterfly::take(int step, Direction direction, const Link& link,
     const RecordReader incoming(message.subspan(head_length));
     if (incoming.at_end()) return;
     if (direction == to_owners && join_ != nullptr) note_asked(step, link.rank, incoming);
-    merge(direction == to_owners ? held_ : answers_, incoming);
+    Records& records = direction == to_owners ? held_ : answers_;
+    records = merged(records.read(), incoming);
 }
 
 /// Notes the rank that gets the answers to records.
@@ -132,14 +119,6 @@ void Butterfly::note_asked(int step, int rank, RecordReader incoming) {
 }
 
 /// Merges records, both in the order of their keys.
-void Butterfly::merge(Records& records, const RecordReader& others) const {
-    // If keys ascend with their owners, all answers of a half come before those of the other.
-    if (records.empty() || records.last_key() < first_key(others))
-        return records.append_all(others);
-    if (last_key(others) < first_key(records.read())) return records.prepend_all(others);
-    records = merged(records.read(), others);
-}
-
 Records Butterfly::merged(RecordReader mine, RecordReader others) const {
     Records result;
     result.reserve_bytes(std::max(mine.words().size_bytes(), others.words().size_bytes()));

@@ -154,7 +154,6 @@ class Butterfly {
     void reply(int step, int rank);
     void append_to_message(const Record& record);
     void note_asked(int step, int rank, RecordReader incoming);
-    void merge(Records& records, const RecordReader& others) const;
     Records merged(RecordReader mine, RecordReader others) const;
 
     int rank_;

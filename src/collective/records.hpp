@@ -71,9 +71,6 @@ class Records {
     }
     bool empty() const { return words_.empty(); }
 
-    /// Returns the key of the last record; 0 without any.
-    Key last_key() const { return last_key_; }
-
     /// Returns true if the owners of all records are ranks from `begin` to before `end`.
     bool are_owned_between(int begin, int end) const {
         return begin <= lowest_owner_ && highest_owner_ < end;
@@ -97,19 +94,6 @@ class Records {
         join(a.payload, b.payload, words_);
         const RecordReader::Head head{a.owner, static_cast<std::uint32_t>(words_.size() - begin)};
         words_[begin - 1] = std::bit_cast<double>(head);
-    }
-
-    /// Inserts other records behind these, or in front of them. Throws std::bad_alloc; then they
-    /// are not there.
-    void append_all(RecordReader others) {
-        words_.insert(words_.end(), others.words().begin(), others.words().end());
-        while (!others.at_end()) note(others.next());
-    }
-    void prepend_all(RecordReader others) {
-        words_.insert(words_.begin(), others.words().begin(), others.words().end());
-        const Key last = last_key_;
-        while (!others.at_end()) note(others.next());
-        last_key_ = last;
     }
 
     /// Removes the records for which stay(record) is false.
@@ -143,19 +127,16 @@ class Records {
     void note(const Record& record) {
         lowest_owner_ = std::min(lowest_owner_, record.owner);
         highest_owner_ = std::max(highest_owner_, record.owner);
-        last_key_ = record.key;
     }
 
     void forget_notes() {
         lowest_owner_ = std::numeric_limits<int>::max();
         highest_owner_ = -1;
-        last_key_ = 0;
     }
 
     std::vector<double> words_;
     int lowest_owner_ = std::numeric_limits<int>::max();
     int highest_owner_ = -1;
-    Key last_key_ = 0;
 };
 
 }  // namespace rrcb

@@ -65,6 +65,7 @@ class Binner {
         return [points = x_, scale = scale_, cells = &sums_[0],
                 weights = binned_.points.weights.data(),
                 weight_scale = binned_.weight_scale](LocalIndex i, std::size_t number) {
+            static_cast<void>(weight_scale);  // unused without weights, which Clang reports
             RunningCell<dimension, Weighted>& cell = cells[number];
             Position x;
             for (std::size_t a = 0; a < dimension; ++a)

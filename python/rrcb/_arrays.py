@@ -23,7 +23,8 @@ def pointer(values: Array) -> int | None:
 def float_type(values: Array, name: str) -> int:
     """Returns the rrcb_type of coordinates."""
     if values.dtype not in FLOATS:
-        raise c.Error(f"{name} must be float64 or float32, not {values.dtype}: call .astype(float)")
+        fix = "give a tuple of its fields" if values.dtype.names else "call .astype(float)"
+        raise c.Error(f"{name} must be float64 or float32, not {values.dtype}: {fix}")
     return FLOATS[values.dtype]
 
 
@@ -48,7 +49,9 @@ def axes_of(x: Any) -> list[Array]:
             raise c.Error(f"positions must have the shape (n, d), not {whole.shape}")
         axes = [whole[:, axis] for axis in range(whole.shape[1])]
     if not 1 <= len(axes) <= 3:
-        raise c.Error(f"positions must have 1 to 3 axes, not {len(axes)}")
+        raise c.Error(
+            f"positions must have 1 to 3 axes, not {len(axes)}: give (n, d), or a tuple of d columns"
+        )
     return axes
 
 
@@ -92,7 +95,8 @@ def weights_of(weights: Any, count: int) -> Array:
     """Returns weights as the library takes them."""
     values = as_array(weights)
     if values.dtype.kind not in "fiub":
-        raise c.Error(f"weights must be numbers, not {values.dtype}")
+        given = type(weights).__name__ if values.dtype.hasobject else values.dtype
+        raise c.Error(f"weights must be numbers, not {given}")
     if values.shape != (count,):
         raise c.Error(f"weights must have the shape ({count},), not {values.shape}")
     return np.ascontiguousarray(values, dtype=np.float64)
@@ -116,12 +120,22 @@ def split(data: Any) -> tuple[list[tuple[str, Array]], Build]:
         return [(str(k), as_array(values)) for k, values in enumerate(data)], tuple
     if hasattr(data, "iloc") and hasattr(data, "columns"):
         return split_frame(data)
+    if hasattr(data, "to_frame"):  # A Series of pandas.
+        columns, to_frame = split_frame(data.to_frame())
+        return columns, lambda arrays: to_frame(arrays).iloc[:, 0].rename(data.name)
     return [("data", as_array(data))], lambda arrays: arrays[0]
+
+
+def numpy_of(name: str, column: Any) -> Array:
+    """Returns a column of a DataFrame as an array."""
+    if column.dtype.name == "category":
+        raise c.Error(f"column {name} is categorical: give its .cat.codes")
+    return as_array(column.to_numpy())
 
 
 def split_frame(frame: Any) -> tuple[list[tuple[str, Array]], Build]:
     """As split(), for a DataFrame; the index moves with the rows."""
-    columns = [(str(name), frame.iloc[:, k].to_numpy()) for k, name in enumerate(frame.columns)]
+    columns = [(str(name), numpy_of(str(name), frame.iloc[:, k])) for k, name in enumerate(frame)]
     index = frame.index
     values = index.to_numpy()
     # An empty frame of pandas 1 has an index of objects.
@@ -194,4 +208,7 @@ def check_column(name: str, values: Array, rows: int, of: str) -> None:
             f"column {name} has the dtype {values.dtype}; convert it to one of a fixed size"
         )
     if values.ndim == 0 or len(values) != rows:
-        raise c.Error(f"column {name} has the shape {values.shape}, but there are {rows} {of}")
+        raise c.Error(
+            f"column {name} has the shape {values.shape}, but there are {rows} {of}: "
+            "give a row for each, and several columns as a tuple or dict"
+        )

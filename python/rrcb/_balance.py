@@ -71,6 +71,9 @@ class Distribution:
     def __repr__(self) -> str:
         return f"<rrcb.Distribution of {len(self.parts)} points to {self.cuts.num_parts} parts>"
 
+    def __reduce__(self) -> str:
+        raise TypeError("a balance belongs to its communicator: pickle or copy its cuts")
+
     @property
     def parts(self) -> Array:
         """Part of each point of this rank, int32; read-only."""

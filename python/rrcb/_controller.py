@@ -107,10 +107,15 @@ class CostModel(Owner):
         chosen = communicator(comm)
 
         def local() -> tuple[Any, int]:
-            given = None if controller is None else controller._own._as_parameter_
-            if controller is not None and given is None:
-                raise c.Error("the controller was freed")
-            return given, operator.index(num_columns)
+            columns = operator.index(num_columns)
+            if ctypes.c_int(columns).value != columns:
+                raise c.Error(f"num_columns must be an int32, not {columns}")
+            if controller is None:
+                return None, columns
+            if not isinstance(controller, Controller):
+                raise c.Error(f"controller must be a Controller, not {type(controller).__name__}")
+            controller._own.require_alive()
+            return controller._own._as_parameter_, columns
 
         given, self.num_columns = prepare(chosen, local)
         self._comm, self._controller = chosen, controller
@@ -132,7 +137,9 @@ class CostModel(Owner):
 
     def weights(self, columns: Any) -> Array:
         """Returns the weight of each point by its share of the columns, (n, num_columns)."""
-        rows = np.ascontiguousarray(columns, dtype=np.float64).reshape(-1, self.num_columns)
+        rows = np.ascontiguousarray(columns, dtype=np.float64)
+        if rows.size and rows.shape[1:] != (self.num_columns,):
+            raise c.Error(f"columns must have the shape (n, {self.num_columns}), not {rows.shape}")
         weights = np.empty(len(rows))
         c.call(
             "cost_model_weights",
@@ -160,4 +167,5 @@ class CostModel(Owner):
 
     def report(self) -> str:
         """Returns a sentence: whether costs are used, and why."""
+        self._own.require_alive()
         return c.text(c.library.rrcb_cost_model_report(self._own))

@@ -278,6 +278,9 @@ library = load()
 
 def call(function: str, *arguments: Any) -> None:
     """Calls a function of the library; raises Error unless it returns 0."""
+    for argument in arguments:
+        if isinstance(argument, Handle):
+            argument.require_alive()
     code = getattr(library, "rrcb_" + function)(*arguments)
     if code:
         raise Error(text(library.rrcb_last_error()), CODES[min(code, len(CODES) - 1)])
@@ -288,10 +291,16 @@ class Handle:
 
     def __init__(self, create: str, destroy: str, *arguments: Any) -> None:
         self._as_parameter_: c_void_p | None = None
+        self._name = destroy.replace("_destroy", "").replace("_", " ")
         self._destroy = getattr(library, "rrcb_" + destroy)
         made = c_void_p()
         call(create, *arguments, ctypes.byref(made))
         self._as_parameter_ = made
+
+    def require_alive(self) -> None:
+        """Raises Error if the object was destroyed."""
+        if self._as_parameter_ is None:
+            raise Error(f"the {self._name} was freed: make another")
 
     def destroy(self) -> None:
         """Destroys the object; does nothing the second time."""

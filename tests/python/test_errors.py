@@ -1,4 +1,6 @@
 """Checks that an error of one rank is raised on all."""
+import copy
+import pickle
 import sys
 
 import numpy as np
@@ -6,7 +8,7 @@ from mpi4py import MPI
 
 import rrcb
 import runner
-from runner import comm, on_rank, same_error
+from runner import Skip, comm, on_rank, same_error
 from test_rrcb import RANKS, check_balance, cloud
 
 
@@ -124,10 +126,64 @@ def test_raises_errors_of_a_controller_on_all():
 def test_frees_cost_models_with_their_controller():
     with rrcb.Controller(comm) as controller:
         model = rrcb.CostModel(2, controller, comm)
-    same_error(lambda: model.step(1.0, [1, 2]), "model is null")
-    same_error(lambda: model.weights(np.ones((1, 2))), "model is null")
+    for use in (
+        lambda: model.step(1.0, [1, 2]),
+        lambda: model.weights(np.ones((1, 2))),
+        lambda: model.costs,
+        lambda: model.report(),
+    ):
+        same_error(use, "cost model was freed: make another")
     model.free()
+    for use in (lambda: controller.step(1.0), lambda: controller.due):
+        same_error(use, "controller was freed: make another")
     same_error(lambda: rrcb.CostModel(2, controller, comm), "controller was freed")
+
+
+def test_refuses_columns_of_cost_models_that_differ():
+    last = RANKS - 1
+    for bad in (2**32 + 2, 10**12):
+        same_error(lambda: rrcb.CostModel(on_rank(last, bad, 2), comm=comm), "must be an int32")
+    same_error(lambda: rrcb.CostModel(2, on_rank(last, 3, None), comm), "Controller, not int")
+    with rrcb.CostModel(2, comm=comm) as model:
+        for bad in (np.ones((4, 3)), np.ones(4), np.ones((2, 4))):
+            same_error(lambda: model.weights(bad), "columns must have the shape (n, 2)")
+        assert len(model.weights(np.empty((0, 2)))) == 0
+
+
+def test_names_the_fix_for_data_of_other_kinds():
+    last, x = RANKS - 1, cloud(2)
+    points = np.zeros(5, [("x", float), ("y", float)])
+    for bad, text in ((points, "a tuple of its fields"), ([x[:, 0], x[:, 1]], "a tuple of d columns")):
+        given = on_rank(last, bad, x)
+        same_error(lambda: rrcb.balance(given, comm=comm), text)
+    same_error(lambda: rrcb.balance(x, comm), "weights must be numbers, not Intracomm")
+    balance = rrcb.balance(x, comm=comm)
+    given = on_rank(last, [x[:, 0], x[:, 1]], x)
+    same_error(lambda: balance.distribute(given), "several columns as a tuple")
+    for attempt in (pickle.dumps, copy.deepcopy):
+        try:
+            attempt(balance)
+        except TypeError as error:
+            assert "cuts" in str(error)
+        else:
+            raise AssertionError("no error")
+
+
+def test_moves_series_and_refuses_categories():
+    try:
+        import pandas
+    except ImportError:
+        raise Skip("pandas is not installed")
+    x = cloud(2)
+    balance = rrcb.balance(x, comm=comm)
+    series = pandas.Series(x[:, 0], index=np.arange(len(x)) * 3, name="a")
+    got = balance.distribute(series)
+    assert got.name == "a" and np.array_equal(got, balance.distribute(x[:, 0]))
+    assert np.array_equal(got.index, balance.distribute(np.arange(len(x)) * 3))
+    for labels in (["a", "b"], [1, 2]):
+        frame = pandas.DataFrame({"c": pandas.Categorical(np.resize(labels, len(x)))})
+        given = on_rank(RANKS - 1, frame, frame.assign(c=1))
+        same_error(lambda: balance.distribute(given), "column c is categorical: give its .cat.codes")
 
 
 def test_refuses_a_tree_of_another_length():

@@ -16,7 +16,7 @@ LIMITS = {"where": 2.6, "what": 0.8, "tell|tells|told": 0.5}
 LONGEST = 30
 LONG_SHARE = 0.03
 # Words as `wc -w` counts them. Others may have 250; all but examples/mpm together TOTAL.
-TOTAL = 15850
+TOTAL = 16000
 BUDGETS = {
     "README.md": 820, "CHANGELOG.md": 300, "CONTRIBUTING.md": 480, "comparisons/README.md": 800,
     "comparisons/columns.md": 950, "docs/choosing.md": 1080, "docs/edge_cases.md": 350,

@@ -51,6 +51,15 @@ std::span<const T> view(const T* values, std::size_t count) {
     return values == nullptr ? std::span<const T>() : std::span(values, count);
 }
 
+/// Returns the communicator of a Fortran program's handle. MPI's standard ABI has no MPI_Comm_f2c.
+inline MPI_Comm comm_of(int comm) {
+#ifdef MPI_ABI_VERSION
+    return MPI_Comm_fromint(comm);
+#else
+    return MPI_Comm_f2c(comm);
+#endif
+}
+
 /// Throw Error unless the balancer has cuts, cuts of so many parts, or a plan.
 void require_cuts(const rrcb_balancer& own);
 void require_parts(const rrcb_balancer& own, std::size_t num_parts);

@@ -47,8 +47,8 @@ int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer) {
     });
 }
 
-int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer) {
-    return rrcb_create(MPI_Comm_f2c(comm), balancer);
+int rrcb_create_fortran(int comm, rrcb_balancer** balancer) {
+    return rrcb_create(rrcb::c::comm_of(comm), balancer);
 }
 
 int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {

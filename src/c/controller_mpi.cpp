@@ -73,8 +73,8 @@ int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller) {
     });
 }
 
-int rrcb_controller_create_fortran(MPI_Fint comm, rrcb_controller** controller) {
-    return rrcb_controller_create(MPI_Comm_f2c(comm), controller);
+int rrcb_controller_create_fortran(int comm, rrcb_controller** controller) {
+    return rrcb_controller_create(rrcb::c::comm_of(comm), controller);
 }
 
 void rrcb_controller_destroy(rrcb_controller* controller) {
@@ -107,9 +107,9 @@ int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_c
     return make_model(comm, controller == nullptr ? nullptr : &controller, num_columns, model);
 }
 
-int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* const* controller,
-                                   int num_columns, rrcb_cost_model** model) {
-    return make_model(MPI_Comm_f2c(comm), controller, num_columns, model);
+int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* controller, int num_columns,
+                                   rrcb_cost_model** model) {
+    return make_model(rrcb::c::comm_of(comm), controller, num_columns, model);
 }
 
 void rrcb_cost_model_destroy(rrcb_cost_model* model) {

@@ -55,7 +55,7 @@ RRCB_API int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
  *
  * @param comm     must outlive the balancer
  * @param balancer belongs to the caller; unchanged if the call fails */
-RRCB_API int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
+RRCB_API int rrcb_create_fortran(int comm, rrcb_balancer** balancer);
 
 /** Frees a balancer, which may be null, and the cuts and the plan it has shown. Not collective. */
 RRCB_API void rrcb_destroy(rrcb_balancer* balancer);

@@ -23,7 +23,7 @@ RRCB_API int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller)
  *
  * @param comm       may be freed before the controller
  * @param controller belongs to the caller; unchanged if the call fails */
-RRCB_API int rrcb_controller_create_fortran(MPI_Fint comm, rrcb_controller** controller);
+RRCB_API int rrcb_controller_create_fortran(int comm, rrcb_controller** controller);
 
 /** Frees a controller, which may be null. Collective. */
 RRCB_API void rrcb_controller_destroy(rrcb_controller* controller);
@@ -74,7 +74,7 @@ RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, 
  * @param controller  address of a controller, or null
  * @param num_columns the same on every rank
  * @param model       belongs to the caller; unchanged if the call fails */
-RRCB_API int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* const* controller,
+RRCB_API int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* controller,
                                             int num_columns, rrcb_cost_model** model);
 
 /** Frees a cost model, which may be null. Collective unless it was made with a controller. */

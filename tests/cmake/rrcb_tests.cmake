@@ -58,6 +58,8 @@ function(rrcb_add_test)
   add_executable(${ARG_NAME} ${ARG_SOURCES})
   rrcb_set_test_options(${ARG_NAME})
   target_link_libraries(${ARG_NAME} PRIVATE ${ARG_LIBRARIES})
+  # Allocations are traced by frame pointers, in a tenth of the time that tables of unwinding take.
+  list(APPEND ARG_ENVIRONMENT "ASAN_OPTIONS=fast_unwind_on_malloc=1:intercept_tls_get_addr=0")
   if(ARG_RANKS)
     target_link_libraries(${ARG_NAME} PRIVATE rrcb_mpi_test_main)
     # Only calls of the library keep floating-point exceptions to themselves.
@@ -71,7 +73,8 @@ function(rrcb_add_test)
   else()
     target_link_libraries(${ARG_NAME} PRIVATE GTest::gtest_main)
     add_test(NAME ${ARG_NAME} COMMAND ${ARG_NAME})
-    set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 LABELS "${ARG_LABELS}")
+    set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 LABELS "${ARG_LABELS}"
+                                                ENVIRONMENT "${ARG_ENVIRONMENT}")
   endif()
 endfunction()
 

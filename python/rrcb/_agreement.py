@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from typing import Callable, TypeVar
+from typing import Any, Callable, TypeVar
 
 import numpy as np
 from mpi4py import MPI
@@ -25,6 +25,28 @@ def communicator(comm: MPI.Comm | None) -> MPI.Intracomm:
     return chosen
 
 
+def together(
+    comm: MPI.Intracomm, local: Callable[[], tuple[Any, ...]], collective: Callable[..., T]
+) -> T:
+    """Returns collective(*local()), a call of the library. Raises Error on every rank.
+
+    A rank where local() fails passes no arguments. The library's own messages report that on every
+    rank, so that only a failure costs another reduction.
+    """
+    failure: Exception | None = None
+    arguments: tuple[Any, ...] = ()
+    try:
+        arguments = local()
+    except Exception as error:  # Whatever fails here must not leave the other ranks alone.
+        failure = error
+    try:
+        return collective(*arguments)
+    except Error as error:
+        if error.kind != "MPI error":
+            agree(comm, failure)
+        raise
+
+
 def prepare(
     comm: MPI.Intracomm, local: Callable[[], T], signature: Callable[[T], str] | None = None
 ) -> T:
@@ -39,8 +61,22 @@ def prepare(
         made = local()
         if signature is not None:
             number = zlib.crc32(signature(made).encode())
-    except Exception as error:  # Whatever fails here must not leave the other ranks alone.
+    except Exception as error:
         failure = error
+    if not agree(comm, failure, number) and signature is not None:
+        mine = signature(made)
+        root = comm.bcast(mine, root=0)
+        differs = comm.allgather(mine != root).index(True)
+        theirs = comm.bcast(mine, root=differs)
+        raise Error(f"give the same on every rank: rank 0 has {root}, rank {differs} has {theirs}")
+    return made
+
+
+def agree(comm: MPI.Intracomm, failure: Exception | None, number: int = 0) -> bool:
+    """Returns whether the numbers of all ranks are the same. Raises a failure on every rank.
+
+    Collective: one reduction of three integers.
+    """
     size = comm.Get_size()
     failed = 0 if failure is None else size - comm.Get_rank()
     here = np.array([failed, number, -number], dtype=np.int64)
@@ -48,13 +84,7 @@ def prepare(
     comm.Allreduce(here, found, op=MPI.MAX)
     if found[0] > 0:
         raise_together(comm, size - int(found[0]), failure)
-    if signature is not None and found[1] != -found[2]:
-        mine = signature(made)
-        root = comm.bcast(mine, root=0)
-        differs = comm.allgather(mine != root).index(True)
-        theirs = comm.bcast(mine, root=differs)
-        raise Error(f"give the same on every rank: rank 0 has {root}, rank {differs} has {theirs}")
-    return made
+    return bool(found[1] == -found[2])
 
 
 def raise_together(comm: MPI.Intracomm, rank: int, failure: Exception | None) -> None:

@@ -77,14 +77,14 @@ class Points:
             axes = list(np.ascontiguousarray(np.stack(axes)))
         weighed = None if weights is None else weights_of(weights, self.count)
         self._kept = (axes, weighed)
-        addresses = [pointer(axis) for axis in axes] + [None] * (3 - len(axes))
+        addresses = [pointer(axis) for axis in axes]
         self._as_parameter_ = ctypes.byref(
             c.Points(
                 len(axes),
                 kind,
                 self.count,
                 axes[0].strides[0] if self.count else item,
-                (ctypes.c_void_p * 3)(*addresses),
+                tuple(addresses),
                 None if weighed is None else pointer(weighed),
             )
         )

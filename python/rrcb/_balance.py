@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+from functools import cached_property
 from typing import Any, Sequence
 
 import numpy as np
 from mpi4py import MPI
 
 from . import _library as c
-from ._agreement import communicator, prepare
-from ._arrays import Array, Columns, Points, pointer
+from ._agreement import communicator, prepare, together
+from ._arrays import Array, Columns, Points
 from ._cuts import Cuts, cuts_of
 from ._ghosts import Ghosts
 
@@ -43,26 +44,11 @@ class Report:
         )
 
 
-def report_of(balancer: c.Handle) -> tuple[Report, c.Report]:
-    """Returns the report of the last balance, and the library's form of it."""
-    shown = c.Report()
-    c.call("get_report", balancer, shown)
-    values = {
-        field.name: bool(value) if str(field.type) == "bool" else value
-        for field in dataclasses.fields(Report)
-        for value in [getattr(shown, field.name)]
-    }
-    return Report(**values), shown
-
-
 class Distribution:
     """Parts of the points of this rank, by cuts; made by assign() and balance()."""
 
-    cuts: Cuts  #: the tree of cuts
-
-    def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, parts: Array, cuts: Cuts) -> None:
+    def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, parts: Array) -> None:
         self.comm = comm
-        self.cuts = cuts
         self._own = own
         self._parts = parts
         self._parts.flags.writeable = False
@@ -78,6 +64,11 @@ class Distribution:
     def parts(self) -> Array:
         """Part of each point of this rank, int32; read-only."""
         return self._parts
+
+    @cached_property
+    def cuts(self) -> Cuts:
+        """The tree of cuts."""
+        return cuts_of(self._own)
 
     def distribute(self, data: Any) -> Any:
         """Returns data with a row for each point that belongs on this rank. Collective.
@@ -105,7 +96,7 @@ class Distribution:
     def _plan(self) -> int:
         if self._num_points_after is None:
             communicator(self.comm)
-            c.call("make_plan", self._own, len(self.parts), pointer(self.parts))
+            c.call("make_plan", self._own, len(self.parts), self.parts)
             shown = c.Plan()
             c.call("get_plan", self._own, shown)
             self._num_points_after = int(shown.num_points_after)
@@ -115,14 +106,24 @@ class Distribution:
 class Balance(Distribution):
     """Parts of the points of this rank, cuts and report; made by balance()."""
 
-    report: Report  #: measured imbalance, and more
-
-    def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, parts: Array) -> None:
-        super().__init__(comm, own, parts, cuts_of(own))
-        self.report, self._report = report_of(own)
-
     def __repr__(self) -> str:
         return f"<rrcb.Balance of {self.cuts.num_parts} parts, imbalance {self.report.imbalance:.6g}>"
+
+    @cached_property
+    def report(self) -> Report:
+        """Measured imbalance, and more."""
+        values = {
+            field.name: bool(value) if str(field.type) == "bool" else value
+            for field in dataclasses.fields(Report)
+            for value in [getattr(self._report, field.name)]
+        }
+        return Report(**values)
+
+    @cached_property
+    def _report(self) -> c.Report:
+        shown = c.Report()
+        c.call("get_report", self._own, shown)
+        return shown
 
 
 def balance(
@@ -156,15 +157,18 @@ def balance(
             set_option(own, name.replace("__", "."), value)
         if part_sizes is not None:
             sizes = np.array(part_sizes, dtype=np.float64).ravel()
-            c.call("set_part_sizes", own, sizes.size, sizes.ctypes.data)
+            c.call("set_part_sizes", own, sizes.size, sizes)
         if previous is not None:
             cuts_from(previous).give(own)
         return points, np.empty(points.count, dtype=np.int32)
 
-    points, parts = prepare(chosen, local, lambda _: f"previous={previous is not None}")
-    call = "balance" if previous is None else "rebalance"
-    c.call(call, own, points, pointer(parts))
-    return Balance(chosen, own, parts)
+    function = "balance" if previous is None else "rebalance"
+
+    def collective(points: Any = None, parts: Any = None) -> Balance:
+        c.call(function, own, points, parts)
+        return Balance(chosen, own, parts)
+
+    return together(chosen, local, collective)
 
 
 def assign(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) -> Distribution:
@@ -177,9 +181,11 @@ def assign(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) -> D
         cuts_from(cuts).give(own)
         return points, np.empty(points.count, dtype=np.int32)
 
-    points, parts = prepare(chosen, local)
-    c.call("assign_all", own, points, pointer(parts))
-    return Distribution(chosen, own, parts, cuts_from(cuts))
+    def collective(points: Any = None, parts: Any = None) -> Distribution:
+        c.call("assign_all", own, points, parts)
+        return Distribution(chosen, own, parts)
+
+    return together(chosen, local, collective)
 
 
 def cuts_from(given: Any) -> Cuts:

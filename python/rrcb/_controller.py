@@ -133,7 +133,7 @@ class CostModel(Owner):
         """Records a step: seconds of this rank's own work, its number of each column. Collective."""
         communicator(self._comm)
         counts = np.array([number(value) for value in values_of(columns)])
-        c.call("cost_model_step", self._own, number(seconds), counts.size, counts.ctypes.data)
+        c.call("cost_model_step", self._own, number(seconds), counts.size, counts)
 
     def weights(self, columns: Any) -> Array:
         """Returns the weight of each point by its share of the columns, (n, num_columns)."""
@@ -146,8 +146,8 @@ class CostModel(Owner):
             self._own,
             len(rows),
             self.num_columns,
-            rows.ctypes.data if rows.size else None,
-            weights.ctypes.data if rows.size else None,
+            rows,
+            weights,
         )
         return weights
 
@@ -155,7 +155,7 @@ class CostModel(Owner):
     def costs(self) -> Array:
         """Seconds of a unit of each column."""
         costs = np.empty(self.num_columns)
-        c.call("cost_model_costs", self._own, costs.size, costs.ctypes.data)
+        c.call("cost_model_costs", self._own, costs.size, costs)
         return costs
 
     @property

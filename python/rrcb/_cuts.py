@@ -50,7 +50,7 @@ class Cuts:
             points = np.array([points], dtype=np.float64)
         view = Points(points)
         parts = np.empty(view.count, dtype=np.int32)
-        c.call("assign", self._handle(), view, parts.ctypes.data)
+        c.call("assign", self._handle(), view, parts)
         return int(parts[0]) if position else parts
 
     def boxes(self) -> Array:
@@ -60,7 +60,7 @@ class Cuts:
         """
         corners = np.empty((self.num_parts, 2, 3))
         for part, (lower, upper) in enumerate(corners):
-            c.call("box_of", self._handle(), part, lower.ctypes.data, upper.ctypes.data)
+            c.call("box_of", self._handle(), part, lower, upper)
         return corners[:, :, : self.dimension].copy()
 
     def finite_boxes(self, within: Any = None) -> Array:

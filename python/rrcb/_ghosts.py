@@ -9,7 +9,7 @@ import numpy as np
 from mpi4py import MPI
 
 from . import _library as c
-from ._agreement import prepare
+from ._agreement import communicator, prepare, together
 from ._arrays import FLOATS, NUMBERS, Array, Columns, Points, axes_of, pointer
 
 
@@ -32,18 +32,14 @@ class Ghosts:
             points = Points(x)
             return points, radius_of(radius, points.count), box_of(period, points.dimension)
 
-        points, radii, box = prepare(comm, local)
-        options = c.GhostOptions()
-        if radii.ndim == 0:
-            options.radius = float(radii)
-        else:
-            options.radii = pointer(radii)
-        if box is not None:
-            options.lower, options.upper = box[0].ctypes.data, box[1].ctypes.data
-        self.comm = comm
-        self._own = c.OwnedHandle("ghosts_create", "ghosts_destroy", balancer, points, options)
-        self._box = box
-        self._read(points.dimension)
+        def collective(points: Any = None, radii: Any = None, box: Any = None) -> None:
+            options = None if points is None else options_of(radii, box)
+            self._own = c.OwnedHandle("ghosts_create", "ghosts_destroy", balancer, points, options)
+            self._box = box
+            self._read(points.dimension)
+
+        self.comm = communicator(comm)
+        together(comm, local, collective)
 
     def __repr__(self) -> str:
         return f"<rrcb.Ghosts: {self.count} of {self.num_points} points>"
@@ -62,7 +58,7 @@ class Ghosts:
             return fetched
         images = np.ascontiguousarray(np.stack(axes_of(fetched), axis=1))
         kind = FLOATS[images.dtype]
-        c.call("ghosts_apply_shifts", self._own, kind, images.size, images.ctypes.data)
+        c.call("ghosts_apply_shifts", self._own, kind, images.size, images)
         return tuple(images.T) if isinstance(x, tuple) else images.reshape(fetched.shape)
 
     def accumulate(self, data: Any) -> Any:
@@ -128,6 +124,18 @@ def radius_of(radius: Any, count: int) -> Array:
         raise c.Error(f"radius must be a number or have the shape ({count},), not {radii.shape}")
     # To the library a radius of 0 is none.
     return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii
+
+
+def options_of(radii: Array, box: Array | None) -> c.GhostOptions:
+    """Returns the library's options, which borrow the arrays."""
+    options = c.GhostOptions()
+    if radii.ndim == 0:
+        options.radius = float(radii)
+    else:
+        options.radii = pointer(radii)
+    if box is not None:
+        options.lower, options.upper = box[0].ctypes.data, box[1].ctypes.data
+    return options
 
 
 def box_of(period: Any, dimension: int) -> Array | None:

@@ -146,36 +146,44 @@ class GhostPlan(Structure):
     ]
 
 
+class Address:
+    """Argument type of arrays: their address, null if they are empty or None."""
+
+    @staticmethod
+    def from_param(values: Any) -> c_void_p | None:
+        return c_void_p(values.ctypes.data) if values is not None and values.size else None
+
+
 HANDLE = POINTER(c_void_p)
 FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "create_fortran": (c_int, HANDLE),
     "set": (c_void_p, c_char_p, c_char_p),
-    "set_part_sizes": (c_void_p, c_size_t, c_void_p),
-    "balance": (c_void_p, POINTER(Points), c_void_p),
-    "rebalance": (c_void_p, POINTER(Points), c_void_p),
+    "set_part_sizes": (c_void_p, c_size_t, Address),
+    "balance": (c_void_p, POINTER(Points), Address),
+    "rebalance": (c_void_p, POINTER(Points), Address),
     "get_report": (c_void_p, POINTER(Report)),
     "get_cuts": (c_void_p, POINTER(Cuts)),
     "set_cuts": (c_void_p, POINTER(Cuts)),
-    "assign": (c_void_p, POINTER(Points), c_void_p),
-    "assign_all": (c_void_p, POINTER(Points), c_void_p),
-    "box_of": (c_void_p, c_int32, c_void_p, c_void_p),
-    "make_plan": (c_void_p, c_size_t, c_void_p),
+    "assign": (c_void_p, POINTER(Points), Address),
+    "assign_all": (c_void_p, POINTER(Points), Address),
+    "box_of": (c_void_p, c_int32, Address, Address),
+    "make_plan": (c_void_p, c_size_t, Address),
     "get_plan": (c_void_p, POINTER(Plan)),
     "transfer": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_create": (c_void_p, POINTER(Points), POINTER(GhostOptions), HANDLE),
     "ghosts_get_plan": (c_void_p, POINTER(GhostPlan)),
     "ghosts_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_accumulate": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
-    "ghosts_apply_shifts": (c_void_p, c_int, c_size_t, c_void_p),
+    "ghosts_apply_shifts": (c_void_p, c_int, c_size_t, Address),
     "controller_create_fortran": (c_int, HANDLE),
     "controller_step": (c_void_p, c_double, POINTER(c_int)),
     "controller_step_points": (c_void_p, c_double, c_double, POINTER(c_int)),
     "controller_due": (c_void_p, POINTER(c_int)),
     "controller_rebalanced": (c_void_p, POINTER(Report), c_double),
     "cost_model_create_fortran": (c_int, HANDLE, c_int, HANDLE),
-    "cost_model_step": (c_void_p, c_double, c_size_t, c_void_p),
-    "cost_model_weights": (c_void_p, c_size_t, c_size_t, c_void_p, c_void_p),
-    "cost_model_costs": (c_void_p, c_size_t, c_void_p),
+    "cost_model_step": (c_void_p, c_double, c_size_t, Address),
+    "cost_model_weights": (c_void_p, c_size_t, c_size_t, Address, Address),
+    "cost_model_costs": (c_void_p, c_size_t, Address),
     "cost_model_uses_costs": (c_void_p, POINTER(c_int)),
 }
 DESTROYED = ("destroy", "ghosts_destroy", "controller_destroy", "cost_model_destroy")

@@ -3,7 +3,8 @@
     mpirun -n 2 tests/python/overhead.py LIBRARY [points [turns]]
 
 LIBRARY is the target rrcb_python_overhead. Prints medians over the turns of the slowest rank's
-seconds, and the pages that rank 0 got from the system in a turn.
+seconds, the pages that rank 0 got from the system in a turn, and the median ratio with its 95 %
+bootstrap interval.
 """
 import ctypes
 import resource
@@ -56,6 +57,9 @@ found = np.array(
 if comm.rank == 0:
     for k, name in enumerate(("balance", "distribute")):
         (cpp, cpp_pages), (python, pages) = np.median(found[:, :, k], axis=0)
-        ratio = np.median(found[:, 1, k, 0] / found[:, 0, k, 0])
+        ratios = found[:, 1, k, 0] / found[:, 0, k, 0]
+        medians = np.median(np.random.default_rng(0).choice(ratios, (2000, TURNS)), axis=1)
+        lower, upper = np.quantile(medians, (0.025, 0.975))
         print(f"{name}: C++ {1e3 * cpp:.3f} ms, {cpp_pages:.0f} pages; ", end="")
-        print(f"Python {1e3 * python:.3f} ms, {pages:.0f} pages; ratio {ratio:.3f}")
+        print(f"Python {1e3 * python:.3f} ms, {pages:.0f} pages; ", end="")
+        print(f"ratio {np.median(ratios):.3f} [{lower:.3f}, {upper:.3f}]")

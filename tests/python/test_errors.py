@@ -59,6 +59,21 @@ def test_raises_the_error_of_one_rank_on_all():
         same_error(lambda: rrcb.balance(x, comm=comm, **given), name)
 
 
+class Silent(MPI.Intracomm):
+    """A communicator on which Python sends nothing."""
+
+    def Allreduce(self, *arguments, **options):
+        raise AssertionError("sent")
+
+
+def test_only_failures_cost_a_message():
+    x, silent = cloud(2), Silent(comm)
+    balance = rrcb.balance(x, comm=silent)
+    rrcb.balance(x, comm=silent, previous=balance)
+    here = rrcb.assign(x, balance, comm).distribute(x)
+    assert rrcb.assign(x, balance, silent).ghosts(here, 0.1).num_points == len(here)
+
+
 def test_raises_errors_of_columns_on_all():
     last = RANKS - 1
     x = cloud(2)

@@ -99,7 +99,8 @@ void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
             of_points.push_back(of_ghosts[k]);
             of_points[k].from = static_cast<const std::byte*>(columns[k].to);
             of_points[k].num_values = own.plan.num_points * columns[k].components;
-            of_ghosts[k] = arrived.emplace_back(of_ghosts[k].value_bytes).result_of(of_ghosts[k]);
+            of_ghosts[k] =
+                arrived.emplace_back(ByteResult{of_ghosts[k].value_bytes}).result_of(of_ghosts[k]);
         }
     });
     move_back(own.plan, of_ghosts, of_points, limits, &report, self);

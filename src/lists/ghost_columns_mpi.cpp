@@ -95,7 +95,8 @@ void move(const Groups& groups, std::span<const ByteColumn> columns, const Trans
             check_column(column, num_groups, "groups of this rank");
             results.push_back(
                 column.resize(column.result, groups.of_points.size() * column.components));
-            of_groups.push_back(values.emplace_back(column.value_bytes).result_of(column));
+            of_groups.push_back(
+                values.emplace_back(ByteResult{column.value_bytes}).result_of(column));
         }
         delivery.to = groups.plan.send;
         delivery.from = groups.plan.receive;

@@ -145,8 +145,7 @@ class Neighbourhood {
                 is_image ? images_->apart(ball.centre()) : Vector{});
         // A rank may hold several of the parts.
         std::ranges::sort(ranks_.begin() + first, ranks_.end());
-        const auto again = std::ranges::unique(ranks_.begin() + first, ranks_.end());
-        ranks_.erase(again.begin(), again.end());
+        ranks_.erase(std::unique(ranks_.begin() + first, ranks_.end()), ranks_.end());
         points_.resize(ranks_.size(), point);
         if (images_) shifts_.resize(ranks_.size(), shift);
     }

@@ -160,7 +160,9 @@ NewNumbers share_decision(RemapBuffers& buffers, Participant& self) {
 /// Sends the numbers that all ranks found to all ranks, or to those with points of the parts.
 /// Collective: one reduction, and another or a pass if any number changes.
 NewNumbers return_numbers(RemapBuffers& buffers, Participant& self) {
-    auto& [search, told, offers, left, messages, numbers, decision] = buffers;
+    auto& search = buffers.search;
+    auto& told = buffers.told;
+    auto& numbers = buffers.numbers;
     auto sums = search.count_points();
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");

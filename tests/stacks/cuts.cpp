@@ -104,14 +104,14 @@ int main(int argc, char** argv) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     for (const Cloud& cloud : clouds) {
         for (const auto& [refine, name] : refinements)
-            divide(cloud, name, rank, [&](const rrcb::Points& points) {
+            divide(cloud, name, rank, [&, refine = refine](const rrcb::Points& points) {
                 rrcb::Options options;
                 options.refine = refine;
                 options.num_parts = num_parts;
                 return rrcb::balance(points, options, MPI_COMM_WORLD);
             });
         for (const auto& [domain, name] : paper_domains)
-            divide(cloud, name, rank, [&](const rrcb::Points& points) {
+            divide(cloud, name, rank, [&, domain = domain](const rrcb::Points& points) {
                 rrcb::PaperOptions options;
                 options.domain = domain;
                 options.num_parts = num_parts;

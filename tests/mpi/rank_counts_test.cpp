@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ namespace {
 using test::num_ranks;
 using test::rank;
 
+/// Of counts whose sum is a LocalIndex.
+constexpr int shifts = std::numeric_limits<LocalIndex>::digits - 24;
+
 /// For some of the ranks, this one among them; in every third round from none of the odd ones.
 std::vector<std::uint64_t> counts_in(int round) {
     std::vector<std::uint64_t> counts(static_cast<std::size_t>(num_ranks()));
@@ -26,7 +30,7 @@ std::vector<std::uint64_t> counts_in(int round) {
     for (int to = 0; to < num_ranks(); ++to)
         if ((to + 2 * rank() + round) % 3 != 0)
             counts[static_cast<std::size_t>(to)] =
-                static_cast<std::uint64_t>(1 + to + 1000 * rank() + round) << (round % 40);
+                static_cast<std::uint64_t>(1 + to + 1000 * rank() + round) << (round % shifts);
     return counts;
 }
 

@@ -4,6 +4,7 @@
 #include "bisection/limited_bisection.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/weighted_quantile.hpp"
+#include "infinity.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
@@ -17,8 +18,6 @@
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Task {
     const Options& options;

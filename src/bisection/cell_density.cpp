@@ -18,7 +18,7 @@ struct Spread {
 };
 
 /// Part of the interval in u, and the density there, see Patch.
-struct Piece {
+struct UnitPiece {
     double lower;
     double upper;
     double share;
@@ -28,12 +28,12 @@ struct Piece {
 
 /// Returns the quadratic density of a spread on an interval, in units of half its length. The
 /// Legendre polynomials P1 and P2 have the squared norms 2/3 and 2/5.
-Piece quadratic(const Spread& spread) {
+UnitPiece quadratic(const Spread& spread) {
     const double square = spread.variance + spread.mean * spread.mean;
     return {-1, 1, 1, 3 * spread.mean, 2.5 * (3 * square - 1)};
 }
 
-bool is_nowhere_negative(const Piece& density) {
+bool is_nowhere_negative(const UnitPiece& density) {
     const double slope = std::abs(density.slope);
     if (1 - slope + density.bow < 0) return false;
     const bool has_inner_minimum = slope < 3 * density.bow;
@@ -41,40 +41,41 @@ bool is_nowhere_negative(const Piece& density) {
 }
 
 /// Returns one or two pieces for a spread that no quadratic density on the cell has; mean <= 0.
-std::array<Piece, 2> pieces_of(const Spread& spread) {
+std::array<UnitPiece, 2> pieces_of(const Spread& spread) {
     const auto [mean, variance] = spread;
     // A parabola that is 0 at both ends has the variance half^2 / 5.
     const double half = std::sqrt(5 * variance);
-    if (mean - half >= -1) return {Piece{mean - half, mean + half, 1, 0, -1}, Piece{0, 0, 0}};
+    if (mean - half >= -1)
+        return {UnitPiece{mean - half, mean + half, 1, 0, -1}, UnitPiece{0, 0, 0}};
     // A quadratic density on [-1, -1 + 2 w] is 0 at the upper end if, with r = reach,
     // w^2 - 4 r w + 5/2 (r^2 + variance) = 0.
     const double reach = 1 + mean;
     const double root = 1.5 * reach * reach - 2.5 * variance;
     if (root >= 0) {
         const double w = 2 * reach - std::sqrt(root);
-        Piece piece = quadratic({reach / w - 1, variance / (w * w)});
+        UnitPiece piece = quadratic({reach / w - 1, variance / (w * w)});
         piece.upper = std::min(1.0, 2 * w - 1);
-        return {piece, Piece{0, 0, 0}};
+        return {piece, UnitPiece{0, 0, 0}};
     }
     // Two uniform densities meet at the mean: one reaches b below it with the share a / (a + b),
     // the other a above it with the rest. Their variance is a b / 3.
     const double above = 3 * variance / reach;
     if (above <= 1 - mean)
-        return {Piece{-1, mean, above / (reach + above)},
-                Piece{mean, mean + above, reach / (reach + above)}};
+        return {UnitPiece{-1, mean, above / (reach + above)},
+                UnitPiece{mean, mean + above, reach / (reach + above)}};
     // Two uniform densities of length 2 (1 - c) at the ends, with centres -c and c, have the mean
     // square c^2 + (1 - c)^2 / 3.
     const double square = std::min(1.0, mean * mean + variance);
     const double c = std::max(-mean, (1 + std::sqrt(std::max(0.0, 12 * square - 3))) / 4);
     const double upper_share = (1 + mean / c) / 2;
-    return {Piece{-1, 1 - 2 * c, 1 - upper_share}, Piece{2 * c - 1, 1, upper_share}};
+    return {UnitPiece{-1, 1 - 2 * c, 1 - upper_share}, UnitPiece{2 * c - 1, 1, upper_share}};
 }
 
-Piece mirrored(const Piece& piece) {
+UnitPiece mirrored(const UnitPiece& piece) {
     return {-piece.upper, -piece.lower, piece.share, -piece.slope, piece.bow};
 }
 
-DensityPiece in_cell(const Piece& piece, double lower, double upper) {
+DensityPiece in_cell(const UnitPiece& piece, double lower, double upper) {
     const double from = std::lerp(lower, upper, piece.lower / 2 + 0.5);
     const double to = std::lerp(lower, upper, piece.upper / 2 + 0.5);
     return {from, std::max(from, to), piece.share, piece.slope, piece.bow};
@@ -92,7 +93,7 @@ AxisDensity density_of(double mean, double deviation, double lower, double upper
     const double sigma = deviation / half;
     const double variance = std::min(sigma * sigma, (1 - u) * (1 + u));
     if (!(variance > 0)) return {DensityPiece{mean, mean, 1}, DensityPiece{}};
-    const Piece whole = quadratic({u, variance});
+    const UnitPiece whole = quadratic({u, variance});
     if (is_nowhere_negative(whole))
         return {DensityPiece{lower, upper, 1, whole.slope, whole.bow}, DensityPiece{}};
     const bool is_mirrored = u > 0;
@@ -105,25 +106,25 @@ AxisDensity density_of(double mean, double deviation, double lower, double upper
 
 namespace {
 
-constexpr std::size_t num_pieces = 6;
+constexpr std::size_t num_density_pieces = 6;
 // Gauss-Legendre on [-1, 1]; exact up to degree 9.
 constexpr std::array<double, 5> gauss_nodes{-0.90617984593866399, -0.53846931010568309, 0,
                                             0.53846931010568309, 0.90617984593866399};
 constexpr std::array<double, 5> gauss_weights{0.23692688505618909, 0.47862867049936647,
                                               0.56888888888888889, 0.47862867049936647,
                                               0.23692688505618909};
-constexpr std::size_t num_nodes = num_pieces * gauss_nodes.size();
+constexpr std::size_t num_abscissas = num_density_pieces * gauss_nodes.size();
 
 double node(std::size_t i) {
     const double piece = static_cast<double>(i / gauss_nodes.size());
-    return (2 * piece + 1 + gauss_nodes[i % gauss_nodes.size()]) / num_pieces - 1;
+    return (2 * piece + 1 + gauss_nodes[i % gauss_nodes.size()]) / num_density_pieces - 1;
 }
 
 /// The density exp(b u + c u^2) as masses at the nodes; their sum is 1.
 struct Tilted {
     double b = 0;
     double c = 0;
-    std::array<double, num_nodes> masses{};
+    std::array<double, num_abscissas> masses{};
     double log_sum = 0;
     std::array<double, 5> powers{};  ///< means of u^k
 };
@@ -131,17 +132,17 @@ struct Tilted {
 Tilted tilted(double b, double c) {
     Tilted density{b, c};
     double greatest = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < num_nodes; ++i)
+    for (std::size_t i = 0; i < num_abscissas; ++i)
         greatest = std::max(greatest, node(i) * (b + c * node(i)));
     double sum = 0;
-    for (std::size_t i = 0; i < num_nodes; ++i) {
+    for (std::size_t i = 0; i < num_abscissas; ++i) {
         const double u = node(i);
         density.masses[i] =
             gauss_weights[i % gauss_nodes.size()] * std::exp(u * (b + c * u) - greatest);
         sum += density.masses[i];
     }
     density.log_sum = greatest + std::log(sum);
-    for (std::size_t i = 0; i < num_nodes; ++i) {
+    for (std::size_t i = 0; i < num_abscissas; ++i) {
         density.masses[i] /= sum;
         double term = density.masses[i];
         for (double& power : density.powers) {
@@ -199,8 +200,8 @@ void append_piece(std::size_t piece, const Tilted& density, double lower, double
     for (std::size_t i = first; i < first + gauss_nodes.size(); ++i)
         variance += density.masses[i] / share * (node(i) - mean) * (node(i) - mean);
     const auto at = [&](double u) { return std::lerp(lower, upper, u / 2 + 0.5); };
-    const double from = static_cast<double>(2 * piece) / num_pieces - 1;
-    const double to = static_cast<double>(2 * piece + 2) / num_pieces - 1;
+    const double from = static_cast<double>(2 * piece) / num_density_pieces - 1;
+    const double to = static_cast<double>(2 * piece + 2) / num_density_pieces - 1;
     const double half = upper / 2 - lower / 2;
     for (DensityPiece part : density_of(at(mean), std::sqrt(variance) * half, at(from), at(to))) {
         part.share *= share;
@@ -228,7 +229,8 @@ std::vector<DensityPiece> entropy_density_of(double mean, double deviation, doub
     Tilted density;
     if (!find_tilt(u, u * u + sigma * sigma, density)) return pieces;
     pieces.clear();
-    for (std::size_t k = 0; k < num_pieces; ++k) append_piece(k, density, lower, upper, pieces);
+    for (std::size_t k = 0; k < num_density_pieces; ++k)
+        append_piece(k, density, lower, upper, pieces);
     return pieces;
 }
 

@@ -5,11 +5,11 @@
 #include "bisection/patches.hpp"
 #include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
+#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,8 +17,6 @@
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double weight_below(const StatisticalDomain& domain, const Cut& plane) {
     const int a = plane.axis;

@@ -3,16 +3,14 @@
 #include "bisection/bisection.hpp"
 #include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
+#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the axis that decides the side of a patch: the cut's, or the next one without a tie.
 int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {

@@ -1,5 +1,7 @@
 #include "bisection/profile.hpp"
 
+#include "infinity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,7 +10,7 @@ namespace rrcb {
 
 namespace {
 
-constexpr std::size_t num_bins = 128;
+constexpr std::size_t num_profile_bins = 128;
 constexpr std::size_t few_patches = 256;
 
 }  // namespace
@@ -19,22 +21,21 @@ bool Profile::Range::is_limited() const {
 
 Profile::Profile(const StatisticalDomain& domain, int axis) : domain_(&domain), axis_(axis) {
     if (domain.patches.size() < few_patches) return;
-    const double infinity = std::numeric_limits<double>::infinity();
     lower_ = infinity;
     upper_ = -infinity;
     for (const Patch& patch : domain.patches) {
         lower_ = std::min(lower_, patch.lower[axis]);
         upper_ = std::max(upper_, patch.upper[axis]);
     }
-    const double bins_per_half = num_bins / (upper_ / 2 - lower_ / 2);
+    const double bins_per_half = num_profile_bins / (upper_ / 2 - lower_ / 2);
     if (!(bins_per_half > 0 && std::isfinite(bins_per_half))) return;
     const auto bin_of = [&](double value) {
         const double bin = std::max(0.0, (value / 2 - lower_ / 2) * bins_per_half);
-        return std::min(num_bins - 1, static_cast<std::size_t>(bin));
+        return std::min(num_profile_bins - 1, static_cast<std::size_t>(bin));
     };
     // First the difference of each bin from the one before, at index bin + 1. One partial sum gives
     // the weights of the bins, a second one the weights below their edges.
-    weights_below_.resize(num_bins + 2);
+    weights_below_.resize(num_profile_bins + 2);
     for (const Patch& patch : domain.patches) {
         const std::size_t first = bin_of(patch.lower[axis]);
         const std::size_t last = bin_of(patch.upper[axis]);
@@ -53,7 +54,7 @@ Profile::Range Profile::range_of(double target) const {
     const auto passes = [&](double below) { return below >= target; };
     const auto passed = std::ranges::find_if(weights_below_, passes) - weights_below_.begin();
     const auto edge = [&](std::ptrdiff_t k) {
-        return std::lerp(lower_, upper_, static_cast<double>(k) / num_bins);
+        return std::lerp(lower_, upper_, static_cast<double>(k) / num_profile_bins);
     };
     Range range;
     if (passed - 1 - margin > 0) range.lower = edge(passed - 1 - margin);

@@ -1,6 +1,7 @@
 #include "bisection/weighted_quantile.hpp"
 
 #include "bisection/slice.hpp"
+#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the weight that round-off may misplace. It must not decide the side of a gap between
 /// clusters.

@@ -11,9 +11,9 @@ namespace rrcb {
 namespace {
 
 /// Values of one register. The compiler may not reorder a minimum of doubles by itself.
-constexpr std::size_t width = 4;
-typedef double Row __attribute__((vector_size(width * sizeof(double))));
-typedef float FloatRow __attribute__((vector_size(width * sizeof(float))));
+constexpr std::size_t row_width = 4;
+typedef double Row __attribute__((vector_size(row_width * sizeof(double))));
+typedef float FloatRow __attribute__((vector_size(row_width * sizeof(float))));
 
 [[gnu::always_inline]] inline void load(const double* values, Row& row) {
     std::memcpy(&row, values, sizeof row);
@@ -28,7 +28,7 @@ typedef float FloatRow __attribute__((vector_size(width * sizeof(float))));
 // Independent rows. The number of their values is a multiple of every stride (1, 2, 3): each lane
 // belongs to one axis.
 constexpr std::size_t num_rows = 3;
-constexpr std::size_t num_lanes = width * num_rows;
+constexpr std::size_t num_lanes = row_width * num_rows;
 
 /// Range of the values in each lane of a row.
 struct Span {
@@ -53,7 +53,8 @@ RRCB_VECTOR_CLONES std::size_t widen(std::span<const Scalar> values,
     std::array<Span, num_rows> kept = spans;
     std::size_t k = 0;
     for (; k + num_lanes <= values.size(); k += num_lanes)
-        for (std::size_t row = 0; row < num_rows; ++row) kept[row].widen(&values[k + width * row]);
+        for (std::size_t row = 0; row < num_rows; ++row)
+            kept[row].widen(&values[k + row_width * row]);
     spans = kept;
     return k;
 }
@@ -72,14 +73,14 @@ Box box_of_values(std::span<const Scalar> values, std::size_t stride) {
     }
     Box box;
     for (std::size_t lane = 0; lane < num_lanes; ++lane) {
-        const Span& span = spans[lane / width];
+        const Span& span = spans[lane / row_width];
         const std::size_t a = lane % stride;
-        box.lower[a] = std::min(box.lower[a], span.lower[lane % width]);
-        box.upper[a] = std::max(box.upper[a], span.upper[lane % width]);
+        box.lower[a] = std::min(box.lower[a], span.lower[lane % row_width]);
+        box.upper[a] = std::max(box.upper[a], span.upper[lane % row_width]);
     }
     for (std::size_t lane = 0; lane < num_lanes; ++lane) {
-        box.lower[lane % stride] += spans[lane / width].poison[lane % width];
-        box.upper[lane % stride] += spans[lane / width].poison[lane % width];
+        box.lower[lane % stride] += spans[lane / row_width].poison[lane % row_width];
+        box.upper[lane % stride] += spans[lane / row_width].poison[lane % row_width];
     }
     return box;
 }

@@ -8,7 +8,7 @@ namespace rrcb {
 namespace {
 
 /// Remembers about 200 steps: in 100, noise of 7 % would hide that costs predict seconds to 4 %.
-constexpr double forgetting = 1 - 1.0 / 200;
+constexpr double guard_forgetting = 1 - 1.0 / 200;
 constexpr double fewest = 10;  ///< steps before learned costs are used
 /// Least gain of learned costs that are used, in standard deviations of noise.
 constexpr double certainty = 3;
@@ -20,10 +20,10 @@ constexpr double allowed_loss = 0.005;
 }  // namespace
 
 void CostGuard::add_errors(double learned, double counted, double between) {
-    learned_error_ = forgetting * learned_error_ + learned;
-    counted_error_ = forgetting * counted_error_ + counted;
-    between_ = forgetting * between_ + between;
-    weight_ = forgetting * weight_ + 1;
+    learned_error_ = guard_forgetting * learned_error_ + learned;
+    counted_error_ = guard_forgetting * counted_error_ + counted;
+    between_ = guard_forgetting * between_ + between;
+    weight_ = guard_forgetting * weight_ + 1;
     // Deviation of the gain by independent noise: twice the noise times the difference.
     const double gain = counted_error_ - learned_error_;
     const double noise = 2 * std::sqrt(between_ * learned_error_ / (weight_ * num_ranks_));

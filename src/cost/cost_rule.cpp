@@ -15,7 +15,7 @@ constexpr double least_reach = 0.1;
 
 /// Index of each sum. The normal equations, rank 0's costs and the seconds of the slowest rank
 /// follow.
-enum Head : std::size_t {
+enum HeadOfSums : std::size_t {
     seconds_sum,
     learned_sum,
     counted_sum,

@@ -1,5 +1,7 @@
 #include "cuts/axis_limits.hpp"
 
+#include "infinity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,8 +9,6 @@
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the least double above `from` for which `holds` is true, as for all above it. A `guess`
 /// near it saves steps.

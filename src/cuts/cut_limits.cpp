@@ -1,20 +1,14 @@
 #include "cuts/cut_limits.hpp"
 
+#include "infinity.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
 namespace rrcb {
-
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 bool are_cuts_limited(const Options& options) {
     return !options.axes.min_width.empty() || !options.axes.grid.empty();

@@ -1,4 +1,5 @@
 #include "cuts/tree.hpp"
+#include "infinity.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
@@ -13,8 +14,6 @@
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the cut of a node; throws Error if it is unknown or invalid.
 const Cut& known_cut(const Cuts& cuts, const Descent& at) {

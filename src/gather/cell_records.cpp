@@ -25,12 +25,12 @@ struct BlockOfCells {
 };
 
 template <class T>
-void append(const T& block, std::vector<double>& records) {
+void append_block(const T& block, std::vector<double>& records) {
     const auto* first = reinterpret_cast<const double*>(&block);
     records.insert(records.end(), first, first + sizeof(T) / sizeof(double));
 }
 
-void append(const Vector& x, int dimension, std::vector<double>& records) {
+void append_vector(const Vector& x, int dimension, std::vector<double>& records) {
     records.insert(records.end(), x.begin(), x.begin() + dimension);
 }
 
@@ -60,8 +60,8 @@ void append_cell(const CellMoments& cell, int dimension, std::vector<double>& re
     records.push_back(static_cast<double>(cell.cell));
     records.push_back(static_cast<double>(cell.moments.count));
     records.push_back(cell.moments.weight);
-    append(cell.moments.mean, dimension, records);
-    append(cell.moments.deviation, dimension, records);
+    append_vector(cell.moments.mean, dimension, records);
+    append_vector(cell.moments.deviation, dimension, records);
 }
 
 CellMoments take_cell(std::span<const double>& records, int dimension) {
@@ -92,8 +92,8 @@ Box box_of_merged(const Moments& moments, int dimension, int exponent) {
 }
 
 void append_mesh(const SupportMesh& mesh, std::vector<double>& records) {
-    append(mesh.box.lower, mesh.dimension, records);
-    append(mesh.box.upper, mesh.dimension, records);
+    append_vector(mesh.box.lower, mesh.dimension, records);
+    append_vector(mesh.box.upper, mesh.dimension, records);
     records.insert(records.end(), mesh.cells.begin(), mesh.cells.begin() + mesh.dimension);
 }
 
@@ -132,10 +132,10 @@ void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& me
                        std::vector<double>& records) {
     const LeanCells lean = pack_cells(cells, mesh);
     const std::size_t num_packed = (lean.bytes.size() + sizeof(double) - 1) / sizeof(double);
-    append(BlockOfCells{static_cast<double>(cells.size()), double(Form::lean),
-                        static_cast<double>(lean.exponent), lean.are_counts ? 1.0 : 0.0,
-                        static_cast<double>(num_packed)},
-           records);
+    append_block(BlockOfCells{static_cast<double>(cells.size()), double(Form::lean),
+                              static_cast<double>(lean.exponent), lean.are_counts ? 1.0 : 0.0,
+                              static_cast<double>(num_packed)},
+                 records);
     append_mesh(mesh, records);
     records.resize(records.size() + num_packed);
     std::ranges::copy(lean.bytes,
@@ -143,9 +143,9 @@ void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& me
 }
 
 void append_cells(const CellSet& merged, int dimension, std::vector<double>& records) {
-    append(BlockOfCells{static_cast<double>(merged.cells.size()), double(Form::lattice),
-                        static_cast<double>(merged.exponent)},
-           records);
+    append_block(BlockOfCells{static_cast<double>(merged.cells.size()), double(Form::lattice),
+                              static_cast<double>(merged.exponent)},
+                 records);
     for (const CellMoments& cell : merged.cells) append_cell(cell, dimension, records);
 }
 

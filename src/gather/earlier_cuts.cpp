@@ -2,17 +2,15 @@
 
 #include "bisection/bisection.hpp"
 #include "cuts/tree.hpp"
+#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void bracket_node(const Cuts& cuts, const Descent& at, Box box, int depth,
                   std::vector<Bracket>& brackets) {

@@ -65,12 +65,12 @@ Box Extent::box() const {
 }
 
 Extent extent_of(const Points& points, const Box& box, double weight) {
-    constexpr LocalIndex block_length = 256;
+    constexpr LocalIndex points_in_block = 256;
     Extent extent;
     extent.count = static_cast<double>(points.count);
     extent.weight = weight;
     // Only blocks that touch a face of the box hold ends of the order, and few of them do.
-    in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
+    in_ranges(points.count, points_in_block, [&](LocalIndex first, LocalIndex last) {
         const Points block = range_of(points, first, last);
         const Box its_own = bounding_box(block);
         for (int axis = 0; axis < points.dimension; ++axis) {

@@ -4,19 +4,17 @@
 #include "cuts/cut_limits.hpp"
 #include "cuts/position_order.hpp"
 #include "cuts/tree.hpp"
+#include "infinity.hpp"
 
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Reader {
   public:

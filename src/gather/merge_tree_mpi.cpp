@@ -13,16 +13,16 @@ namespace rrcb {
 
 namespace {
 
-constexpr std::size_t piece = 8192;  // doubles in a message
+constexpr std::size_t most_doubles = 8192;  // doubles in a message
 
 /// First message of a rank: its summary, and as much of its records as fits.
 struct FirstMessage {
     Summary summary;
-    std::array<double, piece> records;
+    std::array<double, most_doubles> records;
 
     std::span<double> records_of() {
         return std::span(records).first(
-            std::min(piece, static_cast<std::size_t>(summary.num_doubles)));
+            std::min(most_doubles, static_cast<std::size_t>(summary.num_doubles)));
     }
 };
 static_assert(std::is_trivially_copyable_v<Summary>);
@@ -39,9 +39,9 @@ void receive(std::span<std::byte> bytes, int from, mpi::Tag tag, Participant& se
 }
 
 void send_records(std::span<const double> records, int to, mpi::Tag tag, Participant& self) {
-    for (std::size_t at = 0; at < records.size(); at += piece)
-        send(std::as_bytes(records.subspan(at, std::min(piece, records.size() - at))), to, tag,
-             self);
+    for (std::size_t at = 0; at < records.size(); at += most_doubles)
+        send(std::as_bytes(records.subspan(at, std::min(most_doubles, records.size() - at))), to,
+             tag, self);
 }
 
 /// Appends `count` doubles that it receives. Without memory it still receives them, because the
@@ -51,11 +51,11 @@ void receive_records(std::vector<double>& records, std::size_t count, int from, 
     const std::size_t start = records.size();
     self.attempt([&] { records.resize(start + count); });
     const bool has_room = records.size() == start + count;
-    std::array<double, piece> dropped;
-    for (std::size_t at = 0; at < count; at += piece) {
+    std::array<double, most_doubles> dropped;
+    for (std::size_t at = 0; at < count; at += most_doubles) {
         double* to = has_room ? records.data() + start + at : dropped.data();
-        receive(std::as_writable_bytes(std::span(to, std::min(piece, count - at))), from, tag,
-                self);
+        receive(std::as_writable_bytes(std::span(to, std::min(most_doubles, count - at))), from,
+                tag, self);
     }
 }
 

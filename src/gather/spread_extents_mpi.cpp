@@ -29,7 +29,7 @@ struct FacingExtents {
 
 /// Calls `visit` with each of the 2 dimension (dimension + 1) doubles that describe the sides.
 template <class AnyPlaces, class Visit>
-void for_each_double(AnyPlaces& sides, int dimension, Visit&& visit) {
+void for_each_double_of_both(AnyPlaces& sides, int dimension, Visit&& visit) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
         visit(sides.below.first[a][a]);
         visit(sides.above.last[a][a]);
@@ -41,13 +41,13 @@ void for_each_double(AnyPlaces& sides, int dimension, Visit&& visit) {
 }
 
 void append_facing(const FacingExtents& sides, int dimension, std::vector<double>& doubles) {
-    for_each_double(sides, dimension, [&](double value) { doubles.push_back(value); });
+    for_each_double_of_both(sides, dimension, [&](double value) { doubles.push_back(value); });
 }
 
 FacingExtents read_facing(std::span<const double> doubles, int dimension) {
     FacingExtents sides;
     auto from = doubles.begin();
-    for_each_double(sides, dimension, [&](double& value) { value = *from++; });
+    for_each_double_of_both(sides, dimension, [&](double& value) { value = *from++; });
     for (Extent* side : {&sides.below, &sides.above})
         side->count = std::isfinite(side->first[0][0]) ? 1 : 0;
     return sides;

@@ -61,7 +61,7 @@ std::string text_of(const ColumnType& type) {
            std::to_string(type.value_bytes) + " bytes";
 }
 
-std::uint64_t hash_of(std::span<const ByteColumn> columns) {
+std::uint64_t hash_of_columns(std::span<const ByteColumn> columns) {
     std::uint64_t hash = columns.size();
     for (const ByteColumn& column : columns) {
         const auto [components, value_bytes, kind] = type_of(column);
@@ -237,7 +237,7 @@ void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
                          mpi::size_of(self.comm));
         lanes = make_results(columns, delivery.num_kept + total(delivery.from));
     });
-    std::array shared{Shared{"the type of a column", hash_of(columns)},
+    std::array shared{Shared{"the type of a column", hash_of_columns(columns)},
                       Shared{"TransferLimits::bytes", limits.bytes}};
     const std::size_t differing = find_difference(self, shared);
     if (differing == 0) refuse_types(columns, self);

@@ -13,7 +13,7 @@ namespace rrcb {
 namespace {
 
 /// Throws Error unless there is a size for each part.
-void check_sizes(std::span<const double> part_weights, std::span<const double> part_sizes) {
+void check_part_sizes(std::span<const double> part_weights, std::span<const double> part_sizes) {
     require(part_sizes.empty() || part_sizes.size() == part_weights.size(),
             "part_sizes must hold one entry per part, or none for equal parts");
 }
@@ -32,7 +32,7 @@ std::vector<double> ideal_weights(std::span<const double> part_weights,
 
 double imbalance(std::span<const double> part_weights, std::span<const double> part_sizes) {
     if (part_weights.empty()) return 1;
-    check_sizes(part_weights, part_sizes);
+    check_part_sizes(part_weights, part_sizes);
     const double total = std::accumulate(part_weights.begin(), part_weights.end(), 0.0);
     if (!std::isfinite(total)) return std::numeric_limits<double>::quiet_NaN();
     const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
@@ -47,7 +47,7 @@ double imbalance(std::span<const double> part_weights, std::span<const double> p
 
 std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
                                            std::span<const double> part_sizes) {
-    check_sizes(part_weights, part_sizes);
+    check_part_sizes(part_weights, part_sizes);
     std::vector<double> unbalance = ideal_weights(part_weights, part_sizes);
     for (std::size_t p = 0; p < unbalance.size(); ++p) {
         const double ideal = unbalance[p];

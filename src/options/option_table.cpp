@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view automatic = "AUTO";
 
-constexpr std::string_view none = "NONE";
+constexpr std::string_view no_values = "NONE";
 
 template <class Kind>
 constexpr bool is_range = requires(Kind kind) {
@@ -66,11 +66,11 @@ std::string text_of(const Rows& rows, const Options& options) {
                  : rows.row_length > 1 && k % rows.row_length == 0 ? ", "
                                                                    : " ") +
                 text_of(numbers[k]);
-    return text.empty() ? std::string(none) : text;
+    return text.empty() ? std::string(no_values) : text;
 }
 
 bool read_rows(const Rows& rows, std::string_view text, Options& options) {
-    if (equal_words(text, none)) return rows.set(options, {});
+    if (equal_words(text, no_values)) return rows.set(options, {});
     const auto numbers = numbers_in(text);
     return numbers && !numbers->empty() && rows.set(options, *numbers);
 }
@@ -152,7 +152,7 @@ std::string legal_values(const Option& option) {
             const bool is_real = std::is_same_v<Kind, Range<double>>;
             return (is_real ? "a number" : "a whole number") + bounds_of(kind);
         } else if constexpr (std::is_same_v<Kind, Rows>) {
-            return std::string(none) + ", or " + kind.text + ": " + kind.example;
+            return std::string(no_values) + ", or " + kind.text + ": " + kind.example;
         } else {
             return "a list";
         }

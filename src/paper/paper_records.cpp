@@ -13,18 +13,18 @@ namespace rrcb {
 namespace {
 
 /// Totals of a rank, ahead of its cells or points.
-struct Head {
+struct RecordHead {
     double num_points = 0;
     double weight = 0;
     double heaviest = 0;
     double has_weights = 0;  ///< 1: each position is followed by its weight
     double num_doubles = 0;  ///< behind the head
 };
-constexpr std::size_t head_length = sizeof(Head) / sizeof(double);
+constexpr std::size_t head_length = sizeof(RecordHead) / sizeof(double);
 using HeadNumbers = std::array<double, head_length>;
 
-Head head_of(const Points& points) {
-    Head head;
+RecordHead head_of(const Points& points) {
+    RecordHead head;
     head.num_points = static_cast<double>(points.count);
     head.has_weights = points.weights.empty() ? 0 : 1;
     head.weight = points.weights.empty()
@@ -37,7 +37,7 @@ Head head_of(const Points& points) {
 
 /// Writes the head in front of the records.
 void complete(std::vector<double>& packed, const Points& points) {
-    Head head = head_of(points);
+    RecordHead head = head_of(points);
     head.num_doubles = static_cast<double>(packed.size() - head_length);
     std::ranges::copy(std::bit_cast<HeadNumbers>(head), packed.begin());
 }
@@ -49,7 +49,7 @@ PaperRecords unpack(std::span<const double> packed, UnpackBlock&& unpack_block) 
     while (!packed.empty()) {
         HeadNumbers numbers;
         std::ranges::copy(packed.first(head_length), numbers.begin());
-        const auto head = std::bit_cast<Head>(numbers);
+        const auto head = std::bit_cast<RecordHead>(numbers);
         const auto length = static_cast<std::size_t>(head.num_doubles);
         all.num_points += static_cast<GlobalCount>(head.num_points);
         all.weight += head.weight;
@@ -89,7 +89,8 @@ std::vector<double> pack_points(const Points& points) {
 
 PaperRecords unpack_moments(std::span<const double> packed, int dimension) {
     const std::size_t length = 2 + 2 * dimension;
-    return unpack(packed, [&](const Head&, std::span<const double> doubles, PaperRecords& all) {
+    return unpack(packed, [&](const RecordHead&, std::span<const double> doubles,
+                              PaperRecords& all) {
         for (; !doubles.empty(); doubles = doubles.subspan(length)) {
             Moments& moments = all.cells.emplace_back().moments;
             moments.count = static_cast<GlobalCount>(doubles[0]);
@@ -102,7 +103,7 @@ PaperRecords unpack_moments(std::span<const double> packed, int dimension) {
 
 PaperRecords unpack_points(std::span<const double> packed, int dimension) {
     return unpack(packed,
-                  [&](const Head& head, std::span<const double> doubles, PaperRecords& all) {
+                  [&](const RecordHead& head, std::span<const double> doubles, PaperRecords& all) {
                       const std::size_t length = dimension + (head.has_weights != 0 ? 1 : 0);
                       for (; !doubles.empty(); doubles = doubles.subspan(length)) {
                           all.coordinates.insert(all.coordinates.end(), doubles.begin(),

@@ -1,6 +1,7 @@
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/cut_limits.hpp"
+#include "infinity.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
@@ -8,13 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Box extent_of(std::span<const MassPoint> points) {
     Box box;
@@ -27,7 +25,7 @@ Box extent_of(std::span<const MassPoint> points) {
     return box;
 }
 
-struct Task {
+struct PointTask {
     CutRule rule;
     bool plain_cuts;
     Bisection result;
@@ -43,7 +41,7 @@ std::size_t divide_by(const Cut& cut, int dimension, std::span<MassPoint> points
 }
 
 /// Chooses the cut of a node and divides its points in place; returns the number below.
-std::size_t cut_points(std::span<MassPoint> points, double below, const Task& task, Cut& cut) {
+std::size_t cut_points(std::span<MassPoint> points, double below, const PointTask& task, Cut& cut) {
     constexpr double longest_only = 1;
     const int dimension = task.result.cuts.dimension;
     const Box box = extent_of(points);
@@ -60,7 +58,7 @@ std::size_t cut_points(std::span<MassPoint> points, double below, const Task& ta
     return select_below(points, dimension, below * weight, task.plain_cuts, cut);
 }
 
-void bisect_node(std::span<MassPoint> points, std::span<const double> sizes, Task& task) {
+void bisect_node(std::span<MassPoint> points, std::span<const double> sizes, PointTask& task) {
     if (sizes.size() == 1) {
         task.result.part_weights.push_back(weight_of(points));
         return;
@@ -90,7 +88,7 @@ Bisection bisect_points(std::vector<MassPoint> points, int dimension, int num_pa
     check_sizes(num_parts, part_sizes);
     std::vector<double> sizes(part_sizes.begin(), part_sizes.end());
     if (sizes.empty()) sizes.assign(num_parts, 1.0);
-    Task task{rule, plain_cuts, {}};
+    PointTask task{rule, plain_cuts, {}};
     task.result.cuts.dimension = dimension;
     task.result.cuts.num_parts = num_parts;
     bisect_node(points, sizes, task);

@@ -1,16 +1,14 @@
 #include "paper/point_selection.hpp"
 
 #include "cuts/position_order.hpp"
+#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Place {
     std::size_t index;
@@ -44,7 +42,7 @@ Place select(std::span<MassPoint> points, const PositionOrder& before, double ta
 }
 
 /// Equal points, consecutive, with the weight below them.
-struct Ties {
+struct EqualPoints {
     std::size_t begin;
     std::size_t end;
     double below;
@@ -52,7 +50,8 @@ struct Ties {
 };
 
 /// Moves the points equal to the selected one next to it.
-Ties gather_ties(std::span<MassPoint> points, const PositionOrder& before, const Place& place) {
+EqualPoints gather_ties(std::span<MassPoint> points, const PositionOrder& before,
+                        const Place& place) {
     const Vector selected = points[place.index].position;
     const auto lower = points.first(place.index);
     const auto upper = points.subspan(place.index);
@@ -62,8 +61,9 @@ Ties gather_ties(std::span<MassPoint> points, const PositionOrder& before, const
     const auto behind = std::partition(upper.begin(), upper.end(), [&](const MassPoint& point) {
         return !before(selected, point.position);
     });
-    Ties ties{static_cast<std::size_t>(first - lower.begin()),
-              place.index + static_cast<std::size_t>(behind - upper.begin()), place.below, 0};
+    EqualPoints ties{static_cast<std::size_t>(first - lower.begin()),
+                     place.index + static_cast<std::size_t>(behind - upper.begin()), place.below,
+                     0};
     ties.below -= weight_of(points.subspan(ties.begin, place.index - ties.begin));
     ties.weight = weight_of(points.subspan(ties.begin, ties.end - ties.begin));
     return ties;
@@ -93,7 +93,7 @@ double weight_of(std::span<const MassPoint> points) {
 std::size_t select_below(std::span<MassPoint> points, int dimension, double target, bool plain,
                          Cut& cut) {
     const PositionOrder order(cut.axis, 0, plain ? 1 : dimension);
-    const Ties ties = gather_ties(points, order, select(points, order, target));
+    const EqualPoints ties = gather_ties(points, order, select(points, order, target));
     const double missing = target - ties.below;
     const bool above = missing < ties.weight / 2;
     const std::size_t num_below = above ? ties.begin : ties.end;

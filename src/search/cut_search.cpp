@@ -1,18 +1,16 @@
 #include "search/cut_search.hpp"
 
+#include "infinity.hpp"
 #include "search/candidate_division.hpp"
 #include "search/gap.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Counts of candidates in bins before splitters are used.
 constexpr int most_counts = 4;
@@ -80,14 +78,15 @@ void break_tie(CutSearch& search, CutTarget& target, std::span<const double> ext
     finish_among_ties(search, target, position, target.base, weight);
 }
 
-struct Extent {
+struct CandidateRange {
     double smallest;
     double largest;
 };
 
 /// Goes on with the candidates in the chosen slot: by another count in bins, or by splitters after
 /// most_counts of them.
-void narrow(CutSearch& search, CutTarget& target, const Bins& bins, int num_bins, Extent extent) {
+void narrow(CutSearch& search, CutTarget& target, const Bins& bins, int num_bins,
+            CandidateRange extent) {
     const int slot = search.chosen;
     const double lower = slot == 0 ? extent.smallest : bins.edge(slot - 1);
     const double upper =
@@ -146,7 +145,7 @@ EdgeErrors errors_at(const Chosen& chosen, double weight, const CutTarget& targe
 
 /// Returns true if all candidates share a coordinate at which the cut is allowed and may break
 /// ties.
-bool may_break_tie(const CutSearch& search, const CutTarget& target, const Extent& extent,
+bool may_break_tie(const CutSearch& search, const CutTarget& target, const CandidateRange& extent,
                    const HistogramLayout& layout) {
     if (extent.smallest != extent.largest) return false;
     if (target.places.all() || search.tied > 0) return true;
@@ -242,7 +241,7 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
     }
     const bool counted_candidates = search.stage == CutSearch::over_candidates;
     target.num_counts += counted_candidates ? 1 : 0;
-    const Extent extent{-histogram[axis], histogram[max_dimension + axis]};
+    const CandidateRange extent{-histogram[axis], histogram[max_dimension + axis]};
     if (counted_candidates && may_break_tie(search, target, extent, layout)) {
         break_tie(search, target, histogram, weights);
         return;

@@ -1,18 +1,12 @@
 #include "search/gap.hpp"
 
 #include "cuts/position_order.hpp"
+#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rrcb {
-
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 void narrow(const Cut& cut, std::span<const Fragment> fragments, const SortedPoints& points,
             Gap& gap) {

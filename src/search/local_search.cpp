@@ -1,6 +1,7 @@
 #include "search/local_search.hpp"
 
 #include "cells/running_sums.hpp"
+#include "infinity.hpp"
 #include "search/sample.hpp"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Tally {
   public:

@@ -1,5 +1,6 @@
 // How a central search starts from known cuts.
 #include "bisection/bisection.hpp"
+#include "infinity.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>
@@ -8,12 +9,6 @@
 #include <utility>
 
 namespace rrcb {
-
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 void TreeSearch::start_from_guide(Node& node) {
     if (node.content.are_parts_counted)

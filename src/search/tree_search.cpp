@@ -5,17 +5,15 @@
 #include "bisection/bisection.hpp"
 #include "cuts/owned_cuts.hpp"
 #include "cuts/part_share.hpp"
+#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace rrcb {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the box of the entries of a fragment.
 Box box_of(const Fragment& fragment, const SortedPoints& points) {

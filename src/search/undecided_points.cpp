@@ -4,18 +4,18 @@
 #include "cells/running_sums.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "cuts/tree.hpp"
+#include "infinity.hpp"
 
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <utility>
 
 namespace rrcb {
 
 namespace {
 
-constexpr LocalIndex block_length = 512;
+constexpr LocalIndex points_in_block = 512;
 
 /// Shrinks the box of each part to the positions that no cut can leave to another part.
 void shrink(const Cuts& cuts, std::span<const Slab> slabs, const Descent& at, const Box& box,
@@ -35,7 +35,6 @@ void shrink(const Cuts& cuts, std::span<const Slab> slabs, const Descent& at, co
 }
 
 std::vector<Box> decided_boxes(const Cuts& cuts, std::span<const Slab> slabs) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Box all;
     all.lower.fill(-infinity);
     all.upper.fill(infinity);
@@ -61,7 +60,7 @@ class Selection {
 
     void run() {
         in_ranges(points_.count, sums_.interval(), [&](LocalIndex begin, LocalIndex end) {
-            in_ranges(end - begin, block_length, [&](LocalIndex first, LocalIndex last) {
+            in_ranges(end - begin, points_in_block, [&](LocalIndex first, LocalIndex last) {
                 take(begin + first, begin + last);
             });
             sums_.empty();
@@ -82,7 +81,7 @@ class Selection {
 
     /// Without branches in the loop, because the points come in any order.
     void take(LocalIndex first, LocalIndex last) {
-        std::array<LocalIndex, block_length> undecided;
+        std::array<LocalIndex, points_in_block> undecided;
         std::size_t num_undecided = 0;
         for (LocalIndex i = first; i < last; ++i) {
             const bool decided = is_decided(i);

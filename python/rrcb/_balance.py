@@ -91,7 +91,16 @@ class Distribution:
         with a radius for each point. `period` is the length of a periodic box from 0, one number
         or one for each axis (infinity: not periodic), or its corners (lower, upper).
         """
-        return Ghosts(self.comm, self._own, x, radius, period)
+        return Ghosts(self.comm, self._own, x, radius, period, self._require_moved)
+
+    def _require_moved(self, points: Points) -> None:
+        """Raises Error for the points from before distribute(), if some have to leave this rank."""
+        same = points.count == len(self.parts) and self.cuts.num_parts == self.comm.Get_size()
+        if same and np.any(self.parts != self.comm.Get_rank()):
+            found = np.empty_like(self.parts)
+            c.call("assign", self._own, points, found)
+            if np.array_equal(found, self.parts):
+                raise c.Error("these are the points before distribute(): give those it returned")
 
     def _plan(self) -> int:
         if self._num_points_after is None:

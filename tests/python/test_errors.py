@@ -102,6 +102,20 @@ def test_raises_errors_of_columns_on_all():
     check_balance(rrcb.balance(x, comm=comm), x)
 
 
+def test_refuses_ghosts_of_points_that_were_not_moved():
+    x = cloud(2)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute(x)
+    if RANKS > 1:
+        same_error(lambda: balance.ghosts(x, 0.1), "these are the points before distribute()")
+        alone = rrcb.assign(here, balance, comm)
+        same_error(lambda: balance.ghosts(on_rank(RANKS - 1, x, here), 0.1), "before distribute()")
+        assert alone.ghosts(here, 0.1).count == balance.ghosts(here, 0.1).count
+    # As many points as before, of which some have crossed a cut.
+    rows = np.resize(np.arange(len(here)), len(x))
+    assert balance.ghosts(here[rows] * 0.99, 0.1).num_points == len(x)
+
+
 def test_refuses_what_is_no_communicator():
     for bad, text in ((MPI.COMM_NULL, "COMM_NULL"), (3, "int")):
         same_error(lambda: rrcb.balance(cloud(2), comm=bad), text)

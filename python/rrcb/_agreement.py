@@ -28,7 +28,7 @@ def communicator(comm: MPI.Comm | None) -> MPI.Intracomm:
 def together(
     comm: MPI.Intracomm, local: Callable[[], tuple[Any, ...]], collective: Callable[..., T]
 ) -> T:
-    """Returns collective(*local()), a call of the library. Raises Error on every rank.
+    """Returns collective(*local()), a call of the library with points. Raises Error on every rank.
 
     A rank where local() fails passes no arguments. The library's own messages report that on every
     rank, so that only a failure costs another reduction.
@@ -43,7 +43,9 @@ def together(
         return collective(*arguments)
     except Error as error:
         if error.kind != "MPI error":
-            agree(comm, failure)
+            dimension = arguments[0].dimension if arguments else 0
+            if not agree(comm, failure, dimension):
+                raise Error(f"{error}; without points np.empty((0, d))") from error
         raise
 
 

@@ -116,6 +116,24 @@ def test_refuses_ghosts_of_points_that_were_not_moved():
     assert balance.ghosts(here[rows] * 0.99, 0.1).num_points == len(x)
 
 
+def test_names_the_shape_of_no_points():
+    x, last = cloud(2), RANKS - 1
+    balance = rrcb.balance(x, comm=comm)
+    here, given = balance.distribute(x), on_rank(last, np.array([]), x)
+    if RANKS > 1:
+        for call in (
+            lambda: rrcb.balance(given, comm=comm),
+            lambda: rrcb.balance(given, comm=comm, previous=balance),
+            lambda: rrcb.assign(given, balance, comm),
+            lambda: balance.ghosts(on_rank(last, np.array([]), here), 0.1),
+        ):
+            same_error(call, "without points np.empty((0, d))")
+    for none, dimension in ((np.array([]), 1), ([], 1), (np.empty((0, 2)), 2)):
+        balance = rrcb.balance(none, comm=comm)
+        assert balance.cuts.dimension == dimension and balance.parts.shape == (0,)
+        assert balance.distribute(np.asarray(none)).shape == np.shape(none)
+
+
 def test_refuses_what_is_no_communicator():
     for bad, text in ((MPI.COMM_NULL, "COMM_NULL"), (3, "int")):
         same_error(lambda: rrcb.balance(cloud(2), comm=bad), text)

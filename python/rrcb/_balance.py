@@ -141,7 +141,7 @@ def balance(
     comm: MPI.Comm | None = None,
     tolerance: float | None = None,
     previous: Distribution | Cuts | None = None,
-    part_sizes: Sequence[float] | None = None,
+    part_sizes: Sequence[float] | Array | None = None,
     **options: Any,
 ) -> Balance:
     """Divides points so that every part has the same weight. Collective over `comm`.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import operator
 import weakref
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from mpi4py import MPI
@@ -14,6 +14,9 @@ from . import _library as c
 from ._agreement import communicator, prepare
 from ._arrays import Array
 from ._balance import Balance
+
+
+Self = TypeVar("Self", bound="Owner")
 
 
 class Owner:
@@ -26,7 +29,7 @@ class Owner:
         """Frees the object. Collective."""
         self._own.destroy()
 
-    def __enter__(self) -> Any:
+    def __enter__(self: Self) -> Self:
         return self
 
     def __exit__(self, kind: object, error: object, trace: object) -> None:

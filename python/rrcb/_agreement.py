@@ -15,6 +15,9 @@ T = TypeVar("T")
 
 def communicator(comm: MPI.Comm | None) -> MPI.Intracomm:
     """Returns the communicator of a call. Raises Error for one that cannot be used."""
+    # MPI would end the program without the place of the call.
+    if not MPI.Is_initialized() or MPI.Is_finalized():
+        raise Error("MPI is not running: call after MPI.Init() and before MPI.Finalize()")
     chosen = MPI.COMM_WORLD if comm is None else comm
     if not isinstance(chosen, MPI.Comm):
         raise Error(f"comm must be a communicator of mpi4py, not {type(chosen).__name__}")

@@ -88,8 +88,9 @@ class Distribution:
         """Finds the points that other ranks need within a radius. Collective.
 
         `x` are the positions on this rank, after distribute(); `radius` is a number, or an array
-        with a radius for each point. `period` is the length of a periodic box from 0, one number
-        or one for each axis (infinity: not periodic), or its corners (lower, upper).
+        with a radius for each point, within which other ranks need it (docs/loop.md). `period` is
+        the length of a periodic box from 0, one number or one for each axis (infinity: not
+        periodic), or its corners (lower, upper).
         """
         return Ghosts(self.comm, self._own, x, radius, period, self._require_moved)
 
@@ -209,6 +210,8 @@ def set_option(own: c.Handle, name: str, value: Any) -> None:
     """Sets an option by its text."""
     if name == "cuts":
         raise c.Error("the option cuts cannot be set from Python: every rank gets all cuts")
+    if value is None:
+        raise c.Error(f"the option {name} is None: leave it out for its default")
     c.call("set", own, name.encode(), text_of(value).encode())
 
 

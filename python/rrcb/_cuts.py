@@ -10,6 +10,7 @@ import numpy as np
 from mpi4py import MPI
 
 from . import _library as c
+from ._agreement import communicator
 from ._arrays import Array, Points
 
 CUT = np.dtype([("axis", np.int32), ("divides", np.int32), ("at", np.float64, 3)])
@@ -95,7 +96,7 @@ class Cuts:
 
     def _handle(self) -> c.OwnedHandle:
         if self._own is None:
-            own = c.OwnedHandle("create_fortran", "destroy", MPI.COMM_SELF.py2f())
+            own = c.OwnedHandle("create_fortran", "destroy", communicator(MPI.COMM_SELF).py2f())
             self.give(own)
             self._own = own
         return self._own

@@ -2,6 +2,7 @@
 import copy
 import pickle
 import sys
+import unittest.mock
 
 import numpy as np
 from mpi4py import MPI
@@ -54,7 +55,7 @@ def test_raises_the_error_of_one_rank_on_all():
                       (-np.ones(len(x)), "")):
         given = on_rank(0, bad, np.ones(len(x)))
         same_error(lambda: rrcb.balance(x, weights=given, comm=comm), text)
-    for name, value in (("nonsense", 1), ("refine", "WRONG"), ("cuts", "OWN")):
+    for name, value in (("nonsense", 1), ("refine", "WRONG"), ("refine", None), ("cuts", "OWN")):
         given = on_rank(last, {name: value}, {})
         same_error(lambda: rrcb.balance(x, comm=comm, **given), name)
 
@@ -138,6 +139,32 @@ def test_refuses_what_is_no_communicator():
     for bad, text in ((MPI.COMM_NULL, "COMM_NULL"), (3, "int")):
         same_error(lambda: rrcb.balance(cloud(2), comm=bad), text)
         same_error(lambda: rrcb.Controller(bad), text)
+
+
+def test_refuses_calls_when_mpi_is_not_running():
+    x = cloud(2)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute(x)
+    ghosts = balance.ghosts(here, 0.1)
+    calls = (
+        lambda: rrcb.balance(x, comm=comm),
+        lambda: rrcb.assign(x, balance, comm),
+        lambda: balance.distribute(x),
+        lambda: balance.ghosts(here, 0.1),
+        lambda: ghosts.fetch(here),
+        lambda: copy.copy(balance.cuts).part_of(x),
+        lambda: rrcb.Controller(comm),
+        lambda: rrcb.CostModel(2, comm=comm),
+    )
+    for name, result in (("Is_initialized", False), ("Is_finalized", True)):
+        for call in calls:
+            try:
+                with unittest.mock.patch.object(MPI, name, return_value=result):
+                    call()
+            except rrcb.Error as error:
+                assert "MPI is not running" in str(error), error
+            else:
+                raise AssertionError(f"no error if {name} returns {result}")
 
 
 def test_refuses_a_freed_communicator():

@@ -112,7 +112,7 @@ if(RRCB_PKG_CONFIG)
              ${CMAKE_CURRENT_SOURCE_DIR}/install/pkg_config ${prefix} ${PROJECT_SOURCE_DIR}
              ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 3 ${RRCB_MPIEXEC_FLAGS})
   set_tests_properties(install.pkg_config PROPERTIES FIXTURES_REQUIRED installed LABELS install
-                                                     TIMEOUT 120 PROCESSORS 3)
+                                                     TIMEOUT 120)
 else()
   rrcb_left_out("test of the files for pkg-config" "pkg-config was not found" pkg-config)
 endif()
@@ -139,8 +139,7 @@ if(Python3_FOUND)
   if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE)
     add_test(NAME first_steps COMMAND ${CMAKE_COMMAND} -E env CMAKE_GENERATOR=${CMAKE_GENERATOR}
                                       ${CMAKE_CURRENT_SOURCE_DIR}/first_steps/run ${prefix})
-    set_tests_properties(first_steps PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 600
-                                                PROCESSORS 4)
+    set_tests_properties(first_steps PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 600)
   else()
     rrcb_left_out("test of the documents' commands"
                   "the plug-in, pkg-config or mpi_f08 is not there" pkg-config gfortran)
@@ -156,4 +155,5 @@ set_tests_properties(install.left_out PROPERTIES FIXTURES_REQUIRED without_trili
                                                  TIMEOUT 60)
 set_tests_properties(
   install.clean install.install install.consumer install.builds_without_trilinos install.subdirectory
-  install.asked_for_but_missing install.names_missing_packages install.names_missing_headers PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)
+  install.asked_for_but_missing install.names_missing_packages install.names_missing_headers PROPERTIES LABELS install TIMEOUT 300)
+set_tests_properties(install.consumer install.builds_without_trilinos PROPERTIES PROCESSORS 2)

@@ -36,7 +36,7 @@ class RCB : protected Pointers {
     int cutdim = -1;
     int *sendproc = nullptr, *sendindex = nullptr;
 
-  private:
+  protected:  // private in LAMMPS; Clang reports private fields without a use
     int me = 0, nprocs = 1;
     void* dots = nullptr;
     int ndot = 0, maxdot = 0, ndotorig = 0, nlist = 0, maxlist = 0;

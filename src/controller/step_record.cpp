@@ -17,7 +17,7 @@ std::string whole(double number) {
 
 std::string text_of(BadInput input) {
     if (input == BadInput::columns)
-        return ": a step has another number of columns than the cost model";
+        return ": a step has no columns, or another number than the cost model; give as many";
     return std::string(input == BadInput::load ? ": the load, the points or a column of a step are"
                                                : ": the cost of a rebalance is") +
            " negative, NaN or infinite; give a finite number of at least 0";

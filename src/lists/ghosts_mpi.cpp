@@ -79,8 +79,9 @@ struct Radii {
     void check(LocalIndex num_points) const {
         const auto is_usable = [](double radius) { return std::isfinite(radius) && radius >= 0; };
         if (!each)
-            return require(is_usable(same),
-                           "the radius must be finite, 0 or more; give it or radii");
+            return require(
+                is_usable(same),
+                "the radius must be finite, 0 or more; give it or radii, one for each point");
         require(std::isnan(same) || same == 0, "give one radius or radii, not both");
         require(each->size() == num_points, "radii must have one entry for each point");
         require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");

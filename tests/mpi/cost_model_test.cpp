@@ -136,7 +136,7 @@ TEST(CostModel, refuses_numbers_of_one_rank_on_all) {
         [&] {
             model.step(1, std::vector<double>{1, 1});
         },
-        last + ": a step has another number of columns than the cost model");
+        last + ": a step has no columns, or another number than the cost model; give as many");
 }
 
 TEST(CostModel, refuses_what_it_cannot_be_made_with) {

@@ -38,7 +38,8 @@ void expect_refusal(const std::string& text, const std::function<void()>& call) 
 TEST(Ghosts, within_no_radius_are_refused_on_all_ranks) {
     const std::vector<double> x(2);
     const Points points = interleaved_points(x, 2);
-    expect_refusal("give it or radii", [&] { ghosts(slabs(), points, {}, MPI_COMM_WORLD); });
+    expect_refusal("give it or radii, one for each point",
+                   [&] { ghosts(slabs(), points, {}, MPI_COMM_WORLD); });
     for (const double radius : {-1.0, std::nan(""), infinity, -infinity}) {
         expect_refusal("the radius must be finite",
                        [&] { ghosts(slabs(), points, {.radius = radius}, MPI_COMM_WORLD); });

@@ -14,6 +14,7 @@
 
 /// The object behind a C program's pointer.
 struct rrcb_balancer {
+    static constexpr const char* name = "balancer";
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::Options options{};
     rrcb::Cuts cuts{};
@@ -67,9 +68,9 @@ void require_plan(const rrcb_balancer& own);
 
 /// Runs the body of a function of a handle; no exception leaves it.
 template <class Handle, class Body>
-int guarded(Handle* handle, Body&& body, const char* name = "balancer") noexcept {
+int guarded(Handle* handle, Body&& body) noexcept {
     return guarded([&] {
-        require(handle, name);
+        require(handle, Handle::name);
         body(*handle);
     });
 }

@@ -1,8 +1,6 @@
 #include "balance_mpi.hpp"
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
-#include "collective/agreement_mpi.hpp"
-#include "collective/duplicate.hpp"
 #include "cuts/cuts_mpi.hpp"
 #include "search/workspace_mpi.hpp"
 
@@ -13,8 +11,8 @@ namespace rrcb::c {
 namespace {
 
 /// Balances from earlier cuts, or anew. Collective.
-void balance(const rrcb_points* given, const Cuts* previous, int32_t* parts, rrcb_balancer& own) {
-    Participant self{mpi::duplicate_of(own.comm)};
+void balance(const rrcb_points* given, const Cuts* previous, int32_t* parts, rrcb_balancer& own,
+             Participant& self) {
     Points points;
     Workspace* workspace = nullptr;
     self.attempt([&] {
@@ -37,11 +35,12 @@ void balance(const rrcb_points* given, const Cuts* previous, int32_t* parts, rrc
 
 using rrcb::Participant;
 using rrcb::c::guarded;
+using rrcb::c::guarded_together;
 using rrcb::c::require_cuts;
 
 int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer) {
     return guarded([&] {
-        auto made = rrcb::c::make_handle(comm, balancer, "balancer");
+        auto made = rrcb::c::make_handle(comm, balancer);
         made->comm = comm;
         *balancer = made.release();
     });
@@ -52,24 +51,26 @@ int rrcb_create_fortran(int comm, rrcb_balancer** balancer) {
 }
 
 int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded(balancer, [&](auto& own) { rrcb::c::balance(points, nullptr, parts, own); });
+    return guarded_together(balancer, [&](auto& own, Participant& self) {
+        rrcb::c::balance(points, nullptr, parts, own, self);
+    });
 }
 
 int rrcb_rebalance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded(balancer, [&](auto& own) { rrcb::c::balance(points, &own.cuts, parts, own); });
+    return guarded_together(balancer, [&](auto& own, Participant& self) {
+        rrcb::c::balance(points, &own.cuts, parts, own, self);
+    });
 }
 
 int rrcb_gather_cuts(rrcb_balancer* balancer) {
-    return guarded(balancer, [&](auto& own) {
-        Participant self{rrcb::mpi::duplicate_of(own.comm)};
+    return guarded_together(balancer, [&](auto& own, Participant& self) {
         self.attempt([&] { require_cuts(own); });
         own.cuts = rrcb::gather_cuts(own.cuts, self);
     });
 }
 
 int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded(balancer, [&](const auto& own) {
-        Participant self{rrcb::mpi::duplicate_of(own.comm)};
+    return guarded_together(balancer, [&](const auto& own, Participant& self) {
         rrcb::Points positions;
         self.attempt([&] {
             require_cuts(own);

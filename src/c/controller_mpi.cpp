@@ -12,10 +12,12 @@
 #include <string>
 
 struct rrcb_controller {
+    static constexpr const char* name = "controller";
     std::optional<rrcb::Controller> controller{};
 };
 
 struct rrcb_cost_model {
+    static constexpr const char* name = "model";
     std::optional<rrcb::CostModel> model{};
     std::size_t num_columns = 0;
     std::string report{};
@@ -23,18 +25,8 @@ struct rrcb_cost_model {
 
 namespace {
 
+using rrcb::c::guarded;
 using rrcb::c::view;
-
-template <class Controller, class Body>
-int with(Controller* controller, Body&& body) noexcept {
-    return rrcb::c::guarded(
-        controller, [&](auto& own) { body(*own.controller); }, "controller");
-}
-
-template <class Model, class Body>
-int with_model(Model* model, Body&& body) noexcept {
-    return rrcb::c::guarded(model, body, "model");
-}
 
 void store(bool is_due, int* due) {
     if (due != nullptr) *due = is_due ? 1 : 0;
@@ -43,9 +35,9 @@ void store(bool is_due, int* due) {
 /// Makes a model, of a controller if the address of one is given. Collective.
 int make_model(MPI_Comm comm, rrcb_controller* const* controller, int num_columns,
                rrcb_cost_model** model) {
-    return rrcb::c::guarded([&] {
+    return guarded([&] {
         auto made = rrcb::c::make_handle(
-            comm, model, "model", {{"whether a controller is given", controller != nullptr}}, [&] {
+            comm, model, {{"whether a controller is given", controller != nullptr}}, [&] {
                 if (controller != nullptr) rrcb::c::require(*controller, "controller");
             });
         if (controller == nullptr)
@@ -66,8 +58,8 @@ void check_columns(const rrcb_cost_model& own, std::size_t num_columns) {
 }  // namespace
 
 int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller) {
-    return rrcb::c::guarded([&] {
-        auto made = rrcb::c::make_handle(comm, controller, "controller");
+    return guarded([&] {
+        auto made = rrcb::c::make_handle(comm, controller);
         made->controller.emplace(comm);
         *controller = made.release();
     });
@@ -82,23 +74,23 @@ void rrcb_controller_destroy(rrcb_controller* controller) {
 }
 
 int rrcb_controller_step(rrcb_controller* controller, double load, int* due) {
-    return with(controller, [&](rrcb::Controller& own) { store(own.step(load), due); });
+    return guarded(controller, [&](auto& own) { store(own.controller->step(load), due); });
 }
 
 int rrcb_controller_step_points(rrcb_controller* controller, double load, double points, int* due) {
-    return with(controller, [&](rrcb::Controller& own) { store(own.step(load, points), due); });
+    return guarded(controller, [&](auto& own) { store(own.controller->step(load, points), due); });
 }
 
 int rrcb_controller_due(const rrcb_controller* controller, int* due) {
-    return with(controller, [&](const rrcb::Controller& own) { store(own.due(), due); });
+    return guarded(controller, [&](const auto& own) { store(own.controller->due(), due); });
 }
 
 int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* report,
                                double cost) {
-    return with(controller, [&](rrcb::Controller& own) {
+    return guarded(controller, [&](auto& own) {
         rrcb::Report known;
         if (report != nullptr) known.details.least_imbalance = report->least_imbalance;
-        own.rebalanced(known, cost);
+        own.controller->rebalanced(known, cost);
     });
 }
 
@@ -118,13 +110,12 @@ void rrcb_cost_model_destroy(rrcb_cost_model* model) {
 
 int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_columns,
                          const double* columns) {
-    return with_model(
-        model, [&](rrcb_cost_model& own) { own.model->step(seconds, view(columns, num_columns)); });
+    return guarded(model, [&](auto& own) { own.model->step(seconds, view(columns, num_columns)); });
 }
 
 int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_columns,
                             const double* columns, double* weights) {
-    return with_model(model, [&](rrcb_cost_model& own) {
+    return guarded(model, [&](auto& own) {
         check_columns(own, num_columns);
         if (count > PTRDIFF_MAX / sizeof(double) / own.num_columns)
             rrcb::reject(
@@ -136,7 +127,7 @@ int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_col
 }
 
 int rrcb_cost_model_costs(const rrcb_cost_model* model, size_t num_columns, double* costs) {
-    return with_model(model, [&](const rrcb_cost_model& own) {
+    return guarded(model, [&](const auto& own) {
         check_columns(own, num_columns);
         rrcb::c::require(costs, "costs");
         std::ranges::copy(own.model->costs(), costs);
@@ -144,12 +135,10 @@ int rrcb_cost_model_costs(const rrcb_cost_model* model, size_t num_columns, doub
 }
 
 int rrcb_cost_model_uses_costs(const rrcb_cost_model* model, int* uses_costs) {
-    return with_model(
-        model, [&](const rrcb_cost_model& own) { store(own.model->uses_costs(), uses_costs); });
+    return guarded(model, [&](const auto& own) { store(own.model->uses_costs(), uses_costs); });
 }
 
 const char* rrcb_cost_model_report(rrcb_cost_model* model) {
-    const int code =
-        with_model(model, [](rrcb_cost_model& own) { own.report = own.model->report(); });
+    const int code = guarded(model, [](auto& own) { own.report = own.model->report(); });
     return code == RRCB_OK ? model->report.c_str() : "";
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 struct rrcb_ghosts {
+    static constexpr const char* name = "ghosts";
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::GhostPlan plan{};
 };
@@ -47,9 +48,8 @@ const rrcb_rank_count* counts_at(const std::vector<RankCount>& counts) {
 }
 
 void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
-                 const rrcb_ghost_options* given_options, rrcb_ghosts** ghosts) {
-    auto made = make_handle(own.comm, ghosts, "ghosts");
-    Participant self{mpi::duplicate_of(own.comm)};
+                 const rrcb_ghost_options* given_options, rrcb_ghosts** ghosts, Participant& self) {
+    auto made = make_handle(own.comm, ghosts);
     Points points;
     KeptOptions kept;
     self.attempt([&] {
@@ -114,11 +114,13 @@ void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
 
 using rrcb::Participant;
 using rrcb::c::guarded;
+using rrcb::c::guarded_together;
 
 int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
                        const rrcb_ghost_options* options, rrcb_ghosts** ghosts) {
-    return guarded(balancer,
-                   [&](const auto& own) { rrcb::c::make_ghosts(own, points, options, ghosts); });
+    return guarded_together(balancer, [&](const auto& own, Participant& self) {
+        rrcb::c::make_ghosts(own, points, options, ghosts, self);
+    });
 }
 
 void rrcb_ghosts_destroy(rrcb_ghosts* ghosts) {
@@ -126,63 +128,49 @@ void rrcb_ghosts_destroy(rrcb_ghosts* ghosts) {
 }
 
 int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {
-    return guarded(
-        ghosts,
-        [&](const auto& own) {
-            rrcb::c::require(plan, "plan");
-            const rrcb::GhostPlan& from = own.plan;
-            *plan = {from.num_points,
-                     rrcb::total(own.plan.receive),
-                     from.send.size(),
-                     rrcb::c::counts_at(from.send),
-                     from.send_indices.size(),
-                     from.send_indices.data(),
-                     from.receive.size(),
-                     rrcb::c::counts_at(from.receive),
-                     from.shifts.empty() ? nullptr : from.shifts.front().data()};
-        },
-        "ghosts");
+    return guarded(ghosts, [&](const auto& own) {
+        rrcb::c::require(plan, "plan");
+        const rrcb::GhostPlan& from = own.plan;
+        *plan = {from.num_points,
+                 rrcb::total(from.receive),
+                 from.send.size(),
+                 rrcb::c::counts_at(from.send),
+                 from.send_indices.size(),
+                 from.send_indices.data(),
+                 from.receive.size(),
+                 rrcb::c::counts_at(from.receive),
+                 from.shifts.empty() ? nullptr : from.shifts.front().data()};
+    });
 }
 
 int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_column* columns,
                       const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
-    return guarded(
-        ghosts,
-        [&](const auto& own) {
-            Participant self{rrcb::mpi::duplicate_of(own.comm)};
-            const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
-            call.move_by(own.plan, own.plan.num_points, self);
-        },
-        "ghosts");
+    return guarded_together(ghosts, [&](const auto& own, Participant& self) {
+        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+        call.move_by(own.plan, own.plan.num_points, self);
+    });
 }
 
 int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
                            const rrcb_column* columns, const rrcb_transfer_limits* limits,
                            rrcb_transfer_report* report) {
-    return guarded(
-        ghosts,
-        [&](const auto& own) {
-            Participant self{rrcb::mpi::duplicate_of(own.comm)};
-            std::span<const rrcb_column> given;
-            self.attempt([&] { given = rrcb::c::given_columns(columns, num_columns); });
-            rrcb::TransferReport made;
-            rrcb::c::accumulate(own, given, rrcb::c::limits_of(limits), made, self);
-            rrcb::c::store(made, report);
-        },
-        "ghosts");
+    return guarded_together(ghosts, [&](const auto& own, Participant& self) {
+        std::span<const rrcb_column> given;
+        self.attempt([&] { given = rrcb::c::given_columns(columns, num_columns); });
+        rrcb::TransferReport made;
+        rrcb::c::accumulate(own, given, rrcb::c::limits_of(limits), made, self);
+        rrcb::c::store(made, report);
+    });
 }
 
 int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, rrcb_type type, size_t length,
                              void* positions) {
-    return guarded(
-        ghosts,
-        [&](const auto& own) {
-            rrcb::c::require_array(length, positions, "positions");
-            rrcb::c::check_coordinate(type);
-            if (type == RRCB_FLOAT)
-                rrcb::apply_shifts(own.plan, std::span(static_cast<float*>(positions), length));
-            else
-                rrcb::apply_shifts(own.plan, std::span(static_cast<double*>(positions), length));
-        },
-        "ghosts");
+    return guarded(ghosts, [&](const auto& own) {
+        rrcb::c::require_array(length, positions, "positions");
+        rrcb::c::check_coordinate(type);
+        if (type == RRCB_FLOAT)
+            rrcb::apply_shifts(own.plan, std::span(static_cast<float*>(positions), length));
+        else
+            rrcb::apply_shifts(own.plan, std::span(static_cast<double*>(positions), length));
+    });
 }

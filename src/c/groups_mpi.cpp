@@ -5,6 +5,7 @@
 #include <algorithm>
 
 struct rrcb_groups {
+    static constexpr const char* name = "groups";
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::Groups groups{};
 };
@@ -13,20 +14,11 @@ namespace {
 
 using rrcb::Participant;
 using rrcb::c::guarded;
-using rrcb::c::require;
-using rrcb::mpi::duplicate_of;
-
-/// Runs the body of a function of groups.
-template <class Body>
-int with(const rrcb_groups* groups, Body&& body) noexcept {
-    return guarded(
-        groups, [&](const rrcb_groups& own) { body(own.groups, own.comm); }, "groups");
-}
+using rrcb::c::guarded_together;
 
 void make_groups(const rrcb_balancer& own, const rrcb_points* given, const uint64_t* keys,
-                 int place, rrcb_groups** groups) {
-    auto made = rrcb::c::make_handle(own.comm, groups, "groups");
-    Participant self{duplicate_of(own.comm)};
+                 int place, rrcb_groups** groups, Participant& self) {
+    auto made = rrcb::c::make_handle(own.comm, groups);
     rrcb::Points points;
     self.attempt([&] {
         points = rrcb::c::points_of(given);
@@ -43,8 +35,9 @@ void make_groups(const rrcb_balancer& own, const rrcb_points* given, const uint6
 
 int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
                        const uint64_t* keys, int place, rrcb_groups** groups) {
-    return guarded(balancer,
-                   [&](const auto& own) { make_groups(own, points, keys, place, groups); });
+    return guarded_together(balancer, [&](const auto& own, Participant& self) {
+        make_groups(own, points, keys, place, groups, self);
+    });
 }
 
 void rrcb_groups_destroy(rrcb_groups* groups) {
@@ -52,31 +45,31 @@ void rrcb_groups_destroy(rrcb_groups* groups) {
 }
 
 int rrcb_groups_points(const rrcb_groups* groups, rrcb_points* points) {
-    return with(groups, [&](const rrcb::Groups& own, MPI_Comm) {
-        require(points, "points");
-        *points = rrcb_interleaved_points(RRCB_DOUBLE, own.dimension, own.weights.size(),
-                                          own.coordinates.data(), own.weights.data());
+    return guarded(groups, [&](const auto& own) {
+        rrcb::c::require(points, "points");
+        const rrcb::Groups& from = own.groups;
+        *points = rrcb_interleaved_points(RRCB_DOUBLE, from.dimension, from.weights.size(),
+                                          from.coordinates.data(), from.weights.data());
     });
 }
 
 int rrcb_groups_fetch(const rrcb_groups* groups, size_t num_columns, const rrcb_column* columns,
                       const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
-    return with(groups, [&](const rrcb::Groups& own, MPI_Comm comm) {
-        Participant self{duplicate_of(comm)};
+    return guarded_together(groups, [&](const auto& own, Participant& self) {
         const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
-        call.move_by(own, own.weights.size(), self);
+        call.move_by(own.groups, own.groups.weights.size(), self);
     });
 }
 
 int rrcb_groups_sums(const rrcb_groups* groups, size_t components, const double* values,
                      double* sums) {
-    return with(groups, [&](const rrcb::Groups& own, MPI_Comm comm) {
-        Participant self{duplicate_of(comm)};
-        const std::size_t length = own.of_points.size() * components;
+    return guarded_together(groups, [&](const auto& own, Participant& self) {
+        const rrcb::Groups& from = own.groups;
+        const std::size_t length = from.of_points.size() * components;
         self.attempt([&] {
             rrcb::c::require_array(length, values, "values");
-            rrcb::c::require_array(own.weights.size() * components, sums, "sums");
+            rrcb::c::require_array(from.weights.size() * components, sums, "sums");
         });
-        std::ranges::copy(rrcb::sums(own, rrcb::c::view(values, length), components, self), sums);
+        std::ranges::copy(rrcb::sums(from, rrcb::c::view(values, length), components, self), sums);
     });
 }

@@ -3,6 +3,7 @@
 #include "c/balancer.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/participant.hpp"
 
 #include <initializer_list>
 #include <memory>
@@ -14,17 +15,26 @@ namespace rrcb::c {
 /// of `arguments` differs between ranks.
 template <class Handle, class Check = void (*)()>
 std::unique_ptr<Handle> make_handle(
-    MPI_Comm comm, Handle** where, const char* name, std::initializer_list<Shared> arguments = {},
+    MPI_Comm comm, Handle** where, std::initializer_list<Shared> arguments = {},
     Check&& check = [] {}) {
     Participant self{mpi::duplicate_of(comm)};
     std::unique_ptr<Handle> made;
     self.attempt([&] {
-        require(static_cast<const void*>(where), name);
+        require(static_cast<const void*>(where), Handle::name);
         check();
         made = std::make_unique<Handle>();
     });
     agree(self, arguments);
     return made;
+}
+
+/// Runs the body of a collective function of a handle; no exception leaves it.
+template <class Handle, class Body>
+int guarded_together(Handle* handle, Body&& body) noexcept {
+    return guarded(handle, [&](auto& own) {
+        Participant self{mpi::duplicate_of(own.comm)};
+        body(own, self);
+    });
 }
 
 }  // namespace rrcb::c

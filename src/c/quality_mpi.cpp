@@ -1,5 +1,5 @@
 #include "c/balancer.hpp"
-#include "collective/duplicate.hpp"
+#include "c/handle_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 
 #include <algorithm>
@@ -29,8 +29,7 @@ int measured(Measure measure, size_t num_parts, const double* part_weights,
 template <class Measure>
 int measured_together(Measure measure, const rrcb_balancer* balancer, const rrcb_points* points,
                       const int32_t* parts, std::optional<size_t> num_parts, double* result) {
-    return guarded(balancer, [&](const auto& own) {
-        Participant self{rrcb::mpi::duplicate_of(own.comm)};
+    return rrcb::c::guarded_together(balancer, [&](const auto& own, Participant& self) {
         Points measured;
         self.attempt([&] {
             rrcb::c::require_cuts(own);

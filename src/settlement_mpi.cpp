@@ -1,9 +1,7 @@
 #include "settlement_mpi.hpp"
 
-#include "bisection/axis_choice.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/cut_limits.hpp"
 #include "cuts/cuts_mpi.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "cuts/tier_search_mpi.hpp"
@@ -21,26 +19,7 @@ namespace {
 /// Gives points the number of the first part of their region, in place of its own.
 void number_as_in_tree(const Options& options, Balance& result) {
     const std::vector<Descent> regions = region_nodes(options, result.cuts.num_parts);
-    for (Part& part : result.parts) part = regions[static_cast<std::size_t>(part)].first_part;
-}
-
-PartTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {
-    PartTree tree;
-    tree.num_parts = options.num_parts;
-    tree.num_ranks = num_ranks;
-    tree.shape = options.tree;
-    tree.weight = weight;
-    tree.part_sizes = options.part_sizes;
-    if (options.axes.order.is_given()) tree.cut_axes = options.axes.order.axes();
-    tree.rule.tolerance = options.imbalance_tolerance;
-    tree.rule.common_weight = verdict.common_weight;
-    tree.rule.heaviest = verdict.heaviest;
-    tree.rule.is_exact = options.refine == Refine::exact;
-    tree.share_of_longest = near_longest;
-    tree.plain_cuts = options.axes.plain;
-    tree.centres_cuts = tree.rule.is_exact;
-    tree.divides_coincident = options.coincident == Coincident::divide;
-    return tree;
+    for (Part& part : result.parts) part = regions[part].first_part;
 }
 
 /// Returns the cuts above each of these points, and those known before. Collective.
@@ -120,13 +99,15 @@ void Settlement::divide_regions(const BinnedPoints& binned, const Verdict& verdi
     const double weight = weight_of(report);
     // The report has no weights without points, or for one region.
     std::vector<double> weights = std::exchange(report.part_weights, {});
-    self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts), weight); });
+    self.attempt([&] { weights.resize(result.cuts.num_parts, weight); });
     self.attempt([&] { number_as_in_tree(options, result); });
     const Regions regions{std::move(result.cuts), weights, verdict.box,
                           report.details.coincident_cuts};
-    Refined refined =
-        below_regions_->refine(regions, tree_of(options, verdict, weight, mpi::size_of(self.comm)),
-                               binned, result.parts, self);
+    PartTree tree = tree_of(options, mpi::size_of(self.comm));
+    tree.weight = weight;
+    tree.rule.common_weight = verdict.common_weight;
+    tree.rule.heaviest = verdict.heaviest;
+    Refined refined = below_regions_->refine(regions, tree, binned, result.parts, self);
     agree(self);
     result.cuts = std::move(refined.cuts);
     if (report.details.num_points > 0)

@@ -45,15 +45,8 @@ Refinement::Refinement(const Options& options, const Participant& self, PartSums
     : options_(options),
       sums_(sums),
       memory_(workspace_of(self.comm)),
+      tree_(tree_of(options, mpi::size_of(self.comm))),
       rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::central) {
-    tree_.num_parts = options.num_parts;
-    tree_.shape = options.tree;
-    tree_.num_ranks = mpi::size_of(self.comm);
-    tree_.part_sizes = options.part_sizes;
-    tree_.plain_cuts = options.axes.plain;
-    tree_.centres_cuts = options.refine == Refine::exact && !are_cuts_limited(options);
-    tree_.divides_coincident = options.coincident == Coincident::divide;
-    tree_.limits = axis_limits(options);
     if (options.refine != Refine::exact && !are_cuts_limited(options))
         correction_.emplace(root_of(options.num_parts, options.tree), rounds_.rank() == root,
                             memory_.undecided);
@@ -177,6 +170,22 @@ void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Partic
     estimate_.cuts.tree = std::move(before.tree);
     sums_.restore(std::move(before.sums));
     std::ranges::copy(memory_.parts, parts.begin());
+}
+
+PartTree tree_of(const Options& options, int num_ranks) {
+    PartTree tree;
+    tree.num_parts = options.num_parts;
+    tree.num_ranks = num_ranks;
+    tree.shape = options.tree;
+    tree.part_sizes = options.part_sizes;
+    if (options.axes.order.is_given()) tree.cut_axes = options.axes.order.axes();
+    tree.rule.tolerance = options.imbalance_tolerance;
+    tree.rule.is_exact = options.refine == Refine::exact;
+    tree.plain_cuts = options.axes.plain;
+    tree.centres_cuts = tree.rule.is_exact && !are_cuts_limited(options);
+    tree.divides_coincident = options.coincident == Coincident::divide;
+    tree.limits = axis_limits(options);
+    return tree;
 }
 
 RegionRefinement::RegionRefinement(const Participant& self)

@@ -110,6 +110,9 @@ class Refinement {
     Refined refined_;
 };
 
+/// Returns the parts of complete options, which it borrows; of the rule only what options choose.
+PartTree tree_of(const Options& options, int num_ranks);
+
 /// Makes the parts below regions. The owners of nodes decide. Buffers are made before the first
 /// message.
 class RegionRefinement {

@@ -90,9 +90,8 @@ double TreeSearch::share_below(const Descent& at) const {
 
 /// Returns the sizes of the parts of a node; for equal ones only with a tolerance.
 std::span<const double> TreeSearch::sizes_of(const Descent& at) const {
-    const auto count = static_cast<std::size_t>(at.num_parts);
-    if (tree_.part_sizes.empty()) return tree_.ones.first(count);
-    return tree_.part_sizes.subspan(at.first_part, count);
+    if (tree_.part_sizes.empty()) return tree_.ones.first(at.num_parts);
+    return tree_.part_sizes.subspan(at.first_part, at.num_parts);
 }
 
 bool TreeSearch::holds_own_parts(const Descent& at) const {
@@ -292,7 +291,7 @@ CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double wei
 /// Returns the search in the box of a node, or one that weighs a part.
 CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double weight) const {
     const int number = tree_.cut_axes.empty() || at.is_part()
-                           ? longest_axis(box, dimension_, tree_.share_of_longest)
+                           ? longest_axis(box, dimension_, near_longest)
                            : tree_.cut_axes[at.node];
     return search_across(number, {box.lower[number], std::nextafter(box.upper[number], infinity)},
                          weight);

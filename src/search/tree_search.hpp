@@ -37,8 +37,7 @@ struct PartTree {
     std::span<const int> cut_axes{};       ///< of all cuts in preorder; empty: free
     std::span<const double> ones{};        ///< as many as a region has parts, if they are equal;
                                            ///< empty: made
-    TargetRule rule{};            ///< of a spread search without the sizes and the weight per size
-    double share_of_longest = 1;  ///< see longest_axis()
+    TargetRule rule{};  ///< of a spread search without the sizes and the weight per size
     bool plain_cuts = false;
     bool centres_cuts = false;        ///< moves cuts to the middle between points of all ranks
     bool divides_coincident = false;  ///< divides coincident points, see Coincident

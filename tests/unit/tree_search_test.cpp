@@ -67,7 +67,6 @@ class Global {
         tree.rule.tolerance = tolerance;
         tree.rule.is_exact = case_.is_exact;
         tree.rule.common_weight = case_.weights == "equal" ? 1 : 0;
-        tree.share_of_longest = share_of_longest;
         tree.plain_cuts = case_.plain_cuts;
         for (int rank = 0; rank < case_.num_ranks; ++rank) add_search(tree, rank);
         const auto counts = test::run_searches(searches_);

@@ -15,6 +15,8 @@ struct Balance;
 struct RankRange {
     int first_rank = 0;  ///< the lowest of them
     int count = 1;       ///< of ranks
+
+    bool contains(int rank) const { return rank >= first_rank && rank < first_rank + count; }
 };
 
 /// Returns the ranks of a part, as Zoltan 13.2 assigns them. Not collective.

@@ -57,10 +57,7 @@ struct Holders {
         if (!given) return;
         require(given->size() == static_cast<std::size_t>(num_parts),
                 "ranks_of_parts must have one entry for each part");
-        for (const RankRange& ranks : *given)
-            require(ranks.first_rank >= 0 && ranks.count >= 1 && ranks.first_rank < num_ranks &&
-                        ranks.count <= num_ranks - ranks.first_rank,
-                    "ranks_of_parts must name ranks of this communicator");
+        check_ranks(*given, num_ranks);
     }
 };
 

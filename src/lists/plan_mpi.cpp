@@ -4,6 +4,7 @@
 #include "collective/exchange_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/balance.hpp>
 
@@ -26,7 +27,7 @@ struct Notice {
 /// chosen by this rank's number, so that points spread.
 int destination_of(Part part, int num_parts, int rank, int num_ranks) {
     const RankRange ranks = ranks_of_part(part, num_parts, num_ranks);
-    if (rank >= ranks.first_rank && rank < ranks.first_rank + ranks.count) return rank;
+    if (ranks.contains(rank)) return rank;
     return ranks.first_rank + rank % ranks.count;
 }
 
@@ -36,13 +37,6 @@ int first_rank_of(Part part, int num_parts, int num_ranks) {
     if (part == num_parts) return num_ranks;
     const int left_over = num_ranks % num_parts;
     return part * (num_ranks / num_parts) + std::max(0, part + left_over + 1 - num_parts);
-}
-
-void check_parts(std::span<const Part> parts, int num_parts) {
-    require(num_parts >= 1, "num_parts must be at least 1");
-    const auto is_none = [&](Part part) { return part < 0 || part >= num_parts; };
-    if (std::ranges::any_of(parts, is_none))
-        reject("a part is outside 0 ... " + std::to_string(num_parts - 1) + "; parts count from 0");
 }
 
 void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Plan& plan) {

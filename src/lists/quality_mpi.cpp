@@ -3,6 +3,7 @@
 #include "collective/duplicate.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/plan.hpp>
@@ -15,21 +16,17 @@ namespace rrcb {
 namespace {
 
 void check_arguments(const Points& points, std::span<const Part> parts, int num_parts) {
-    require(num_parts >= 1, "num_parts must be at least 1");
     if (parts.size() != points.count)
         reject("parts has " + std::to_string(parts.size()) + " entries for " +
                std::to_string(points.count) + " points; give one per point");
     require(points.weights.empty() || points.weights.size() == points.count,
             "weights must hold one entry per point, or none for unit weights");
-    for (const Part part : parts)
-        if (part < 0 || part >= num_parts)
-            reject("part " + std::to_string(part) + " is none of the " + std::to_string(num_parts) +
-                   " parts; they count from 0");
+    check_parts(parts, num_parts);
 }
 
 std::vector<double> weights_here(const Points& points, std::span<const Part> parts, int num_parts) {
     check_arguments(points, parts, num_parts);
-    std::vector<double> weights(static_cast<std::size_t>(num_parts));
+    std::vector<double> weights(num_parts);
     for (LocalIndex i = 0; i < points.count; ++i) weights[parts[i]] += points.weight(i);
     return weights;
 }
@@ -75,8 +72,7 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
         const int rank = mpi::rank_of(self.comm);
         const int num_ranks = mpi::size_of(self.comm);
         for (LocalIndex i = 0; i < points.count; ++i) {
-            const RankRange ranks = ranks_of_part(parts[i], num_parts, num_ranks);
-            const bool stays = rank >= ranks.first_rank && rank < ranks.first_rank + ranks.count;
+            const bool stays = ranks_of_part(parts[i], num_parts, num_ranks).contains(rank);
             if (!stays) sums[0] += points.weight(i);
             sums[1] += points.weight(i);
         }

@@ -6,6 +6,7 @@
 #include "collective/mix.hpp"
 #include "lists/group_numbers_mpi.hpp"
 #include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/options.hpp>
 
@@ -39,8 +40,8 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
     };
     std::vector<Overlap> overlaps;
     // A table if it is no longer than the list of points: a map would take most of the call.
-    if (rule.by_rank && static_cast<std::size_t>(rule.num_parts) <= parts.size()) {
-        std::vector<GlobalCount> of_parts(static_cast<std::size_t>(rule.num_parts));
+    if (rule.by_rank && rule.num_parts <= std::ssize(parts)) {
+        std::vector<GlobalCount> of_parts(rule.num_parts);
         for (const Part part : parts) ++of_parts[part];
         for (Part part = 0; part < rule.num_parts; ++part)
             if (of_parts[part] > 0)
@@ -192,27 +193,16 @@ NewNumbers return_numbers(RemapBuffers& buffers, Participant& self) {
     return result;
 }
 
-void check_ranks(std::span<const RankRange> ranks_of_parts, int num_ranks) {
+void check_lists(std::span<const Part> parts, const PreviousParts& previous,
+                 std::span<const RankRange> ranks_of_parts, int num_ranks) {
     require(!ranks_of_parts.empty(), "ranks_of_parts is empty; give one entry per part");
-    require(std::ranges::all_of(ranks_of_parts,
-                                [&](const RankRange& ranks) {
-                                    return ranks.first_rank >= 0 && ranks.count >= 1 &&
-                                           ranks.count <= num_ranks - ranks.first_rank;
-                                }),
-            "ranks_of_parts must name ranks of this communicator");
+    check_ranks(ranks_of_parts, num_ranks);
     require(std::ranges::is_sorted(ranks_of_parts, {}, &RankRange::first_rank),
             "ranks_of_parts must ascend");
-}
-
-void check_parts(std::span<const Part> parts, const PreviousParts& previous,
-                 std::size_t num_parts) {
     if (previous && previous->size() != parts.size())
         reject("previous has " + std::to_string(previous->size()) + " entries, parts has " +
                std::to_string(parts.size()) + "; give one of each per point");
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        if (parts[i] < 0 || static_cast<std::size_t>(parts[i]) >= num_parts)
-            reject("part " + std::to_string(parts[i]) + " of point " + std::to_string(i) +
-                   " is none of the " + std::to_string(num_parts) + " parts; they count from 0");
+    check_parts(parts, static_cast<int>(ranks_of_parts.size()));
 }
 
 }  // namespace
@@ -250,8 +240,7 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
     const int num_ranks = mpi::size_of(self.comm);
     std::optional<GroupBuffers> buffers;
     self.attempt([&] {
-        check_ranks(ranks_of_parts, num_ranks);
-        check_parts(parts, previous, ranks_of_parts.size());
+        check_lists(parts, previous, ranks_of_parts, num_ranks);
         const auto num_parts = static_cast<int>(ranks_of_parts.size());
         require(shape.group_size >= 1 && shape.number_fits(num_parts),
                 "shape.group_size must be at least 1, and shape.dealt fit the parts");
@@ -281,9 +270,9 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
             std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self) {
-    const auto num_ranks = static_cast<std::size_t>(mpi::size_of(self.comm));
-    const bool is_spread = std::min(ranks_of_parts.size(), num_ranks) >
-                           static_cast<std::size_t>(Tuning{}.central_parts);
+    const bool is_spread =
+        std::min<std::ptrdiff_t>(std::ssize(ranks_of_parts), mpi::size_of(self.comm)) >
+        Tuning{}.central_parts;
     return remap(parts, previous, ranks_of_parts, shape, is_spread, self);
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -90,7 +89,7 @@ bool has_its_cuts(const Cuts& cuts) {
     const std::vector<std::int32_t>& nodes = cuts.nodes;
     if (cuts.num_parts < 1 || cuts.shape.group_size < 1 || !cuts.shape.number_fits(cuts.num_parts))
         return false;
-    if (is_whole(cuts)) return cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts);
+    if (is_whole(cuts)) return std::ssize(cuts.tree) + 1 == cuts.num_parts;
     return nodes.size() == cuts.tree.size() && nodes.front() >= 0 &&
            nodes.back() < cuts.num_parts - 1 &&
            std::ranges::adjacent_find(nodes, std::greater_equal()) == nodes.end();
@@ -211,18 +210,16 @@ bool set_grid(Options& options, const std::vector<double>& numbers) {
 }
 
 void check_min_width(const Options& options, int dimension) {
-    const auto size = static_cast<std::size_t>(dimension);
     const std::vector<double>& min_width = options.axes.min_width;
-    require(min_width.empty() || min_width.size() == size,
+    require(min_width.empty() || std::ssize(min_width) == dimension,
             "axes.min_width must hold one number per axis of the points, or be empty");
     Options unused;
     require(set_min_width(unused, min_width), "axes.min_width must be finite and above 0");
 }
 
 void check_grid(const Options& options, int dimension) {
-    const auto size = static_cast<std::size_t>(dimension);
     const std::vector<GridLines>& grid = options.axes.grid;
-    require(grid.empty() || grid.size() == size,
+    require(grid.empty() || std::ssize(grid) == dimension,
             "axes.grid must hold the lines across each axis of the points, or be empty");
     require(std::ranges::all_of(grid, is_grid),
             "axes.grid must have finite origins, and spacings that are finite and above 0");
@@ -271,6 +268,21 @@ void check_dimension(int dimension, const char* name) {
     if (dimension < 1 || dimension > max_dimension)
         reject(std::string(name) +
                " must have 1, 2 or 3 dimensions, also on a rank without points");
+}
+
+void check_parts(std::span<const Part> parts, int num_parts) {
+    require(num_parts >= 1, "num_parts must be at least 1");
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i] < 0 || parts[i] >= num_parts)
+            reject("part " + std::to_string(parts[i]) + " of point " + std::to_string(i) +
+                   " is none of the " + std::to_string(num_parts) + " parts; they count from 0");
+}
+
+void check_ranks(std::span<const RankRange> ranks_of_parts, int num_ranks) {
+    for (const RankRange& ranks : ranks_of_parts)
+        require(ranks.first_rank >= 0 && ranks.count >= 1 &&
+                    ranks.count <= num_ranks - ranks.first_rank,
+                "ranks_of_parts must name ranks of this communicator");
 }
 
 void check_arrays(const Points& points) {

@@ -2,8 +2,10 @@
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
+#include <rrcb/plan.hpp>
 #include <rrcb/points.hpp>
 
+#include <span>
 #include <vector>
 
 namespace rrcb {
@@ -36,6 +38,12 @@ bool is_interleaved(const Points& points);
 
 /// Throws Error with `name` unless the dimension is 1, 2 or 3.
 void check_dimension(int dimension, const char* name);
+
+/// Throws Error unless there are parts, and each of `parts` is one of them.
+void check_parts(std::span<const Part> parts, int num_parts);
+
+/// Throws Error unless all ranks are below `num_ranks`.
+void check_ranks(std::span<const RankRange> ranks_of_parts, int num_ranks);
 
 /// Throws Error if cuts are neither a tree nor a part of one.
 void check_tree(const Cuts& cuts);

@@ -87,8 +87,9 @@ TEST(Plan, a_part_out_of_range_on_one_rank_fails_everywhere) {
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
         EXPECT_EQ(std::string(error.what()),
-                  "rank " + std::to_string(num_ranks() - 1) + ": a part is outside 0 ... " +
-                      std::to_string(num_ranks() - 1) + "; parts count from 0");
+                  "rank " + std::to_string(num_ranks() - 1) + ": part " +
+                      std::to_string(num_ranks()) + " of point 0 is none of the " +
+                      std::to_string(num_ranks()) + " parts; they count from 0");
     }
 }
 
@@ -116,8 +117,9 @@ void expect_refusal(double measure(const Points&, std::span<const Part>)) {
         measure(interleaved_points(x, 1), parts);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
-        EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) +
-                                    ": part 7 is none of the 2 parts; they count from 0");
+        EXPECT_EQ(error.what(),
+                  "rank " + std::to_string(num_ranks() - 1) +
+                      ": part 7 of point 0 is none of the 2 parts; they count from 0");
     }
 }
 

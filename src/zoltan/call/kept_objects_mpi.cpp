@@ -59,8 +59,7 @@ Placed find_placed(const Objects& objects, const LastPartition& last, const Kept
     for (std::size_t i = 0; i < count; ++i) {
         const Part part = parts[i];
         if (part < 0 || part >= map.num_parts) return {};
-        const RankRange range = map.ranks_of(part);
-        if (rank < range.first_rank || rank >= range.first_rank + range.count) return {};
+        if (!map.ranks_of(part).contains(rank)) return {};
         if (ask_cuts && last.part_of(objects.points.position(i).data()) != part) return {};
     }
     return {true, checksum_of(objects.points, parts)};

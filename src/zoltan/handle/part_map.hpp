@@ -31,7 +31,7 @@ struct PartMap {
     int destination(Part part, LocalIndex index, int rank) const {
         const RankRange range = ranks_of(part);
         if (range.count == 1) return range.first_rank;
-        if (rank >= range.first_rank && rank < range.first_rank + range.count) return rank;
+        if (range.contains(rank)) return rank;
         return range.first_rank + static_cast<int>(index % static_cast<LocalIndex>(range.count));
     }
 };

@@ -69,26 +69,24 @@ class Collector {
 
     void read_count() {
         const auto num_objects = callback<ZOLTAN_NUM_OBJ_FN>(zz_, ZOLTAN_NUM_OBJ_FN_TYPE);
-        if (!num_objects) throw ZoltanError(ZOLTAN_FATAL, "Must register ZOLTAN_NUM_OBJ_FN.");
+        if (!num_objects) throw_fatal("Must register ZOLTAN_NUM_OBJ_FN.");
         int code = ZOLTAN_OK;
         objects_.count = num_objects(&code);
         check(code, "ZOLTAN_NUM_OBJ_FN");
         if (objects_.count >= 0) return;
-        throw ZoltanError(ZOLTAN_FATAL,
-                          "ZOLTAN_NUM_OBJ_FN returned a negative number of objects: " +
-                              std::to_string(objects_.count));
+        throw_fatal("ZOLTAN_NUM_OBJ_FN returned a negative number of objects: " +
+                    std::to_string(objects_.count));
     }
 
     void read_dimension() {
         const auto dimension = callback<ZOLTAN_NUM_GEOM_FN>(zz_, ZOLTAN_NUM_GEOM_FN_TYPE);
-        if (!dimension) throw ZoltanError(ZOLTAN_FATAL, "Must register ZOLTAN_NUM_GEOM_FN.");
+        if (!dimension) throw_fatal("Must register ZOLTAN_NUM_GEOM_FN.");
         int code = ZOLTAN_OK;
         objects_.points.dimension = dimension(&code);
         check(code, "ZOLTAN_NUM_GEOM_FN");
         if (objects_.points.dimension >= 1 && objects_.points.dimension <= max_dimension) return;
-        throw ZoltanError(ZOLTAN_FATAL, "ZOLTAN_NUM_GEOM_FN returned dimension " +
-                                            std::to_string(objects_.points.dimension) +
-                                            "; it must be 1, 2 or 3");
+        throw_fatal("ZOLTAN_NUM_GEOM_FN returned dimension " +
+                    std::to_string(objects_.points.dimension) + "; it must be 1, 2 or 3");
     }
 
     void read_ids_and_weights(std::size_t count) {
@@ -108,11 +106,9 @@ class Collector {
     void iterate_objects(std::size_t count) {
         const auto first = callback<ZOLTAN_FIRST_OBJ_FN>(zz_, ZOLTAN_FIRST_OBJ_FN_TYPE);
         const auto next = callback<ZOLTAN_NEXT_OBJ_FN>(zz_, ZOLTAN_NEXT_OBJ_FN_TYPE);
-        if (!first || !next) {
-            throw ZoltanError(ZOLTAN_FATAL,
-                              "Must register ZOLTAN_OBJ_LIST_FN or "
-                              "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN.");
-        }
+        if (!first || !next)
+            throw_fatal(
+                "Must register ZOLTAN_OBJ_LIST_FN or ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN.");
         int code = ZOLTAN_OK;
         const int gid = parameters_.num_gid_entries;
         const int lid = parameters_.num_lid_entries;
@@ -125,11 +121,10 @@ class Collector {
                          wdim, weight, &code);
             check(code, "ZOLTAN_NEXT_OBJ_FN");
         }
-        if (found == 0) {
-            throw ZoltanError(ZOLTAN_FATAL,
-                              "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN ended before the number of "
-                              "objects that ZOLTAN_NUM_OBJ_FN returned");
-        }
+        if (found == 0)
+            throw_fatal(
+                "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN ended before the number of objects that "
+                "ZOLTAN_NUM_OBJ_FN returned");
     }
 
     void read_coordinates(std::size_t count) {
@@ -159,10 +154,7 @@ class Collector {
             check(code, "ZOLTAN_GEOM_MULTI_FN");
             return;
         }
-        if (!single) {
-            throw ZoltanError(ZOLTAN_FATAL,
-                              "Must register ZOLTAN_GEOM_MULTI_FN or ZOLTAN_GEOM_FN.");
-        }
+        if (!single) throw_fatal("Must register ZOLTAN_GEOM_MULTI_FN or ZOLTAN_GEOM_FN.");
         for (std::size_t i = 0; i < count; ++i) {
             single(gid, lid, global_id(i), local_id(i), coordinates + i * dimension, &code);
             check(code, "ZOLTAN_GEOM_FN");

@@ -108,14 +108,14 @@ struct Call {
 void take_previous(Call& call) {
     call.state.kept.reset();
     call.previous = std::exchange(call.state.last, std::nullopt);
-    if (!call.outcome.all_kept_cuts) call.previous.reset();
+    if (call.outcome.any_lacks_cuts) call.previous.reset();
 }
 
 /// Returns whether no object and no parameter has changed on any rank since the last partition.
 /// Collective if the objects may be kept: one reduction.
 bool are_kept(const Call& call, const Placed& placed) {
     const State& state = call.state;
-    const bool may_keep = call.outcome.may_keep && !call.outcome.failed() &&
+    const bool may_keep = !call.outcome.any_may_not_keep && !call.outcome.failed() &&
                           call.outcome.differing == nullptr &&
                           (!call.outcome.any_keeps_cuts || state.last->shows_all());
     std::uint64_t checksum = placed.checksum;
@@ -139,7 +139,7 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
     const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
                       call.previous->cuts().num_parts == layout.map.num_parts;
     Preparation made;
-    if (fits && !call.outcome.axes_changed && starts_from_previous(parameters))
+    if (fits && !call.outcome.any_changed_axes && starts_from_previous(parameters))
         made.previous = &call.previous->cuts();
     const bool locks = fits && call.previous->answers_look_ups();
     const Communicator& comm = *call.state.communicator;

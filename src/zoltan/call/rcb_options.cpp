@@ -70,26 +70,23 @@ void print_forwarding(const State& state, const char* function) noexcept {
 
 void check_parameters(const State& state, bool one_part_per_rank) {
     const Parameters& parameters = state.parameters;
-    if (parameters.return_lists == ReturnLists::candidates) {
-        throw ZoltanError(ZOLTAN_FATAL, "RRCB makes no candidate lists; change RETURN_LISTS");
-    }
+    if (parameters.return_lists == ReturnLists::candidates)
+        throw_fatal("RRCB makes no candidate lists; change RETURN_LISTS");
     if (are_cuts_limited(parameters.options) && forwards(parameters))
-        throw ZoltanError(ZOLTAN_FATAL,
-                          "RRCB_MIN_WIDTH and RRCB_GRID hold along the axes of the coordinates and "
-                          "for one weight; unset REDUCE_DIMENSIONS and OBJ_WEIGHT_DIM above 1");
+        throw_fatal(
+            "RRCB_MIN_WIDTH and RRCB_GRID hold along the axes of the coordinates and "
+            "for one weight; unset REDUCE_DIMENSIONS and OBJ_WEIGHT_DIM above 1");
     if (parameters.paper_domain && are_cuts_limited(parameters.options))
-        throw ZoltanError(
-            ZOLTAN_FATAL,
+        throw_fatal(
             "RRCB_MIN_WIDTH and RRCB_GRID need RRCB_DOMAIN=ANALYTIC; set it, or unset "
             "both limits");
     const int global = asked_global_parts(state);
     const int local = parameters.num_local_parts;
     const bool other_global = global != -1 && global != state.communicator->size();
-    if (one_part_per_rank && (other_global || (local != -1 && local != 1))) {
-        throw ZoltanError(ZOLTAN_FATAL,
-                          "Zoltan_LB_Balance makes one part per rank; use Zoltan_LB_Partition for "
-                          "other NUM_GLOBAL_PARTS or NUM_LOCAL_PARTS");
-    }
+    if (one_part_per_rank && (other_global || (local != -1 && local != 1)))
+        throw_fatal(
+            "Zoltan_LB_Balance makes one part per rank; use Zoltan_LB_Partition for "
+            "other NUM_GLOBAL_PARTS or NUM_LOCAL_PARTS");
 }
 
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,

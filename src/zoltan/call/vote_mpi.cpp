@@ -51,14 +51,7 @@ struct Ballot {
     int severity = 0;
     int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
     int num_global_parts = -1;
-    int any_local_parts = 0;
-    int any_part_sizes = 0;
-    int any_fortran = 0;
-    int keeps_cuts = 0;
-    int lacks_cuts = 0;
-    int axes_changed = 0;
-    int may_not_keep = 0;
-    int names_parts = 0;
+    Votes votes{};
     int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
     int dump_always = 0;
     std::array<int, num_shared> largest{};
@@ -73,14 +66,14 @@ Ballot ballot_of(const LocalStatus& local, const State& state) {
         ballot.failing_rank_from_last = state.communicator->size() - state.communicator->rank();
     }
     ballot.num_global_parts = asked_global_parts(state);
-    ballot.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
-    ballot.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
-    ballot.any_fortran = is_fortran_used() ? 1 : 0;
-    ballot.keeps_cuts = keeps_cuts(parameters) ? 1 : 0;
-    ballot.lacks_cuts = state.last ? 0 : 1;
-    ballot.axes_changed = state.axes_changed ? 1 : 0;
-    ballot.may_not_keep = local.may_keep ? 0 : 1;
-    ballot.names_parts = local.names_parts ? 1 : 0;
+    ballot.votes = {.any_local_parts = parameters.num_local_parts >= 0,
+                    .any_part_sizes = !state.part_sizes.empty(),
+                    .any_fortran = is_fortran_used(),
+                    .any_keeps_cuts = keeps_cuts(parameters),
+                    .any_lacks_cuts = !state.last,
+                    .any_changed_axes = state.axes_changed,
+                    .any_may_not_keep = !local.may_keep,
+                    .any_names_parts = local.names_parts};
     if (!parameters.dump_folder.empty()) {
         ballot.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
         ballot.dump_always = parameters.dump_always ? 1 : 0;
@@ -102,17 +95,10 @@ Outcome vote(const LocalStatus& local, const State& state) {
                              state.communicator->get()),
                "MPI_Allreduce");
     Outcome outcome;
+    static_cast<Votes&>(outcome) = ballot.votes;
     outcome.code = codes[ballot.severity];
     outcome.failing_rank = state.communicator->size() - ballot.failing_rank_from_last;
     outcome.num_global_parts = ballot.num_global_parts;
-    outcome.any_local_parts = ballot.any_local_parts != 0;
-    outcome.any_part_sizes = ballot.any_part_sizes != 0;
-    outcome.any_fortran = ballot.any_fortran != 0;
-    outcome.any_keeps_cuts = ballot.keeps_cuts != 0;
-    outcome.all_kept_cuts = ballot.lacks_cuts == 0;
-    outcome.axes_changed = ballot.axes_changed != 0;
-    outcome.may_keep = ballot.may_not_keep == 0;
-    outcome.any_names_parts = ballot.names_parts != 0;
     if (ballot.dumping_rank_from_last > 0)
         outcome.dump.rank = state.communicator->size() - ballot.dumping_rank_from_last;
     outcome.dump.always = ballot.dump_always != 0;

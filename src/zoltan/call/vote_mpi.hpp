@@ -23,20 +23,23 @@ struct LocalStatus {
     std::array<char, 512> text{};  ///< ends with a 0
 };
 
+/// 1 if it holds on some rank, else 0.
+struct Votes {
+    int any_local_parts = 0;   ///< NUM_LOCAL_PARTS is set
+    int any_part_sizes = 0;    ///< Zoltan_LB_Set_Part_Sizes was called
+    int any_fortran = 0;       ///< Zoltan's Fortran interface is used
+    int any_keeps_cuts = 0;    ///< for look-ups
+    int any_lacks_cuts = 0;    ///< of the last call
+    int any_changed_axes = 0;  ///< a parameter that chooses axes was changed since then
+    int any_may_not_keep = 0;  ///< see LocalStatus
+    int any_names_parts = 0;   ///< see LocalStatus
+};
+
 /// The result of a vote, the same on every rank.
-struct Outcome {
-    int code = ZOLTAN_OK;          ///< the worst of all ranks
-    int failing_rank = 0;          ///< lowest rank that failed; prints the error
-    int num_global_parts = -1;     ///< largest of all ranks, -1: set on no rank
-    bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set on some rank
-    bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called on some rank
-    bool any_fortran = false;      ///< Zoltan's Fortran interface is used on some rank
-    bool any_keeps_cuts = false;   ///< for look-ups
-    bool all_kept_cuts = false;    ///< of the last call, on every rank
-    bool axes_changed = false;     ///< a parameter that chooses axes was changed on some rank since
-                                   ///< then
-    bool may_keep = false;         ///< see LocalStatus, on every rank
-    bool any_names_parts = false;  ///< see LocalStatus, on some rank
+struct Outcome : Votes {
+    int code = ZOLTAN_OK;       ///< the worst of all ranks
+    int failing_rank = 0;       ///< lowest rank that failed; prints the error
+    int num_global_parts = -1;  ///< largest of all ranks, -1: set on no rank
     DumpWish dump;
     const char* differing = nullptr;  ///< name of a parameter that differs between ranks
 

@@ -18,12 +18,10 @@ namespace {
 /// Switches to RRCB, and the real Zoltan to RCB, which answers the calls that RRCB leaves to it.
 template <typename SwitchZoltan>
 int switch_to_rrcb(State& state, SwitchZoltan switch_zoltan) {
-    if (state.deserialized) {
-        throw ZoltanError(
-            ZOLTAN_FATAL,
+    if (state.deserialized)
+        throw_fatal(
             "a handle filled by Zoltan_Deserialize cannot be switched to RRCB; create "
             "one with Zoltan_Create");
-    }
     // Zoltan frees its cuts even if its method does not change.
     const int code = state.parameters.rrcb ? ZOLTAN_OK : switch_zoltan();
     if (code == ZOLTAN_OK) state.parameters.rrcb = true;

@@ -100,9 +100,7 @@ RRCB_EXPORT int Zoltan_Serialize(Zoltan_Struct const* zz, size_t size, char* buf
         const State* state = rrcb_state(zz);
         if (state == nullptr) return RRCB_REAL(Zoltan_Serialize, serialize)(zz, size, buffer);
         const std::vector<char> bytes = pack(zz, *state);
-        if (bytes.size() > size) {
-            throw ZoltanError(ZOLTAN_FATAL, "the buffer is too small; ask Zoltan_Serialize_Size");
-        }
+        if (bytes.size() > size) throw_fatal("the buffer is too small; ask Zoltan_Serialize_Size");
         std::ranges::copy(bytes, buffer);
         return ZOLTAN_OK;
     });

@@ -23,8 +23,7 @@ template <auto member>
 auto real_function() {
     const RealZoltan* real = real_zoltan();
     if (real == nullptr || real->*member == nullptr)
-        throw ZoltanError(ZOLTAN_FATAL,
-                          "the Zoltan behind RRCB has no such function; use a newer one");
+        throw_fatal("the Zoltan behind RRCB has no such function; use a newer one");
     return real->*member;
 }
 

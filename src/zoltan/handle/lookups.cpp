@@ -28,10 +28,8 @@ int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks
 }  // namespace
 
 const LastPartition& last_of(const State& state) {
-    if (!state.last || !state.last->answers_look_ups()) {
-        throw ZoltanError(ZOLTAN_FATAL,
-                          "No Decomposition Data available; use KEEP_CUTS parameter.");
-    }
+    if (!state.last || !state.last->answers_look_ups())
+        throw_fatal("No Decomposition Data available; use KEEP_CUTS parameter.");
     return *state.last;
 }
 
@@ -58,9 +56,8 @@ void find_touched(const State& state, const Box& box, const Touched& touched) {
 
 Box region_of(const State& state, int part) {
     const LastPartition& last = last_of(state);
-    if (part < 0 || part >= last.cuts().num_parts) {
-        throw ZoltanError(ZOLTAN_FATAL, "Invalid part number " + std::to_string(part));
-    }
+    if (part < 0 || part >= last.cuts().num_parts)
+        throw_fatal("Invalid part number " + std::to_string(part));
     Box box = last.region_of(part);
     for (std::size_t a = 0; a < max_dimension; ++a) {
         const bool used = static_cast<int>(a) < last.cuts().dimension;
@@ -72,18 +69,16 @@ Box region_of(const State& state, int part) {
 
 TreeNode tree_node_of(const State& state, int node) {
     const LastPartition& last = last_of(state);
-    if (node < 0 || node >= last.cuts().num_parts) {
-        throw ZoltanError(ZOLTAN_FATAL, "Invalid tree node " + std::to_string(node));
-    }
+    if (node < 0 || node >= last.cuts().num_parts)
+        throw_fatal("Invalid tree node " + std::to_string(node));
     return last.tree_node(node);
 }
 
 void require_one_part_per_rank(const State& state, const char* alternative) {
     if (last_of(state).map().one_each) return;
-    throw ZoltanError(ZOLTAN_FATAL,
-                      std::string("Non-uniform distribution of parts over processors is specified; "
-                                  "use ") +
-                          alternative);
+    throw_fatal(
+        std::string("Non-uniform distribution of parts over processors is specified; use ") +
+        alternative);
 }
 
 }  // namespace rrcb::zoltan

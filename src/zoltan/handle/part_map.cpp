@@ -46,12 +46,11 @@ PartMap even_part_map(int num_parts, int num_ranks) {
 int num_parts_of(std::span<const int> local_parts, int num_global_parts) {
     const Asked asked = asked_by(local_parts);
     const int total = num_global_parts < 0 ? asked.parts : num_global_parts;
-    if (total == 0) throw ZoltanError(ZOLTAN_FATAL, "Zero parts requested");
-    if (asked.parts > total || (asked.parts < total && asked.free_ranks == 0)) {
-        throw ZoltanError(ZOLTAN_FATAL, "Sum of NUM_LOCAL_PARTS " + std::to_string(asked.parts) +
-                                            (asked.parts > total ? " > " : " < ") +
-                                            "NUM_GLOBAL_PARTS " + std::to_string(total));
-    }
+    if (total == 0) throw_fatal("Zero parts requested");
+    if (asked.parts > total || (asked.parts < total && asked.free_ranks == 0))
+        throw_fatal("Sum of NUM_LOCAL_PARTS " + std::to_string(asked.parts) +
+                    (asked.parts > total ? " > " : " < ") + "NUM_GLOBAL_PARTS " +
+                    std::to_string(total));
     return total;
 }
 

@@ -23,7 +23,7 @@ struct Header {
 };
 
 [[noreturn]] void refuse(const char* why) {
-    throw ZoltanError(ZOLTAN_FATAL, std::string("the buffer of Zoltan_Serialize is ") + why);
+    throw_fatal(std::string("the buffer of Zoltan_Serialize is ") + why);
 }
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo).

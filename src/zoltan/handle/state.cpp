@@ -74,16 +74,8 @@ State& add_state(const Zoltan_Struct* zz, State&& state) {
 
 void copy_contents(State& to, const State& from) {
     State copy;
-    copy.parameters = from.parameters;
-    copy.part_sizes = from.part_sizes;
+    static_cast<Settings&>(copy) = from;
     if (from.last) copy.last = from.last->copy();
-    copy.kept = from.kept;
-    copy.zoltan_has_cuts = from.zoltan_has_cuts;
-    copy.axes_changed = from.axes_changed;
-    copy.deserialized = from.deserialized;
-    copy.replacement_asked = from.replacement_asked;
-    copy.is_verbose = from.is_verbose;
-    copy.inside_hier = from.inside_hier;
     copy.communicator = std::move(to.communicator);
     to = std::move(copy);
 }

@@ -57,19 +57,23 @@ struct KeptObjects {
     std::uint64_t checksum = 0;  ///< of the objects of all ranks and their parts
 };
 
-/// State of a Zoltan_Struct that the plug-in keeps.
-struct State {
-    std::unique_ptr<Communicator> communicator;
+/// State of a handle that a copy of the handle shares.
+struct Settings {
     Parameters parameters;
     std::vector<PartSize> part_sizes;
+    std::optional<KeptObjects> kept;  ///< of the last partition; none once a parameter was changed
+    bool zoltan_has_cuts = false;     ///< of the last partition, which the real Zoltan made
+    bool axes_changed = false;        ///< a parameter that chooses axes was changed since
+    bool deserialized = false;        ///< Zoltan's parameters were set without the plug-in
+    bool replacement_asked = false;   ///< by RRCB_REPLACE, on any rank of the communicator
+    bool is_verbose = false;          ///< by RRCB_VERBOSE, on any rank of the communicator
+    bool inside_hier = false;         ///< made by Zoltan, for one of HIER's levels
+};
+
+/// State of a Zoltan_Struct that the plug-in keeps.
+struct State : Settings {
+    std::unique_ptr<Communicator> communicator;
     std::optional<LastPartition> last;  ///< of the last partition
-    std::optional<KeptObjects> kept;    ///< of the same; none once a parameter was changed
-    bool zoltan_has_cuts = false;       ///< of the last partition, which the real Zoltan made
-    bool axes_changed = false;          ///< a parameter that chooses axes was changed since
-    bool deserialized = false;          ///< Zoltan's parameters were set without the plug-in
-    bool replacement_asked = false;     ///< by RRCB_REPLACE, on any rank of the communicator
-    bool is_verbose = false;            ///< by RRCB_VERBOSE, on any rank of the communicator
-    bool inside_hier = false;           ///< made by Zoltan, for one of HIER's levels
     Workspace workspace;
 };
 

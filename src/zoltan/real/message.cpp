@@ -1,5 +1,7 @@
 #include "zoltan/real/message.hpp"
 
+#include <zoltan_types.h>
+
 #include <cstdio>
 
 namespace rrcb::zoltan {
@@ -12,6 +14,10 @@ void print(int rank, const char* kind, const char* function, std::string_view te
 }
 
 }  // namespace
+
+void throw_fatal(const std::string& text) {
+    throw ZoltanError(ZOLTAN_FATAL, text);
+}
 
 void print_error(int rank, const char* function, std::string_view text) noexcept {
     print(rank, "ERROR", function, text);

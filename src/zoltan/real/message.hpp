@@ -16,6 +16,9 @@ class ZoltanError : public std::runtime_error {
     int code_;
 };
 
+/// Throws a ZoltanError with ZOLTAN_FATAL.
+[[noreturn]] void throw_fatal(const std::string& text);
+
 /// Prints a line on stderr in the form of Zoltan's own messages. An unknown rank is -1.
 void print_error(int rank, const char* function, std::string_view text) noexcept;
 void print_warning(int rank, const char* function, std::string_view text) noexcept;

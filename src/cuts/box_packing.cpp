@@ -111,7 +111,7 @@ int most_parts(const Room& room, const TreeShape& shape, int most) {
     std::int64_t units = 1;
     for (const int count : room) units = std::min<std::int64_t>(units * count, most);
     const auto too_many = [&](int num_parts) {
-        const std::vector<double> sizes(static_cast<std::size_t>(num_parts), 1.0);
+        const std::vector<double> sizes(num_parts, 1.0);
         return !BoxPacking(sizes, shape).fits(root_of(num_parts, shape), room);
     };
     return least_number(1, static_cast<int>(units), too_many) - 1;

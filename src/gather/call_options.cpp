@@ -57,11 +57,9 @@ Options region_options(const Options& parts) {
     if (regions.num_parts == 1) regions.refine = Refine::none;
     regions.part_sizes.clear();
     for (const Descent& at : region_nodes(parts, regions.num_parts)) {
-        const auto first = static_cast<std::size_t>(at.first_part);
-        const auto count = static_cast<std::size_t>(at.num_parts);
+        const std::span sizes(parts.part_sizes);
         regions.part_sizes.push_back(
-            parts.part_sizes.empty() ? at.num_parts
-                                     : sum_of(std::span(parts.part_sizes).subspan(first, count)));
+            sizes.empty() ? at.num_parts : sum_of(sizes.subspan(at.first_part, at.num_parts)));
     }
     normalize(regions.part_sizes, regions.num_parts);
     if (const AxisOrder& order = parts.axes.order; order.is_given()) {

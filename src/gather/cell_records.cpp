@@ -50,7 +50,7 @@ T take_block(std::span<const double>& records) {
 
 Vector take_vector(std::span<const double>& records, int dimension) {
     Vector x{};
-    const auto taken = take(records, static_cast<std::size_t>(dimension));
+    const auto taken = take(records, dimension);
     std::copy(taken.begin(), taken.end(), x.begin());
     return x;
 }
@@ -103,7 +103,7 @@ SupportMesh take_mesh(std::span<const double>& records, int dimension) {
     box.lower = take_vector(records, dimension);
     box.upper = take_vector(records, dimension);
     SupportMesh mesh = make_support_mesh(box, dimension, 1);
-    const auto cells = take(records, static_cast<std::size_t>(dimension));
+    const auto cells = take(records, dimension);
     std::ranges::transform(cells, mesh.cells.begin(),
                            [](double number) { return static_cast<int>(number); });
     return mesh;
@@ -123,8 +123,7 @@ void take_lattice(std::span<const double>& records, std::size_t count, int dimen
 
 Vector cube_of(const Vector& position, int dimension, int exponent) {
     Vector cube{};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
-        cube[a] = std::floor(std::ldexp(position[a], -exponent));
+    for (int a = 0; a < dimension; ++a) cube[a] = std::floor(std::ldexp(position[a], -exponent));
     return cube;
 }
 

@@ -25,7 +25,7 @@ std::size_t num_cubes(std::span<const CellMoments> cells, int dimension, int exp
 /// Returns half the longest edge of the box of the means; does not overflow for any coordinates.
 double half_extent(std::span<const CellMoments> cells, int dimension) {
     double longest = 0;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+    for (int a = 0; a < dimension; ++a) {
         const auto [low, high] = std::minmax_element(
             cells.begin(), cells.end(), [&](const auto& left, const auto& right) {
                 return left.moments.mean[a] < right.moments.mean[a];
@@ -42,7 +42,7 @@ int last_digit(std::span<const CellMoments> cells, int dimension) {
     constexpr int smallest_exponent = -1000;
     double greatest = 0;
     for (const CellMoments& cell : cells)
-        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        for (int a = 0; a < dimension; ++a)
             greatest = std::max(greatest, std::abs(cell.moments.mean[a]));
     return greatest > 0 ? std::ilogb(greatest) - digits : smallest_exponent;
 }

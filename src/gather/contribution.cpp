@@ -58,7 +58,7 @@ double most_cells_per_axis(int dimension) {
 std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Options& options) {
     SupportMesh mesh = make_support_mesh(box, dimension, 1);
     const auto limits = axis_limits(options);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+    for (int a = 0; a < dimension; ++a) {
         if (!limits[a].resolves(std::max(std::abs(box.lower[a]), std::abs(box.upper[a]))))
             return {};
         const double first = limits[a].line_below(box.lower[a]);
@@ -167,7 +167,7 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
     join(mine.summary, next);
     if (!mine.summary.is_usable()) mine.records.clear();
     const auto num_cells = static_cast<std::size_t>(mine.summary.num_cells);
-    const std::size_t full_doubles = 3 + 2 * static_cast<std::size_t>(dimension);
+    const std::size_t full_doubles = 3 + 2 * dimension;
     const bool too_many = num_cells / 2 > most || mine.records.size() / full_doubles > most;
     if (too_many && mine.summary.is_usable()) coarsen_records(mine, dimension, most);
 }

@@ -16,7 +16,7 @@ void bracket_node(const Cuts& cuts, const Descent& at, Box box, int depth,
                   std::vector<Bracket>& brackets) {
     if (at.is_part()) return;
     const Cut& cut = cuts.tree[at.node];
-    const auto axis = static_cast<std::size_t>(cut.axis);
+    const int axis = cut.axis;
     const double value = std::clamp(cut.at[axis], box.lower[axis], box.upper[axis]);
     const double margin = expected_error(depth);
     brackets.push_back({std::lerp(value, box.lower[axis], 2 * margin),
@@ -30,7 +30,7 @@ void bracket_node(const Cuts& cuts, const Descent& at, Box box, int depth,
 
 /// Leaves nothing in parts of size 0, and makes the cut a plane if the options ask for planes.
 void fit(const Options& options, const Descent& at, Cut& cut) {
-    const auto axis = static_cast<std::size_t>(cut.axis);
+    const int axis = cut.axis;
     double value = cut.at[axis];
     if (!options.part_sizes.empty()) {
         const std::span sizes(options.part_sizes);
@@ -48,7 +48,7 @@ void fit(const Options& options, const Descent& at, Cut& cut) {
 
 Cuts fitted(Cuts cuts, const Options& options) {
     for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
-        const std::size_t node = is_whole(cuts) ? k : static_cast<std::size_t>(cuts.nodes[k]);
+        const std::size_t node = is_whole(cuts) ? k : cuts.nodes[k];
         fit(options, node_at(cuts, node).at, cuts.tree[k]);
     }
     return cuts;

@@ -14,7 +14,7 @@ Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
     Points range = points;
     range.count = last - first;
     const std::size_t begin = first * points.stride;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+    for (int a = 0; a < points.dimension; ++a) {
         if (points.has_floats())
             range.float_axes[a] = points.float_axes[a].subspan(begin);
         else
@@ -25,18 +25,17 @@ Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
 
 /// Widens the ends of the order across `axis` by the points in `box`.
 void widen(const Points& points, const Box& box, int axis, Extent& extent) {
-    const auto a = static_cast<std::size_t>(axis);
     const PositionOrder is_before(axis, 1, points.dimension);
+    Vector& first = extent.first[axis];
+    Vector& last = extent.last[axis];
     for (LocalIndex i = 0; i < points.count; ++i) {
         const double value = points.coordinate(i, axis);
-        if (value != box.lower[a] && value != box.upper[a]) continue;
+        const bool is_first = value == box.lower[axis];
+        const bool is_last = value == box.upper[axis];
+        if (!is_first && !is_last) continue;
         const Vector position = points.position(i);
-        const bool is_first = value == box.lower[a];
-        const bool is_last = value == box.upper[a];
-        if (is_first && (extent.first[a][a] != value || is_before(position, extent.first[a])))
-            extent.first[a] = position;
-        if (is_last && (extent.last[a][a] != value || is_before(extent.last[a], position)))
-            extent.last[a] = position;
+        if (is_first && (first[axis] != value || is_before(position, first))) first = position;
+        if (is_last && (last[axis] != value || is_before(last, position))) last = position;
     }
 }
 
@@ -45,8 +44,8 @@ template <class AnyExtent, class Visit>
 void for_each_double(AnyExtent& extent, int dimension, Visit&& visit) {
     visit(extent.count);
     visit(extent.weight);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-        for (std::size_t b = 0; b < static_cast<std::size_t>(dimension); ++b) {
+    for (int a = 0; a < dimension; ++a) {
+        for (int b = 0; b < dimension; ++b) {
             visit(extent.first[a][b]);
             visit(extent.last[a][b]);
         }
@@ -73,11 +72,9 @@ Extent extent_of(const Points& points, const Box& box, double weight) {
     in_ranges(points.count, points_in_block, [&](LocalIndex first, LocalIndex last) {
         const Points block = range_of(points, first, last);
         const Box its_own = bounding_box(block);
-        for (int axis = 0; axis < points.dimension; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
+        for (int a = 0; a < points.dimension; ++a)
             if (its_own.lower[a] == box.lower[a] || its_own.upper[a] == box.upper[a])
-                widen(block, box, axis, extent);
-        }
+                widen(block, box, a, extent);
     });
     return extent;
 }
@@ -85,9 +82,8 @@ Extent extent_of(const Points& points, const Box& box, double weight) {
 void join(Extent& extent, const Extent& other, int dimension) {
     extent.count += other.count;
     extent.weight += other.weight;
-    for (int axis = 0; axis < dimension; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const PositionOrder is_before(axis, 0, dimension);
+    for (int a = 0; a < dimension; ++a) {
+        const PositionOrder is_before(a, 0, dimension);
         extent.first[a] = std::min(extent.first[a], other.first[a], is_before);
         extent.last[a] = std::max(extent.last[a], other.last[a], is_before);
     }

@@ -66,8 +66,7 @@ void KeptParts::keep_central(const CallOptions& options, Decision& decision, Bal
         broadcast_kept(decision, self);
     }
     KeptTree& kept = decision.kept;
-    const auto rank = static_cast<std::size_t>(mpi::rank_of(self.comm));
-    std::ranges::fill(result.parts, kept.parts[rank]);
+    std::ranges::fill(result.parts, kept.parts[mpi::rank_of(self.comm)]);
     result.cuts = std::move(kept.cuts);
     result.report.part_weights = std::move(kept.part_weights);
     result.report.details.coincident_cuts = static_cast<int>(

@@ -47,7 +47,7 @@ class Reader {
     bool read_node(const Descent& at, std::span<std::size_t> ranks, bool expected) {
         if (at.is_part()) return settle(at.first_part, ranks.front());
         const int usual = estimate_.tree[at.node].axis;
-        const auto num_below = static_cast<std::size_t>(at.lower().num_parts);
+        const int num_below = at.lower().num_parts;
         if (!has_size(at.lower()) || !has_size(at.upper())) {
             // All points belong to the parts with a size above 0.
             kept_.cuts.tree[at.node] = plane(usual, has_size(at.lower()) ? infinity : -infinity);
@@ -76,10 +76,9 @@ class Reader {
     /// Returns the positions of a cut between the points of two groups: above the last below, up to
     /// the first above.
     Places gap_between(const Extent& below, const Extent& above, int axis) const {
-        const auto a = static_cast<std::size_t>(axis);
-        const double last = below.last[a][a];
-        const double first = above.first[a][a];
-        const AxisLimits limits = axis_limits(options_)[a];
+        const double last = below.last[axis][axis];
+        const double first = above.first[axis][axis];
+        const AxisLimits limits = axis_limits(options_)[axis];
         if (last == first) return {last, last};
         return {std::isinf(last) ? last : limits.place_behind(last),
                 std::isinf(first) ? first : limits.place_before(std::nextafter(first, infinity))};
@@ -105,10 +104,9 @@ class Reader {
 
     void sort_across(int axis, std::span<std::size_t> ranks) const {
         const PositionOrder is_before(axis, 0, estimate_.dimension);
-        const auto a = static_cast<std::size_t>(axis);
         std::ranges::sort(ranks, [&](std::size_t i, std::size_t j) {
-            const Vector& one = extents_[i].first[a];
-            const Vector& other = extents_[j].first[a];
+            const Vector& one = extents_[i].first[axis];
+            const Vector& other = extents_[j].first[axis];
             return is_before(one, other) || (!is_before(other, one) && i < j);
         });
     }
@@ -126,19 +124,16 @@ class Reader {
     }
 
     bool has_size(const Descent& at) const {
-        const auto sizes = std::span(options_.part_sizes)
-                               .subspan(static_cast<std::size_t>(at.first_part),
-                                        static_cast<std::size_t>(at.num_parts));
+        const auto sizes = std::span(options_.part_sizes).subspan(at.first_part, at.num_parts);
         return std::ranges::any_of(sizes, [](double size) { return size > 0; });
     }
 
     /// Gives the points of a rank their part; returns false if the part must stay empty.
     bool settle(Part part, std::size_t rank) {
-        const auto index = static_cast<std::size_t>(part);
         const Extent& extent = extents_[rank];
         kept_.parts[rank] = part;
-        kept_.part_weights[index] = by_count_ ? extent.count : extent.weight;
-        return extent.count == 0 || options_.part_sizes[index] > 0;
+        kept_.part_weights[part] = by_count_ ? extent.count : extent.weight;
+        return extent.count == 0 || options_.part_sizes[part] > 0;
     }
 
     std::span<const Extent> extents_;
@@ -155,10 +150,7 @@ class Reader {
 
 bool is_long(const Box& box, int axis, int dimension) {
     constexpr double enough = 0.8;
-    const auto half_extent = [&](int b) {
-        const auto a = static_cast<std::size_t>(b);
-        return box.upper[a] / 2 - box.lower[a] / 2;
-    };
+    const auto half_extent = [&](int a) { return box.upper[a] / 2 - box.lower[a] / 2; };
     for (int other = 0; other < dimension; ++other)
         if (!(half_extent(axis) >= enough * half_extent(other))) return false;
     return true;
@@ -166,14 +158,13 @@ bool is_long(const Box& box, int axis, int dimension) {
 
 std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axis, int dimension,
                                bool plain_cuts, bool may_divide) {
-    const auto a = static_cast<std::size_t>(axis);
     if (below.count == 0) return plane(axis, -infinity);
     if (above.count == 0) return plane(axis, infinity);
-    const Vector& last = below.last[a];
-    const Vector& first = above.first[a];
-    const double middle = std::midpoint(last[a], first[a]);
-    Cut cut = plane(axis, middle > last[a] ? middle : first[a]);
-    if (last[a] < first[a]) return cut;
+    const Vector& last = below.last[axis];
+    const Vector& first = above.first[axis];
+    const double middle = std::midpoint(last[axis], first[axis]);
+    Cut cut = plane(axis, middle > last[axis] ? middle : first[axis]);
+    if (last[axis] < first[axis]) return cut;
     const PositionOrder is_before(axis, 0, dimension);
     if (plain_cuts || is_before(first, last)) return std::nullopt;
     cut.divides = is_before(last, first) ? 0 : 1;

@@ -116,7 +116,7 @@ class Faces {
   public:
     explicit Faces(const SupportMesh& mesh) : mesh_(mesh) {
         LocalIndex stride = 1;
-        for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) {
+        for (int a = 0; a < mesh.dimension; ++a) {
             const auto count = static_cast<LocalIndex>(mesh.cells[a]);
             for (LocalIndex k = 0; k < count; ++k) {
                 const Box box = cell_box(mesh, k * stride);
@@ -129,7 +129,7 @@ class Faces {
 
     Box box(LocalIndex cell) const {
         Box box;
-        for (std::size_t a = 0; a < static_cast<std::size_t>(mesh_.dimension); ++a) {
+        for (int a = 0; a < mesh_.dimension; ++a) {
             const auto count = static_cast<LocalIndex>(mesh_.cells[a]);
             const double* face = &faces_[a][cell % count];
             box.lower[a] = face[0];

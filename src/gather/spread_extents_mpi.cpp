@@ -30,10 +30,10 @@ struct FacingExtents {
 /// Calls `visit` with each of the 2 dimension (dimension + 1) doubles that describe the sides.
 template <class AnyPlaces, class Visit>
 void for_each_double_of_both(AnyPlaces& sides, int dimension, Visit&& visit) {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+    for (int a = 0; a < dimension; ++a) {
         visit(sides.below.first[a][a]);
         visit(sides.above.last[a][a]);
-        for (std::size_t b = 0; b < static_cast<std::size_t>(dimension); ++b) {
+        for (int b = 0; b < dimension; ++b) {
             visit(sides.below.last[a][b]);
             visit(sides.above.first[a][b]);
         }
@@ -81,7 +81,7 @@ SpreadExtents::SpreadExtents(const Options& options, const Extent& mine, bool ma
       mine_(mine),
       may_keep_(may_keep),
       dimension_(dimension),
-      butterfly_(rank, options.num_parts, joins[static_cast<std::size_t>(dimension) - 1]) {}
+      butterfly_(rank, options.num_parts, joins[dimension - 1]) {}
 
 std::optional<SpreadKeptTree> SpreadExtents::read(double total, bool by_count, const Cuts& regions,
                                                   Participant& self) {
@@ -109,7 +109,7 @@ double SpreadExtents::share(double total, bool by_count) const {
     const auto& sizes = options_.part_sizes;
     const double all_sizes =
         sizes.empty() ? options_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
-    const double size = sizes.empty() ? 1 : sizes[static_cast<std::size_t>(butterfly_.rank())];
+    const double size = sizes.empty() ? 1 : sizes[butterfly_.rank()];
     if (mine_.count > 0 && !(size > 0)) return std::numeric_limits<double>::infinity();
     return over_ideal(weight, total, size / all_sizes);
 }

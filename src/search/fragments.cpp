@@ -114,7 +114,7 @@ std::vector<std::uint8_t> cells_in_brackets(const BinnedPoints& binned, const Cu
         if (binned.counts[cell] == 0) continue;
         const Box box = enclosing_box(binned.mesh, cell);
         for (Descent at = root_of(cuts); !at.is_part() && cells[cell] == 0;) {
-            const auto axis = static_cast<std::size_t>(cuts.tree[at.node].axis);
+            const int axis = cuts.tree[at.node].axis;
             const bool is_below = box.upper[axis] < brackets[at.node].lower;
             const bool is_above = box.lower[axis] > brackets[at.node].upper;
             if (!is_below && !is_above) cells[cell] = 1;

@@ -70,9 +70,8 @@ double place_in_bin(const Slab& slab, double cut, bool above, int bin, double sh
 template <class Count>
 std::span<Count> bin_in(std::span<Count> counts, const Descent& at, const Slab& slab, bool above,
                         int bin) {
-    const auto num_parts = static_cast<std::size_t>(at.num_parts);
     const int k = bin + (above ? bins_a_side : 0);
-    return counts.subspan(slab.first_count + k * num_parts, num_parts);
+    return counts.subspan(slab.first_count + k * at.num_parts, at.num_parts);
 }
 
 /// Writes the corrected places of all cuts that move into `values`, in the order of their slabs.

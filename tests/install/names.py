@@ -32,6 +32,7 @@ ONLY_CPP = {
     "is_above": "rrcb_part_of descends by it",
     "TreeShape": "for those who descend themselves",
     "Points": "shorthands for members of a struct",
+    "RankRange": "a shorthand for members of a struct",
     "AxisOrder": "rrcb_set reads it from a text",
     "Error": "rrcb_code and rrcb_last_error",
     "name_of": "stages are observed to develop the library",

@@ -1,10 +1,10 @@
 #include "bisection/bisection.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/weighted_quantile.hpp"
-#include "infinity.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"

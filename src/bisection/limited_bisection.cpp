@@ -1,11 +1,11 @@
 #include "bisection/limited_bisection.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
-#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "bisection/patches.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
-#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "bisection/profile.hpp"
 
-#include "infinity.hpp"
+#include "arithmetic/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "bisection/weighted_quantile.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "bisection/slice.hpp"
-#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>

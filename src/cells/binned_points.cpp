@@ -1,8 +1,8 @@
 #include "cells/binned_points.hpp"
 
+#include "arithmetic/running_sums.hpp"
+#include "arithmetic/safe_scale.hpp"
 #include "cells/cell_finder.hpp"
-#include "cells/running_sums.hpp"
-#include "cells/safe_scale.hpp"
 
 #include <algorithm>
 

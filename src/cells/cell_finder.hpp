@@ -1,8 +1,8 @@
 #pragma once
 
+#include "arithmetic/running_sums.hpp"
+#include "arithmetic/vector_clones.hpp"
 #include "cells/point_layout.hpp"
-#include "cells/running_sums.hpp"
-#include "cells/vector_clones.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 

@@ -1,6 +1,6 @@
+#include "arithmetic/running_sums.hpp"
 #include "cells/binned_points.hpp"
 #include "cells/cell_finder.hpp"
-#include "cells/running_sums.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 

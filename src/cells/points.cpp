@@ -1,5 +1,5 @@
-#include "cells/vector_clones.hpp"
-#include "collective/non_stop.hpp"
+#include "arithmetic/non_stop.hpp"
+#include "arithmetic/vector_clones.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 

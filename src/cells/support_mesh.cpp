@@ -1,4 +1,4 @@
-#include "cells/safe_scale.hpp"
+#include "arithmetic/safe_scale.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 

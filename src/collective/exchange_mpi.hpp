@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cells/uninitialized.hpp"
+#include "arithmetic/uninitialized.hpp"
 #include "collective/participant.hpp"
 #include "collective/rank_order.hpp"
 

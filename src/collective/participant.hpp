@@ -1,8 +1,8 @@
 #pragma once
 
+#include "arithmetic/non_stop.hpp"
 #include "collective/communicator.hpp"
 #include "collective/failure.hpp"
-#include "collective/non_stop.hpp"
 
 #include <mpi.h>
 

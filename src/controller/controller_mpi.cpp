@@ -1,7 +1,7 @@
+#include "arithmetic/non_stop.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "collective/non_stop.hpp"
 #include "controller/controller_state_mpi.hpp"
 
 #include <rrcb/error.hpp>

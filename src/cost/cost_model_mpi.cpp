@@ -1,5 +1,5 @@
+#include "arithmetic/non_stop.hpp"
 #include "collective/agreement_mpi.hpp"
-#include "collective/non_stop.hpp"
 #include "controller/controller_state_mpi.hpp"
 #include "cost/cost_rule.hpp"
 

@@ -1,6 +1,7 @@
 #include "cuts/axis_limits.hpp"
 
-#include "infinity.hpp"
+#include "arithmetic/double_order.hpp"
+#include "arithmetic/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "cuts/cut_limits.hpp"
 
-#include "infinity.hpp"
+#include "arithmetic/infinity.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
+#include "arithmetic/infinity.hpp"
 #include "cuts/tree.hpp"
-#include "infinity.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 

@@ -1,7 +1,7 @@
 #include "cuts/direct_assignment.hpp"
 
-#include "cells/running_sums.hpp"
-#include "collective/non_stop.hpp"
+#include "arithmetic/non_stop.hpp"
+#include "arithmetic/running_sums.hpp"
 #include "cuts/packed_tree.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"

@@ -1,6 +1,6 @@
 #include "cuts/periodic_images.hpp"
 
-#include "collective/mix.hpp"
+#include "arithmetic/mix.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "arithmetic/vector_clones.hpp"
 #include "cells/point_layout.hpp"
-#include "cells/vector_clones.hpp"
 
 #include <rrcb/points.hpp>
 

@@ -1,7 +1,7 @@
 #include "gather/call_options.hpp"
 
+#include "arithmetic/part_share.hpp"
 #include "cuts/cut_limits.hpp"
-#include "cuts/part_share.hpp"
 #include "gather/contribution.hpp"
 #include "gather/decision_mpi.hpp"
 #include "options/validation.hpp"

@@ -1,9 +1,9 @@
 #include "gather/decision_mpi.hpp"
 
+#include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/part_share.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "options/rejection.hpp"

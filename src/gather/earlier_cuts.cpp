@@ -1,8 +1,8 @@
 #include "gather/earlier_cuts.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/tree.hpp"
-#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "gather/extent.hpp"
 
-#include "cells/running_sums.hpp"
-#include "cuts/position_order.hpp"
+#include "arithmetic/position_order.hpp"
+#include "arithmetic/running_sums.hpp"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 #include "gather/kept_tree.hpp"
 
+#include "arithmetic/infinity.hpp"
+#include "arithmetic/position_order.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "cuts/cut_limits.hpp"
-#include "cuts/position_order.hpp"
 #include "cuts/tree.hpp"
-#include "infinity.hpp"
 
 #include <rrcb/quality.hpp>
 

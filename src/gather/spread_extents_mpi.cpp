@@ -1,9 +1,9 @@
 #include "gather/spread_extents_mpi.hpp"
 
+#include "arithmetic/part_share.hpp"
+#include "arithmetic/position_order.hpp"
 #include "bisection/axis_choice.hpp"
 #include "cuts/owned_cuts.hpp"
-#include "cuts/part_share.hpp"
-#include "cuts/position_order.hpp"
 #include "gather/kept_tree.hpp"
 
 #include <algorithm>

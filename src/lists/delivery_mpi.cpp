@@ -1,8 +1,8 @@
 #include "lists/delivery_mpi.hpp"
 
+#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "collective/mix.hpp"
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/stream_mpi.hpp"
 #include "options/rejection.hpp"

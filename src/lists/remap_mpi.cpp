@@ -1,9 +1,9 @@
 #include "lists/remap_mpi.hpp"
 
+#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "collective/mix.hpp"
 #include "lists/group_numbers_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"

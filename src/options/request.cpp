@@ -1,6 +1,6 @@
 #include "options/request.hpp"
 
-#include "collective/mix.hpp"
+#include "arithmetic/mix.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/non_stop.hpp"
+#include "arithmetic/non_stop.hpp"
 
 #include <rrcb/stages.hpp>
 

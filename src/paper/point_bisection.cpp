@@ -1,7 +1,7 @@
+#include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/cut_limits.hpp"
-#include "infinity.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"

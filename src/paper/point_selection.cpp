@@ -1,7 +1,7 @@
 #include "paper/point_selection.hpp"
 
-#include "cuts/position_order.hpp"
-#include "infinity.hpp"
+#include "arithmetic/infinity.hpp"
+#include "arithmetic/position_order.hpp"
 
 #include <algorithm>
 #include <cmath>

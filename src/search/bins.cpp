@@ -1,6 +1,6 @@
 #include "search/bins.hpp"
 
-#include "cuts/axis_limits.hpp"
+#include "arithmetic/double_order.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cuts/position_order.hpp"
+#include "arithmetic/position_order.hpp"
 #include "search/cut_search.hpp"
 
 #include <rrcb/points.hpp>

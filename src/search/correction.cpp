@@ -1,4 +1,4 @@
-#include "cuts/part_share.hpp"
+#include "arithmetic/part_share.hpp"
 #include "search/slabs.hpp"
 
 #include <algorithm>

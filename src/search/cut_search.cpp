@@ -1,6 +1,6 @@
 #include "search/cut_search.hpp"
 
-#include "infinity.hpp"
+#include "arithmetic/infinity.hpp"
 #include "search/candidate_division.hpp"
 #include "search/gap.hpp"
 

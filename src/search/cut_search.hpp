@@ -1,7 +1,7 @@
 #pragma once
 
+#include "arithmetic/position_order.hpp"
 #include "cuts/cut_limits.hpp"
-#include "cuts/position_order.hpp"
 #include "search/bins.hpp"
 #include "search/histogram.hpp"
 

@@ -1,7 +1,7 @@
 #include "search/gap.hpp"
 
-#include "cuts/position_order.hpp"
-#include "infinity.hpp"
+#include "arithmetic/infinity.hpp"
+#include "arithmetic/position_order.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,12 @@
 #include "search/local_search.hpp"
 
-#include "cells/running_sums.hpp"
-#include "infinity.hpp"
+#include "arithmetic/infinity.hpp"
+#include "arithmetic/quantum.hpp"
+#include "arithmetic/running_sums.hpp"
 #include "search/sample.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 namespace rrcb {
 
@@ -168,19 +167,6 @@ void LocalSearch::append_candidates(std::vector<double>& records) const {
         records.insert(records.end(), x.begin(), x.begin() + points_.dimension());
         records.push_back(points_.weight(i));
     }
-}
-
-double quantum_for(double weight) {
-    // Two digits more than a sum of `weight` needs, for nodes that weigh a little more.
-    constexpr int digits = std::numeric_limits<double>::digits - 3;
-    constexpr int smallest =
-        std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits;
-    if (!(weight > 0)) return 0;
-    return std::ldexp(1.0, std::max(std::ilogb(weight) - digits, smallest));
-}
-
-double rounded_to(double quantum, double value) {
-    return quantum > 0 ? std::nearbyint(value / quantum) * quantum : value;
 }
 
 }  // namespace rrcb

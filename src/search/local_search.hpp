@@ -44,11 +44,4 @@ class LocalSearch {
     std::vector<Vector> splitters_;
 };
 
-/// Returns the power of two to which weights are rounded, so that doubles hold sums up to about
-/// `weight` exactly.
-double quantum_for(double weight);
-
-/// Returns `value` in multiples of a quantum.
-double rounded_to(double quantum, double value);
-
 }  // namespace rrcb

@@ -1,10 +1,10 @@
 #include "search/refinement_mpi.hpp"
 
+#include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/direct_assignment.hpp"
-#include "cuts/part_share.hpp"
 
 #include <rrcb/quality.hpp>
 

@@ -1,6 +1,6 @@
 #include "search/sample.hpp"
 
-#include "collective/mix.hpp"
+#include "arithmetic/mix.hpp"
 
 #include <algorithm>
 

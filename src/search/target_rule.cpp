@@ -1,7 +1,7 @@
 #include "search/target_rule.hpp"
 
+#include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
-#include "cuts/part_share.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // How a central search starts from known cuts.
+#include "arithmetic/infinity.hpp"
 #include "bisection/bisection.hpp"
-#include "infinity.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // The records that ranks send to the owners of nodes, and how they follow the answers.
+#include "arithmetic/quantum.hpp"
 #include "search/gap.hpp"
 #include "search/sample.hpp"
 #include "search/tree_search.hpp"

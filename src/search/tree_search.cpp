@@ -1,11 +1,12 @@
 // How a search goes down the tree.
 #include "search/tree_search.hpp"
 
+#include "arithmetic/infinity.hpp"
+#include "arithmetic/part_share.hpp"
+#include "arithmetic/quantum.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/owned_cuts.hpp"
-#include "cuts/part_share.hpp"
-#include "infinity.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "search/undecided_points.hpp"
 
+#include "arithmetic/infinity.hpp"
+#include "arithmetic/running_sums.hpp"
 #include "cells/point_layout.hpp"
-#include "cells/running_sums.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "cuts/tree.hpp"
-#include "infinity.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 // The search for one cut as ranks and root run it, in one process: each rank counts its share of a
 // cloud, their histograms and samples are joined, and the root decides.
 #include "../support/clouds.hpp"
+#include "arithmetic/quantum.hpp"
 #include "search/local_search.hpp"
 #include "search/sample.hpp"
 

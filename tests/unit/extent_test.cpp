@@ -1,6 +1,6 @@
 #include "gather/extent.hpp"
 
-#include "cuts/position_order.hpp"
+#include "arithmetic/position_order.hpp"
 
 #include <gtest/gtest.h>
 

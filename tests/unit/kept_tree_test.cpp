@@ -1,6 +1,6 @@
 #include "gather/kept_tree.hpp"
 
-#include "cuts/position_order.hpp"
+#include "arithmetic/position_order.hpp"
 #include "cuts/tree.hpp"
 
 #include <rrcb/quality.hpp>

@@ -1,10 +1,10 @@
 #include "zoltan/call/kept_objects_mpi.hpp"
 
+#include "arithmetic/mix.hpp"
+#include "arithmetic/non_stop.hpp"
+#include "arithmetic/vector_clones.hpp"
 #include "cells/point_layout.hpp"
-#include "cells/vector_clones.hpp"
 #include "collective/communicator.hpp"
-#include "collective/mix.hpp"
-#include "collective/non_stop.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "zoltan/handle/parameters.hpp"
 
-#include "collective/non_stop.hpp"
+#include "arithmetic/non_stop.hpp"
 #include "options/option_table.hpp"
 
 #include <rrcb/points.hpp>

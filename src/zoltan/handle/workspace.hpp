@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cells/uninitialized.hpp"
+#include "arithmetic/uninitialized.hpp"
 #include "collective/exchange_mpi.hpp"
 
 #include <rrcb/points.hpp>

@@ -1,19 +1,18 @@
 #include "search/cut_search.hpp"
 
 #include "arithmetic/infinity.hpp"
+#include "arithmetic/part_share.hpp"
 #include "search/candidate_division.hpp"
 #include "search/gap.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace rrcb {
 
 namespace {
-
-/// Counts of candidates in bins before splitters are used.
-constexpr int most_counts = 4;
 
 std::size_t axis_index(const CutSearch& search, int tied) {
     return ordering_axis(search.cut.axis, tied);
@@ -46,7 +45,7 @@ void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector&
                        double below_ties, double weight) {
     const double missing = target.target - below_ties;
     search.coincident = 1;
-    if (search.divides != 0) {
+    if (target.divides) {
         search.lot_below = missing;
         finish_at(search, position, target.target);
     } else if (target.excess(below_ties) < target.excess(below_ties + weight)) {
@@ -56,25 +55,20 @@ void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector&
     }
 }
 
-/// Goes on along the next axis if all candidates share their coordinate on this one; ends if they
-/// share all of them.
-void break_tie(CutSearch& search, CutTarget& target, std::span<const double> extents,
-               std::span<const double> weights) {
-    const double value = extents[max_dimension + axis_index(search, search.tied)];
+/// Goes on along the next axis if all candidates have the coordinate `value` on this one; ends if
+/// they share all of them.
+void break_tie(CutSearch& search, const CutTarget& target, std::span<const double> extents,
+               double value, double weight) {
     if (search.tied + 1 < search.num_axes) {
         search.cut.at[axis_index(search, search.tied++)] = value;
         const std::size_t axis = axis_index(search, search.tied);
         search.lower = -extents[axis];
         search.upper = std::nextafter(extents[max_dimension + axis], infinity);
         search.by_bits = 0;
-        if (target.num_counts >= most_counts) search.stage = CutSearch::sampling;
         return;
     }
-    double weight = 0;
-    for (const double w : weights) weight += w;
     Vector position{};
-    const PositionOrder order = order_of(search);
-    for (const std::size_t axis : order.axes()) position[axis] = extents[max_dimension + axis];
+    position[axis_index(search, search.tied)] = value;
     finish_among_ties(search, target, position, target.base, weight);
 }
 
@@ -83,31 +77,31 @@ struct CandidateRange {
     double largest;
 };
 
-/// Goes on with the candidates in the chosen slot: by another count in bins, or by splitters after
-/// most_counts of them.
-void narrow(CutSearch& search, CutTarget& target, const Bins& bins, int num_bins,
-            CandidateRange extent) {
+/// Goes on with the candidates in the chosen slot, of which the histogram has the weight and their
+/// count.
+void narrow(CutSearch& search, const CutTarget& target, const HistogramLayout& layout,
+            std::span<const double> histogram, CandidateRange extent) {
+    const Bins bins = bins_of(search, layout);
     const int slot = search.chosen;
-    const double lower = slot == 0 ? extent.smallest : bins.edge(slot - 1);
-    const double upper =
-        slot > num_bins ? std::nextafter(extent.largest, infinity) : bins.edge(slot);
+    const double behind = std::nextafter(extent.largest, infinity);
+    const double upper = slot > layout.num_bins ? behind : std::min(bins.edge(slot), behind);
+    // By round-off the slot may be empty, and the extent above it.
+    const double lower = std::min(
+        upper, slot == 0 ? extent.smallest : std::max(bins.edge(slot - 1), extent.smallest));
     // The cut must not be among some of the candidates: another count finds their weight.
     const bool is_limited =
         search.tied == 0 && (lower < target.places.first || upper > target.places.last);
+    const bool were_candidates =
+        std::exchange(search.stage, CutSearch::over_candidates) == CutSearch::over_candidates;
+    const bool is_few = target.num_candidates <= most_gathered;
+    if (were_candidates && !is_limited && !is_few && std::nextafter(lower, infinity) >= upper)
+        return break_tie(search, target, histogram, lower, weights_in(histogram, layout)[slot]);
     // The first two counts use bins of equal width. Candidates that are still undecided are
     // unevenly spread, so later bins hold equal numbers of doubles.
-    search.by_bits = search.stage == CutSearch::over_candidates ? 1 : 0;
+    search.by_bits = were_candidates ? 1 : 0;
     search.lower = is_limited ? std::max(lower, target.places.first) : lower;
     search.upper = is_limited ? std::min(upper, target.places.last) : upper;
-    if (is_limited) {
-        search.stage = CutSearch::over_candidates;
-    } else if (target.num_candidates <= most_gathered) {
-        search.stage = CutSearch::gathering;
-    } else if (target.num_counts >= most_counts) {
-        search.stage = CutSearch::sampling;
-    } else {
-        search.stage = CutSearch::over_candidates;
-    }
+    if (!is_limited && is_few) search.stage = CutSearch::gathering;
 }
 
 /// Slot of the histogram that the target falls into, with the weight below it.
@@ -183,13 +177,6 @@ void narrow_on_lines(CutSearch& search, const CutTarget& target, const Histogram
     search.stage = CutSearch::over_candidates;
 }
 
-/// Notes the chosen slot and its weight and count.
-void go_on_in(const Chosen& chosen, double count, CutSearch& search, CutTarget& target) {
-    search.chosen = chosen.slot;
-    target.base = chosen.below;
-    target.num_candidates = static_cast<GlobalCount>(count);
-}
-
 }  // namespace
 
 PositionOrder order_of(const CutSearch& search) {
@@ -206,47 +193,22 @@ Bins bins_of(const CutSearch& search, const HistogramLayout& layout) {
     return {search.lower, search.upper, search.by_bits != 0, layout.num_bins};
 }
 
-std::int32_t slot_between(std::span<const Vector> splitters, const PositionOrder& order,
-                          const Vector& position) {
-    const auto at = std::ranges::lower_bound(splitters, position, order);
-    const auto slot = static_cast<std::int32_t>(2 * (at - splitters.begin()));
-    return at != splitters.end() && !order(position, *at) ? slot + 1 : slot;
-}
-
-std::vector<Vector> splitters_of(std::vector<Vector> sample, const PositionOrder& order,
-                                 const HistogramLayout& layout) {
-    const auto same = [&](const Vector& a, const Vector& b) {
-        return !order(a, b) && !order(b, a);
-    };
-    std::ranges::sort(sample, order);
-    sample.erase(std::unique(sample.begin(), sample.end(), same), sample.end());
-    const std::size_t most = (layout.num_slots() - 1) / 2;
-    const std::size_t count = std::min(most, sample.size());
-    // Evenly spread over the sample, if `count` is less than its length.
-    for (std::size_t k = 0; k < count; ++k)
-        sample[k] = sample[(2 * k + 1) * sample.size() / (2 * count)];
-    sample.resize(count);
-    return sample;
-}
-
 void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
                     std::span<const double> histogram) {
-    const auto weights = histogram.subspan(layout.num_extents, layout.num_slots());
-    const auto counts = histogram.subspan(layout.num_extents + layout.num_slots());
+    const auto weights = weights_in(histogram, layout);
     const int axis = current_axis(search);
     if (!(target.target > 0)) {
         search.stage = CutSearch::done;
         if (!target.places.all()) finish(search, search.lower, weights[0]);
         return;
     }
-    const bool counted_candidates = search.stage == CutSearch::over_candidates;
-    target.num_counts += counted_candidates ? 1 : 0;
     const CandidateRange extent{-histogram[axis], histogram[max_dimension + axis]};
-    if (counted_candidates && may_break_tie(search, target, extent, layout)) {
-        break_tie(search, target, histogram, weights);
-        return;
-    }
     const Bins bins = bins_of(search, layout);
+    if (search.stage == CutSearch::over_candidates &&
+        may_break_tie(search, target, extent, layout)) {
+        search.chosen = bins.slot_of(extent.smallest);
+        return break_tie(search, target, histogram, extent.smallest, sum_of(weights));
+    }
     const Chosen chosen = choose(target.base, target.target, weights);
     if (finish_at_limit(search, target, weights, chosen)) return;
     const int slot = chosen.slot;
@@ -256,41 +218,14 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
         finish(search, bins.edge(edge), chosen.below + (errors.at_lower() ? 0 : weights[slot]));
         return;
     }
-    go_on_in(chosen, counts[slot], search, target);
+    search.chosen = slot;
+    target.base = chosen.below;
+    target.num_candidates = static_cast<GlobalCount>(counts_in(histogram, layout)[slot]);
     if (layout.limits[axis].has_grid()) {
         narrow_on_lines(search, target, layout, errors, weights[slot]);
     } else {
-        narrow(search, target, bins, layout.num_bins, extent);
+        narrow(search, target, layout, histogram, extent);
     }
-}
-
-void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
-                         std::span<const Vector> splitters, std::span<const double> histogram) {
-    const auto weights =
-        histogram.subspan(layout.num_extents, layout.num_slots()).first(2 * splitters.size() + 1);
-    const auto counts = histogram.subspan(layout.num_extents + layout.num_slots());
-    const Chosen chosen = choose(target.base, target.target, weights);
-    const int slot = chosen.slot;
-    const EdgeErrors errors = errors_at(chosen, weights[slot], target);
-    const bool at_splitter = slot % 2 == 1;
-    // Between two slots is the near or the far side of a splitter. The outermost edges were
-    // considered before.
-    const std::size_t edge = errors.at_lower() ? slot : slot + 1;
-    if (errors.least() <= target.slack && edge > 0 && edge < weights.size()) {
-        const double below = chosen.below + (errors.at_lower() ? 0 : weights[slot]);
-        const Vector& splitter = splitters[(edge - 1) / 2];
-        if (edge % 2 == 1) finish_at(search, splitter, below);
-        if (edge % 2 == 0) finish_behind(search, splitter, below);
-        return;
-    }
-    if (at_splitter) {
-        finish_among_ties(search, target, splitters[slot / 2], chosen.below, weights[slot]);
-        return;
-    }
-    go_on_in(chosen, counts[slot], search, target);
-    search.between_splitters = 1;
-    search.stage =
-        target.num_candidates <= most_gathered ? CutSearch::gathering : CutSearch::sampling;
 }
 
 bool decide_among(CutSearch& search, const CutTarget& target, std::span<const double> records,
@@ -306,19 +241,13 @@ bool decide_among(CutSearch& search, const CutTarget& target, std::span<const do
     const std::size_t best = division.num_below;
     search.coincident = division.ties.count > 0 ? 1 : 0;
     const bool good = target.excess(division.below) <= target.slack;
-    if (search.coincident != 0 && search.divides != 0 && !good) {
+    if (search.coincident != 0 && target.divides && !good) {
         const Ties& ties = division.ties;
         finish_among_ties(search, target, candidates[ties.begin].position, ties.below, ties.weight);
         return false;
     }
     if (best == 0 || best == candidates.size()) {
-        if (search.between_splitters == 0) {
-            finish(search, best == 0 ? search.lower : search.upper, division.below);
-        } else if (best == 0) {
-            finish_at(search, candidates.front().position, division.below);
-        } else {
-            finish_behind(search, candidates.back().position, division.below);
-        }
+        finish(search, best == 0 ? search.lower : search.upper, division.below);
         return false;
     }
     const Vector& last_below = candidates[best - 1].position;

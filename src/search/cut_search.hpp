@@ -17,14 +17,10 @@ namespace rrcb {
 ///
 /// The cut is in [lower, upper) of the axis number `tied` of its axes: first the axis of the cut,
 /// then the others in ascending order. Along the axes before that one it is already fixed in `cut`.
-/// From the first splitters on, it is between two positions in the order of all axes from `tied`
-/// on.
 struct CutSearch {
     enum Stage : std::int32_t {
         over_fragments,   ///< count all points of the node, in bins of the bracket
         over_candidates,  ///< count the candidates left in the bracket
-        sampling,         ///< send a sample of the candidates to the owner, for splitters
-        over_splitters,   ///< count the candidates between the splitters
         gathering,        ///< send all candidates to the owner
         centring,         ///< find the gap around the known cut
         done
@@ -38,12 +34,10 @@ struct CutSearch {
     double upper = 0;
     double quantum = 0;  ///< power of two; each rank's sums are multiples of it, so that adding
                          ///< them is exact in any order
-    std::int32_t between_splitters = 0;  ///< 1: splitters bound the search, not lower and upper
-    std::int32_t chosen = 0;             ///< slot that the search goes on in
-    double below = 0;                    ///< weight of the node below the cut, once done
+    std::int32_t chosen = 0;      ///< slot that the search goes on in
     std::int32_t coincident = 0;  ///< 1: points that no cut separates hold the target, once done
-    std::int32_t divides = 0;     ///< 1: these points are to be divided, those of lower ranks below
-    double lot_below = 0;         ///< weight of these points that belongs below, once done
+    double below = 0;             ///< weight of the node below the cut, once done
+    double lot_below = 0;         ///< weight of points to be divided that belongs below, once done
 };
 
 /// State of a search at the owner only.
@@ -53,8 +47,8 @@ struct CutTarget {
     double slack = 0;                ///< excess that a cut may leave
     double base = 0;                 ///< weight of the node below all candidates
     GlobalCount num_candidates = 0;  ///< points of all ranks that are left
-    int num_counts = 0;              ///< times that candidates were counted in bins
-    Places places{};                 ///< allowed for the cut; any place if cuts are not limited
+    bool divides = false;  ///< points that no cut separates are divided, those of lower ranks below
+    Places places{};       ///< allowed for the cut; any place if cuts are not limited
 
     /// Returns the excess weight of one side, times twice the share of the other side: proportional
     /// to the factor by which the side exceeds its share. For halves it is the distance from the
@@ -73,27 +67,14 @@ PositionOrder order_of(const CutSearch& search);
 /// Returns the bins of the bracket of a search.
 Bins bins_of(const CutSearch& search, const HistogramLayout& layout);
 
-/// Returns the slot of a position: 2 k just before splitter k, 2 k + 1 at it. Splitters ascend in
-/// `order`.
-std::int32_t slot_between(std::span<const Vector> splitters, const PositionOrder& order,
-                          const Vector& position);
-
-/// Returns splitters from a sample, ascending, at most half as many as slots.
-std::vector<Vector> splitters_of(std::vector<Vector> sample, const PositionOrder& order,
-                                 const HistogramLayout& layout);
-
 /// Advances the search by the counts in its bins; it is done when the cut is good enough.
 ///
-/// A search takes at most 1 + 4 rounds of counting in bins. Then it takes two rounds for every
-/// factor of about 16 by which its candidates outnumber most_gathered. On lines of a grid it takes
-/// one round for every factor of num_bins in their number, and two more. If cuts are limited, the
-/// bracket is between the first and the last of their places.
+/// A search takes at most 13 counts along an axis: two in bins of equal width, and 11 in bins of
+/// equal numbers of doubles, which leave one double of 2^64. On lines of a grid it takes one count
+/// for every factor of num_bins in their number, and two more. If cuts are limited, the bracket is
+/// between the first and the last of their places.
 void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
                     std::span<const double> histogram);
-
-/// Advances the search by the counts between the splitters, which resolve all ties.
-void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
-                         std::span<const Vector> splitters, std::span<const double> histogram);
 
 /// Ends the search with the best cut between the gathered positions. `records` hold position and
 /// weight of each, in any order. Returns true if the cut is in the middle of two of them.

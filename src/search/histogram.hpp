@@ -10,30 +10,30 @@
 namespace rrcb {
 
 /// Layout of a histogram, the data of one search in a round: weights and counts in the slots of a
-/// bracket or between splitters, or a sample.
+/// bracket.
 ///
 /// The first num_extents entries are joined by their maximum: minus the lower ends of the extent,
-/// its upper ends, and the dimension of the sample, 0 for none. They are followed by 2 * num_slots
-/// entries to be summed, or a sample.
+/// and its upper ends. They are followed by 2 * num_slots entries to be summed.
 struct HistogramLayout {
     int num_bins = 64;
     std::array<AxisLimits, max_dimension> limits{};  ///< of the grids on whose lines bins have
                                                      ///< their edges
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
-    static constexpr std::size_t sample_dimension = 2 * max_dimension;
-    static constexpr std::size_t num_extents = sample_dimension + 1;
+    static constexpr std::size_t num_extents = 2 * max_dimension;
     std::size_t length() const { return num_extents + 2 * num_slots(); }
 };
 
 void clear_histogram(std::span<double> histogram);
 
-/// Makes an empty sample of positions; returns its entries.
-std::span<double> clear_to_sample(int dimension, std::span<double> histogram);
+inline std::span<const double> weights_in(std::span<const double> histogram,
+                                          const HistogramLayout& layout) {
+    return histogram.subspan(HistogramLayout::num_extents, layout.num_slots());
+}
 
-/// Returns the sample in a histogram that holds one.
-inline std::span<const double> sample_in(std::span<const double> histogram) {
-    return histogram.subspan(HistogramLayout::num_extents);
+inline std::span<const double> counts_in(std::span<const double> histogram,
+                                         const HistogramLayout& layout) {
+    return histogram.subspan(HistogramLayout::num_extents + layout.num_slots());
 }
 
 /// Joins the histogram of other ranks. Any order gives the same bits if weights

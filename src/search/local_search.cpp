@@ -3,7 +3,6 @@
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/quantum.hpp"
 #include "arithmetic/running_sums.hpp"
-#include "search/sample.hpp"
 
 #include <algorithm>
 #include <array>
@@ -73,17 +72,13 @@ void LocalSearch::count(const CutSearch& search, const HistogramLayout& layout,
     const int axis = current_axis(search);
     if (search.stage == CutSearch::over_fragments) {
         count_fragments(search, layout, histogram);
-    } else if (search.stage == CutSearch::over_candidates) {
+    } else {
         const Bins bins = bins_of(search, layout);
         for (const LocalIndex i : candidates_) {
             const Vector x = points_.position(i);
             tally.widen(x, x);
             tally.add(bins.slot_of(x[axis]), points_.weight(i), 1);
         }
-    } else {
-        const PositionOrder order = order_of(search);
-        for (const LocalIndex i : candidates_)
-            tally.add(slot_between(splitters_, order, points_.position(i)), points_.weight(i), 1);
     }
     tally.round_weights_to(search.quantum);
 }
@@ -123,22 +118,9 @@ void LocalSearch::count_fragments(const CutSearch& search, const HistogramLayout
     }
 }
 
-void LocalSearch::add_candidates(int rank, std::span<double> sample) const {
-    for (const LocalIndex i : candidates_)
-        add_to_sample(sample_key(rank, points_.original[i]), points_.position(i),
-                      points_.dimension(), sample);
-}
-
 void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after,
                               const HistogramLayout& layout) {
-    if (after.stage == CutSearch::done || before.stage == CutSearch::sampling) return;
-    if (before.stage == CutSearch::over_splitters) {
-        const PositionOrder order = order_of(before);
-        std::erase_if(candidates_, [&](LocalIndex i) {
-            return slot_between(splitters_, order, points_.position(i)) != after.chosen;
-        });
-        return;
-    }
+    if (after.stage == CutSearch::done) return;
     const Bins bins = bins_of(before, layout);
     const int last_slot = layout.num_bins + 1;
     const int axis = current_axis(before);
@@ -147,8 +129,7 @@ void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after,
         return bins.slot_of(points_.coordinates[i * d + axis]) == after.chosen;
     };
     if (before.stage == CutSearch::over_candidates) {
-        if (after.tied == before.tied)
-            std::erase_if(candidates_, [&](LocalIndex i) { return !is_chosen(i); });
+        std::erase_if(candidates_, [&](LocalIndex i) { return !is_chosen(i); });
         return;
     }
     const double lower = after.chosen == 0 ? -infinity : bins.edge(after.chosen - 1);

@@ -20,13 +20,6 @@ class LocalSearch {
     void count(const CutSearch& search, const HistogramLayout& layout,
                std::span<double> histogram) const;
 
-    /// Adds this rank's candidates to `sample`.
-    void add_candidates(int rank, std::span<double> sample) const;
-
-    /// Keeps the splitters to count between. Throws std::bad_alloc.
-    void take_splitters(std::vector<Vector> splitters) { splitters_ = std::move(splitters); }
-    std::span<const Vector> splitters() const { return splitters_; }
-
     /// Keeps the points in the slot that the root chose for the search as it was `before`.
     void keep_chosen(const CutSearch& before, const CutSearch& after,
                      const HistogramLayout& layout);
@@ -41,7 +34,6 @@ class LocalSearch {
     std::span<const Fragment> fragments_;
     const SortedPoints& points_;
     std::vector<LocalIndex> candidates_;
-    std::vector<Vector> splitters_;
 };
 
 }  // namespace rrcb

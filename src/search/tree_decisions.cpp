@@ -1,12 +1,11 @@
 // The decisions of the owner of a node.
+#include "arithmetic/part_share.hpp"
 #include "search/gap.hpp"
-#include "search/sample.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -63,8 +62,8 @@ void TreeSearch::decide(Butterfly& butterfly) {
     });
 }
 
-/// Makes searches sample their candidates instead of gathering them if these are too many for one
-/// rank.
+/// Makes searches count their candidates once more instead of gathering them if these are too many
+/// for one rank.
 void TreeSearch::limit_gathering() {
     GlobalCount num_points = 0;
     for (Node& node : nodes_) {
@@ -73,7 +72,7 @@ void TreeSearch::limit_gathering() {
         if (num_points + more <= most_gathered_at_once) {
             num_points += more;
         } else {
-            node.decided.stage = CutSearch::sampling;
+            node.decided.stage = CutSearch::over_candidates;
         }
     }
 }
@@ -95,10 +94,6 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
         append(place_lot(node, record.payload), answer);
     } else if (node.search.stage == CutSearch::over_fragments && !is_central()) {
         append(node.content.box, answer);
-    } else if (node.search.stage == CutSearch::sampling &&
-               node.decided.stage == CutSearch::over_splitters) {
-        const auto sample = sample_in(record.payload.subspan(1));
-        answer.insert(answer.end(), sample.begin(), sample.end());
     }
     return answer;
 }
@@ -156,10 +151,6 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
         decide_by_first_count(node, records, search);
     } else if (search.stage == CutSearch::over_candidates) {
         decide_by_bins(search, node.target, layout_, records);
-    } else if (search.stage == CutSearch::sampling) {
-        search.stage = CutSearch::over_splitters;
-    } else if (search.stage == CutSearch::over_splitters) {
-        decide_by_splitters(search, node.target, layout_, node.local.splitters(), records);
     } else {
         is_centred = decide_among(search, node.target, records, dimension_);
     }
@@ -171,9 +162,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
 /// Takes weight and box of the node from the first count.
 void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
                                        CutSearch& search) {
-    const auto weights = histogram.subspan(layout_.num_extents, layout_.num_slots());
-    const double weight = node.content.weight =
-        std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double weight = node.content.weight = sum_of(weights_in(histogram, layout_));
     if (!is_central()) {
         node.content.box = box_in(histogram);
         const CutSearch anew = first_search(node.at, node.content.box, weight);
@@ -183,6 +172,7 @@ void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histo
         }
     }
     node.target = target_of(node, weight);
+    node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;
     decide_by_bins(search, node.target, layout_, histogram);
 }
 

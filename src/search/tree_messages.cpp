@@ -1,7 +1,6 @@
 // The records that ranks send to the owners of nodes, and how they follow the answers.
 #include "arithmetic/quantum.hpp"
 #include "search/gap.hpp"
-#include "search/sample.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>
@@ -57,12 +56,8 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     payload.resize(1 + layout_.length());
     payload[0] = mark_of_histogram;
     const std::span<double> histogram = std::span(payload).subspan(1);
-    if (node.search.stage == CutSearch::sampling) {
-        node.local.add_candidates(rank_, clear_to_sample(dimension_, histogram));
-    } else {
-        clear_histogram(histogram);
-        node.local.count(node.search, layout_, histogram);
-    }
+    clear_histogram(histogram);
+    node.local.count(node.search, layout_, histogram);
 }
 
 /// Appends the gap of this rank's points around the known cut of a node.
@@ -153,9 +148,6 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     } else if (before.stage == CutSearch::over_fragments) {
         sort_between(next.lower, next.upper, axis, node.content);
     }
-    if (before.stage == CutSearch::sampling)
-        node.local.take_splitters(
-            splitters_of(positions_in(more, dimension_), order_of(next), layout_));
     if (next.stage != CutSearch::over_fragments) node.local.keep_chosen(before, next, layout_);
     nodes_.push_back(std::move(node));
 }

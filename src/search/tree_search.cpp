@@ -281,7 +281,6 @@ CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double wei
     CutSearch search;
     search.cut.axis = axis;
     search.num_axes = tree_.plain_cuts ? 1 : dimension_;
-    search.divides = tree_.divides_coincident && !tree_.plain_cuts ? 1 : 0;
     search.cut.at.fill(-infinity);
     search.lower = bracket.lower;
     search.upper = bracket.upper;

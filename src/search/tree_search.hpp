@@ -172,8 +172,8 @@ class TreeSearch {
         Cut cut;
     };
 
-    /// Answer of an owner, followed by the weights of the parts below, the sample for
-    /// splitters, a LotAnswer, or the box of a node that was first counted in a spread search.
+    /// Answer of an owner, followed by the weights of the parts below, a LotAnswer, or the box of a
+    /// node that was first counted in a spread search.
     struct Answer {
         CutSearch search;
         double weight = 0;

@@ -140,7 +140,7 @@ TEST(AnyRanks, make_the_same_cuts) {
             }
 }
 
-// More candidates than are gathered at once: cuts end between bins, at splitters or among ties.
+// More candidates than are gathered at once: cuts end between bins or among ties.
 TEST(AnyRanks, make_the_same_cuts_of_many_points) {
     for (const Coordinate& place : places)
         for (const Weight& weight : {weights[0], weights[1]}) {

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace rrcb {
@@ -93,18 +92,26 @@ TEST(CountInBins, of_a_later_axis_moves_that_axis_alone) {
     EXPECT_EQ(search.cut.at, (Vector{2, 7, -infinity}));
 }
 
-TEST(Tie, samples_once_candidates_were_counted_four_times) {
+TEST(Tie, of_many_candidates_in_one_double_is_broken_without_another_count) {
     CutSearch search = search_in(CutSearch::over_candidates, 2);
     search.by_bits = 1;
+    search.lower = 1;
+    search.upper = 1 + 4 * 0x1p-52;  // four doubles, one in each bin
     CutTarget target = target_of(8);
-    target.num_counts = 3;
-    auto histogram = histogram_of({10});
-    histogram[0] = -2.5;
-    histogram[max_dimension] = 2.5;
+    auto histogram = histogram_of({0, 2, 10, 2});
+    histogram[0] = -1;
+    histogram[max_dimension] = 2;
+    histogram[1] = -5;
+    histogram[max_dimension + 1] = 6;
     decide_by_bins(search, target, layout, histogram);
-    EXPECT_EQ(search.stage, CutSearch::sampling);
+    EXPECT_EQ(search.stage, CutSearch::over_candidates);
+    EXPECT_EQ(search.chosen, 2);
     EXPECT_EQ(search.tied, 1);
     EXPECT_EQ(search.by_bits, 0);
+    EXPECT_EQ(search.cut.at[0], 1 + 0x1p-52);
+    EXPECT_EQ(search.lower, 5);
+    EXPECT_EQ(search.upper, std::nextafter(6.0, infinity));
+    EXPECT_EQ(target.base, 2);
 }
 
 TEST(Tie, of_fragments_is_none_as_their_boxes_only_enclose_the_points) {
@@ -118,42 +125,9 @@ TEST(Tie, of_fragments_is_none_as_their_boxes_only_enclose_the_points) {
     EXPECT_EQ(search.tied, 0);
 }
 
-/// Below, at, between, at and above the splitters (2, 9) and (5, 1).
-CutSearch search_by_splitters(double weight, CutTarget& target) {
-    const std::vector<Vector> splitters{{2, 9}, {5, 1}};
-    CutSearch search = search_in(CutSearch::over_splitters, 2);
-    target = target_of(weight, 0.5);
-    decide_by_splitters(search, target, layout, splitters, histogram_of({3, 2, 4, 2, 3}));
-    return search;
-}
-
-TEST(CountBetweenSplitters, ends_at_a_splitter_on_all_axes_and_behind_it_on_the_last) {
-    CutTarget target;
-    const CutSearch at = search_by_splitters(8.75, target);
-    EXPECT_EQ(at.cut.at, (Vector{5, 1, -infinity}));
-    EXPECT_EQ(at.below, 9);
-    const CutSearch behind = search_by_splitters(5.25, target);
-    EXPECT_EQ(behind.cut.at, (Vector{2, std::nextafter(9.0, infinity), -infinity}));
-    EXPECT_EQ(behind.below, 5);
-}
-
-TEST(CountBetweenSplitters, goes_on_at_its_ends_where_no_splitter_is) {
-    CutTarget target;
-    const CutSearch first = search_by_splitters(0.25, target);
-    EXPECT_EQ(first.stage, CutSearch::sampling);
-    EXPECT_EQ(first.chosen, 0);
-    EXPECT_EQ(target.base, 0);
-    const CutSearch last = search_by_splitters(13.75, target);
-    EXPECT_EQ(last.stage, CutSearch::sampling);
-    EXPECT_EQ(last.chosen, 4);
-    EXPECT_EQ(target.base, 11);
-}
-
 /// Ends among candidates, which `records` holds by position and weight.
-CutSearch search_among(const std::vector<double>& records, CutTarget target,
-                       bool between_splitters = false) {
+CutSearch search_among(const std::vector<double>& records, CutTarget target) {
     CutSearch search = search_in(CutSearch::gathering);
-    search.between_splitters = between_splitters ? 1 : 0;
     decide_among(search, target, records, 1);
     return search;
 }
@@ -163,13 +137,6 @@ TEST(DecideAmong, weighs_candidates) {
     EXPECT_EQ(search_among(records, target_of(6.9)).cut.at[0], 1.5);
     EXPECT_EQ(search_among(records, target_of(7.1)).cut.at[0], 2.5);
     EXPECT_EQ(search_among(records, target_of(7.1)).below, 8);
-}
-
-TEST(DecideAmong, ends_at_the_outermost_candidates_between_splitters) {
-    const std::vector<double> records{2, 1, 1, 1};
-    EXPECT_EQ(search_among(records, target_of(10.25, 0, 10), true).cut.at[0], 1);
-    EXPECT_EQ(search_among(records, target_of(13, 0, 10), true).cut.at[0],
-              std::nextafter(2.0, infinity));
 }
 
 TEST(DecideAmong, finds_a_value_between_the_outermost_and_the_nearest_doubles) {
@@ -183,41 +150,13 @@ TEST(DecideAmong, finds_a_value_between_the_outermost_and_the_nearest_doubles) {
 TEST(DecideAmong, divides_no_lot_where_a_cut_beside_it_is_near_enough) {
     for (const auto& [slack, is_divided] : {std::pair{1.0, false}, std::pair{0.5, true}}) {
         CutSearch search = search_in(CutSearch::gathering);
-        search.divides = 1;
         CutTarget target = target_of(2, slack);
+        target.divides = true;
         decide_among(search, target, std::vector<double>{1, 1, 2, 1, 2, 1, 2, 1, 3, 1}, 1);
         EXPECT_EQ(search.coincident, 1);
         EXPECT_EQ(search.lot_below > 0, is_divided);
         EXPECT_EQ(search.below, is_divided ? 2 : 1);
     }
-}
-
-TEST(LocalSearch, counts_and_keeps_its_candidates_between_splitters) {
-    std::vector<double> x(9);
-    std::iota(x.begin(), x.end(), 0.0);
-    const Points points = interleaved_points(x, 1);
-    const SortedPoints sorted =
-        sort_by_cell(bin_by_cell(points, make_support_mesh(bounding_box(points), 1, 3)));
-    const std::vector<Fragment> fragments = cell_fragments(sorted);
-    LocalSearch local(fragments, sorted);
-    CutSearch all = search_in(CutSearch::over_fragments);
-    CutSearch search = search_in(CutSearch::over_splitters);
-    all.upper = 100;
-    search.chosen = 1;  // all lie in the first bin of width 25
-    local.keep_chosen(all, search, layout);
-    local.take_splitters({{2}, {6}});
-    std::vector<double> histogram(layout.length());
-    clear_histogram(histogram);
-    local.count(search, layout, histogram);
-    EXPECT_EQ(std::vector<double>(histogram.begin() + layout.num_extents,
-                                  histogram.begin() + layout.num_extents + 5),
-              (std::vector<double>{2, 1, 3, 1, 2}));
-    CutSearch after = search;
-    after.chosen = 2;
-    local.keep_chosen(search, after, layout);
-    std::vector<double> records;
-    local.append_candidates(records);
-    EXPECT_EQ(records, (std::vector<double>{3, 1, 4, 1, 5, 1}));
 }
 
 }  // namespace

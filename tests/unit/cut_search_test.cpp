@@ -1,9 +1,8 @@
 // The search for one cut as ranks and root run it, in one process: each rank counts its share of a
-// cloud, their histograms and samples are joined, and the root decides.
+// cloud, their histograms are joined, and the root decides.
 #include "../support/clouds.hpp"
 #include "arithmetic/quantum.hpp"
 #include "search/local_search.hpp"
-#include "search/sample.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,6 +36,7 @@ struct Rank {
 struct Result {
     CutSearch search;
     int rounds = 0;
+    std::vector<int> counts{};  ///< along each axis
     std::size_t most_gathered = 0;
 };
 
@@ -77,14 +77,17 @@ class Search {
         return weight;
     }
 
-    Result run(double share, double slack, const CutSearch& start, bool backwards = false) {
+    Result run(double share, double slack, const CutSearch& start, bool backwards = false,
+               bool divides = false) {
         Result result{start};
+        result.counts.resize(max_dimension);
         CutSearch& search = result.search;
         search.num_axes = std::min<std::int32_t>(search.num_axes, dimension_);
         search.quantum = quantum_for(total_weight());
         CutTarget target;
         target.target = share * total_weight();
         target.slack = slack;
+        target.divides = divides;
         std::vector<LocalSearch> local;
         for (const Rank& rank : ranks_) local.emplace_back(rank.fragments, rank.points);
         while (search.stage != CutSearch::done && result.rounds < 100) {
@@ -95,9 +98,9 @@ class Search {
                     std::max(result.most_gathered, records.size() / (dimension_ + std::size_t{1}));
                 decide_among(search, target, records, dimension_);
             } else {
-                const auto joined = join(before, local, backwards);
-                decide(search, target, local[0].splitters(), joined);
-                for (LocalSearch& one : local) follow(before, search, joined, one);
+                decide_by_bins(search, target, layout_, join(before, local, backwards));
+                for (LocalSearch& one : local) one.keep_chosen(before, search, layout_);
+                ++result.counts[before.tied];
             }
             ++result.rounds;
         }
@@ -116,36 +119,13 @@ class Search {
         std::vector<std::vector<double>> histograms;
         for (std::size_t r = 0; r < local.size(); ++r) {
             std::vector<double>& mine = histograms.emplace_back(layout_.length());
-            if (search.stage == CutSearch::sampling) {
-                local[r].add_candidates(static_cast<int>(r), clear_to_sample(dimension_, mine));
-            } else {
-                clear_histogram(mine);
-                local[r].count(search, layout_, mine);
-            }
+            clear_histogram(mine);
+            local[r].count(search, layout_, mine);
         }
         if (backwards) std::ranges::reverse(histograms);
         for (std::size_t r = 1; r < histograms.size(); ++r)
             join_histograms(histograms[r], histograms[0]);
         return histograms[0];
-    }
-
-    void decide(CutSearch& search, CutTarget& target, std::span<const Vector> splitters,
-                std::span<const double> joined) const {
-        if (search.stage == CutSearch::sampling) {
-            search.stage = CutSearch::over_splitters;
-        } else if (search.stage == CutSearch::over_splitters) {
-            decide_by_splitters(search, target, layout_, splitters, joined);
-        } else {
-            decide_by_bins(search, target, layout_, joined);
-        }
-    }
-
-    void follow(const CutSearch& before, const CutSearch& after, std::span<const double> joined,
-                LocalSearch& one) const {
-        if (before.stage == CutSearch::sampling)
-            one.take_splitters(splitters_of(positions_in(sample_in(joined), dimension_),
-                                            order_of(after), layout_));
-        one.keep_chosen(before, after, layout_);
     }
 
     std::vector<Rank> ranks_;
@@ -228,14 +208,14 @@ const std::vector<Cloud>& hard_clouds() {
     return clouds;
 }
 
-TEST(CutSearch, ends_within_sixteen_rounds_and_gathers_a_bounded_number_whatever_the_cloud) {
+TEST(CutSearch, counts_at_most_13_times_along_an_axis_and_gathers_few_whatever_the_cloud) {
     constexpr double largest = std::numeric_limits<double>::max();
     for (const Cloud& cloud : hard_clouds()) {
         Search search(cloud, 60000, 3, false);
         for (const double share : {0.5, 0.01, 0.73}) {
             const Result result = search.run(share, 0.5, across(0, -largest, infinity));
             ASSERT_EQ(result.search.stage, CutSearch::done) << cloud.name;
-            EXPECT_LE(result.rounds, 16) << cloud.name;
+            EXPECT_LE(std::ranges::max(result.counts), 13) << cloud.name;
             EXPECT_LE(result.most_gathered, static_cast<std::size_t>(most_gathered)) << cloud.name;
             const double below = search.weight_below(result.search.cut);
             EXPECT_EQ(below, result.search.below) << cloud.name;
@@ -247,19 +227,10 @@ TEST(CutSearch, ends_within_sixteen_rounds_and_gathers_a_bounded_number_whatever
     }
 }
 
-TEST(CutSearch, divides_by_splitters_what_bins_do_not) {
-    Search search(uneven_in_all_bins(), 60000, 3, false);
-    const Result result = search.run(0.5, 0.5, across(0, -1, infinity));
-    EXPECT_EQ(result.search.between_splitters, 1);
-    EXPECT_NEAR(search.weight_below(result.search.cut), 30000, 0.5);
-}
-
 TEST(CutSearch, finds_a_cut_that_divides_its_lot_by_the_weight_missing) {
     const Cloud& few_places = hard_clouds()[7];
     Search search(few_places, 21000, 4, false);
-    CutSearch start = across(0, 0, 7);
-    start.divides = 1;
-    const Result result = search.run(0.5, 0.5, start);
+    const Result result = search.run(0.5, 0.5, across(0, 0, 7), false, true);
     EXPECT_EQ(result.search.coincident, 1);
     EXPECT_EQ(result.search.below, 10500);
     EXPECT_GT(result.search.lot_below, 0);
@@ -301,21 +272,6 @@ TEST(CutSearch, does_not_depend_on_the_order_in_which_ranks_are_joined) {
         EXPECT_EQ(forwards.search.below, backwards.search.below) << cloud.name;
         EXPECT_EQ(forwards.rounds, backwards.rounds) << cloud.name;
     }
-}
-
-TEST(Splitters, have_a_slot_each_and_one_between_any_two) {
-    CutSearch search = across(1, 0, 1, 2);
-    const PositionOrder order = order_of(search);
-    // Across axis 1 first, then along axis 0.
-    const auto splitters = splitters_of({{2, 5}, {1, 5}, {9, 4}, {1, 5}}, order, {});
-    ASSERT_EQ(splitters, (std::vector<Vector>{{9, 4}, {1, 5}, {2, 5}}));
-    EXPECT_EQ(slot_between(splitters, order, {0, 4}), 0);
-    EXPECT_EQ(slot_between(splitters, order, {9, 4}), 1);
-    EXPECT_EQ(slot_between(splitters, order, {0, 5}), 2);
-    EXPECT_EQ(slot_between(splitters, order, {1, 5}), 3);
-    EXPECT_EQ(slot_between(splitters, order, {1.5, 5}), 4);
-    EXPECT_EQ(slot_between(splitters, order, {2, 5}), 5);
-    EXPECT_EQ(slot_between(splitters, order, {0, 6}), 6);
 }
 
 TEST(Quantum, keeps_sums_of_rounded_weights_exact_in_any_order) {

@@ -1,4 +1,5 @@
 // Every stage of the search for one cut by itself, on histograms and candidates worked out by hand.
+#include "arithmetic/quantum.hpp"
 #include "cut_search_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +63,6 @@ TEST(Narrow, goes_on_in_the_slot_of_the_target) {
     EXPECT_EQ(search.by_bits, 0);
     EXPECT_EQ(target.base, 5);
     EXPECT_EQ(target.num_candidates, 5000);
-    EXPECT_EQ(target.num_counts, 0);  // the fragments are none of the counts of candidates
 }
 
 TEST(Narrow, reaches_to_the_outermost_point_beyond_the_bracket) {
@@ -81,19 +81,12 @@ TEST(Narrow, reaches_to_the_outermost_point_beyond_the_bracket) {
     EXPECT_EQ(search.upper, std::nextafter(9.0, infinity));
 }
 
-TEST(Narrow, takes_bins_by_bits_then_splitters_where_bins_of_equal_width_do_not_help) {
+TEST(Narrow, takes_bins_by_bits_where_bins_of_equal_width_do_not_help) {
     CutSearch search = search_in(CutSearch::over_candidates);
     CutTarget target = target_of(8);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.stage, CutSearch::over_candidates);
     EXPECT_EQ(search.by_bits, 1);
-    EXPECT_EQ(target.num_counts, 1);
-
-    search = search_in(CutSearch::over_candidates);
-    target = target_of(8);
-    target.num_counts = 3;
-    decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
-    EXPECT_EQ(search.stage, CutSearch::sampling);
 }
 
 TEST(Narrow, gathers_candidates_once_they_are_few) {
@@ -136,61 +129,19 @@ TEST(Tie, on_all_axes_leaves_the_points_on_the_nearer_side) {
 
 TEST(Tie, on_all_axes_divides_the_points_where_they_are_to_be_divided) {
     CutSearch search = search_in(CutSearch::over_candidates);
-    search.divides = 1;
     CutTarget target = target_of(7, 0, 3);
+    target.divides = true;
     decide_by_bins(search, target, layout, histogram_of({0, 10}, many, 2.5, 2.5));
     EXPECT_EQ(search.cut.at[0], 2.5);
     EXPECT_EQ(search.lot_below, 4);
     EXPECT_EQ(search.below, 7);
 }
 
-/// Below, at, between, at and above the splitters 2 and 5.
-const std::vector<double> weights_about_splitters{3, 1, 4, 1, 3};
-const std::vector<Vector> splitters{{2}, {5}};
-
-CutSearch search_by_splitters(double weight, double count, CutTarget& target) {
-    CutSearch search = search_in(CutSearch::over_splitters);
-    target = target_of(weight);
-    decide_by_splitters(search, target, layout, splitters,
-                        histogram_of(weights_about_splitters, count));
-    return search;
-}
-
-TEST(CountBetweenSplitters, ends_before_or_behind_a_splitter) {
-    CutTarget target;
-    const CutSearch before = search_by_splitters(8, many, target);
-    EXPECT_EQ(before.stage, CutSearch::done);
-    EXPECT_EQ(before.cut.at[0], 5);
-    EXPECT_EQ(before.below, 8);
-    const CutSearch behind = search_by_splitters(4, many, target);
-    EXPECT_EQ(behind.cut.at[0], std::nextafter(2.0, infinity));
-    EXPECT_EQ(behind.below, 4);
-}
-
-TEST(CountBetweenSplitters, ends_among_the_points_at_a_splitter) {
-    CutTarget target;
-    const CutSearch search = search_by_splitters(3.25, many, target);
-    EXPECT_EQ(search.stage, CutSearch::done);
-    EXPECT_EQ(search.coincident, 1);
-    EXPECT_EQ(search.cut.at[0], 2);
-    EXPECT_EQ(search.below, 3);
-}
-
-TEST(CountBetweenSplitters, goes_on_between_two_by_a_sample_or_by_all_points) {
-    for (const bool is_many : {true, false}) {
-        CutTarget target;
-        const CutSearch search = search_by_splitters(6, is_many ? many : few, target);
-        EXPECT_EQ(search.stage, is_many ? CutSearch::sampling : CutSearch::gathering);
-        EXPECT_EQ(search.between_splitters, 1);
-        EXPECT_EQ(search.chosen, 2);
-        EXPECT_EQ(target.base, 4);
-    }
-}
-
 /// Ends among candidates of weight 1 on a line.
-CutSearch search_among(const std::vector<double>& positions, CutTarget target, int divides = 0) {
+CutSearch search_among(const std::vector<double>& positions, CutTarget target,
+                       bool divides = false) {
     CutSearch search = search_in(CutSearch::gathering);
-    search.divides = divides;
+    target.divides = divides;
     std::vector<double> records;
     for (const double x : positions) records.insert(records.end(), {x, 1});
     decide_among(search, target, records, 1);
@@ -216,7 +167,7 @@ TEST(DecideAmong, keeps_candidates_in_one_place_together_or_divides_them) {
     EXPECT_EQ(together.coincident, 1);
     EXPECT_EQ(together.cut.at[0], 1.5);
     EXPECT_EQ(together.below, 1);
-    const CutSearch divided = search_among(positions, target_of(2), 1);
+    const CutSearch divided = search_among(positions, target_of(2), true);
     EXPECT_EQ(divided.coincident, 1);
     EXPECT_EQ(divided.cut.at[0], 2);
     EXPECT_EQ(divided.lot_below, 1);

@@ -1,7 +1,5 @@
 #include "search/histogram.hpp"
 
-#include "search/sample.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -21,7 +19,6 @@ std::vector<double> empty() {
 TEST(Histogram, that_is_empty_leaves_another_as_it_is) {
     std::vector<double> histogram(layout.length());
     for (std::size_t k = 0; k < histogram.size(); ++k) histogram[k] = static_cast<double>(k) - 3;
-    histogram[HistogramLayout::sample_dimension] = 0;
     const std::vector<double> before = histogram;
     join_histograms(empty(), histogram);
     EXPECT_EQ(histogram, before);
@@ -44,15 +41,6 @@ TEST(Histogram, is_joined_by_the_largest_extent_and_the_sums_of_all_slots) {
     EXPECT_EQ(one[1], -std::numeric_limits<double>::infinity()) << "nobody told of this axis";
     for (std::size_t k = layout.num_extents; k < layout.length(); ++k)
         EXPECT_EQ(one[k], static_cast<double>(k) + 100);
-}
-
-TEST(Histogram, of_samples_holds_the_positions_of_both) {
-    std::vector<double> one = empty();
-    std::vector<double> other = empty();
-    add_to_sample(5, {1, 2}, 2, clear_to_sample(2, one));
-    add_to_sample(7, {3, 4}, 2, clear_to_sample(2, other));
-    join_histograms(other, one);
-    EXPECT_EQ(positions_in(sample_in(one), 2), (std::vector<Vector>{{3, 4}, {1, 2}}));
 }
 
 }  // namespace

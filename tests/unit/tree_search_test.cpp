@@ -438,8 +438,7 @@ TEST(TreeSearch, leaves_parts_of_no_size_empty) {
 }
 
 TEST(TreeSearch, gathers_no_more_than_it_may_whatever_shares_a_coordinate) {
-    // More points in one bin, and in one place, than are gathered: bins by bits, ties, and next to
-    // 1 samples as well.
+    // More points in one bin, and in one place, than are gathered: bins by bits, and ties.
     for (const char* cloud : {"decades", "lattice", "one place", "corner", "next to 1"})
         expect_exact({.num_ranks = 5,
                       .num_regions = 2,

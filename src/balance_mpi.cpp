@@ -12,6 +12,7 @@
 #include "gather/kept_parts_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "gather/spread_reuse_mpi.hpp"
+#include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 #include "options/stage_scope.hpp"
 #include "settlement_mpi.hpp"
@@ -24,7 +25,8 @@
 
 // A call has five steps:
 //   prepare    checks options and points, and allocates memory for all messages
-//   estimate   rank 0 bisects the cells of all ranks, or weighs the parts of earlier cuts
+//   estimate   rank 0 bisects the cells of all ranks, or weighs the parts of earlier cuts, or only
+//              adds up the points if many ranks make the parts
 //   keep?      are the parts that the ranks hold, or those of the earlier cuts, even enough?
 //   settle     if not, the cuts move by counts of all ranks
 //   report     imbalance, and the weight of each part
@@ -39,13 +41,14 @@ struct Call {
     Call(const Points& given, StageObserver* observer, Participant& self,
          std::vector<Part>&& memory)
         : points(given), ranks(ranks_of(self)) {
-        options.parts.observer = observer;
+        options.observer = observer;
         result.parts = std::move(memory);
     }
 
     Points points;  ///< without weights if all of them are 0
     Ranks ranks;
-    CallOptions options;
+    Options options;  ///< complete; sizes are normalized, but none if many ranks make equal parts
+    bool is_spread = false;  ///< many ranks make the parts
     Contribution mine;
     Decision decision;
     BinnedPoints binned;
@@ -59,7 +62,8 @@ void introduce(const Options& given, const Box& box, const Cuts* previous, Call&
     const Points& points = call.points;
     Options options = complete(given, call.ranks, previous);
     check_options(options, points.dimension);
-    require(options.tree.dealt == 0 || !is_spread(options, call.ranks.number),
+    call.is_spread = is_spread(options, call.ranks.number);
+    require(options.tree.dealt == 0 || !call.is_spread,
             "tree.dealt must be 0 if many ranks make the parts; raise tuning.central_parts");
     if (previous) check_previous(*previous, options, points.dimension);
     call.mine.summary = summarize(points, box, mpi::rank_of(self.comm));
@@ -68,7 +72,9 @@ void introduce(const Options& given, const Box& box, const Cuts* previous, Call&
         for (Part end = 0; end < options.num_parts; ++end)
             options.part_sizes[end] =
                 given.part_sizes[options.tree.part_at(end, options.num_parts)];
-    call.options = call_options(std::move(options), call.ranks.number);
+    if (!call.is_spread || !options.part_sizes.empty())
+        normalize(options.part_sizes, options.num_parts);
+    call.options = std::move(options);
     call.result.parts.resize(points.count);
 }
 
@@ -78,7 +84,7 @@ void number_parts(Call& call) {
     if (cuts.shape.dealt == 0) return;
     number_parts(cuts, call.result.parts);
     std::vector<double>& of_parts = call.result.report.part_weights;
-    std::vector<double>& of_ends = call.options.parts.part_sizes;
+    std::vector<double>& of_ends = call.options.part_sizes;
     if (of_parts.empty()) return;
     std::ranges::copy(of_parts, of_ends.begin());
     for (Part end = 0; end < cuts.num_parts; ++end) of_parts[part_at(cuts, end)] = of_ends[end];
@@ -87,12 +93,12 @@ void number_parts(Call& call) {
 /// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
 void estimate(Call& call, Participant& self) {
     {
-        const StageScope stage(call.options.parts.observer, Stage::gather, self.arithmetic);
+        const StageScope stage(call.options.observer, Stage::gather, self.arithmetic);
         merge_up(call.mine, call.points.dimension, MergeTree{mpi::size_of(self.comm)},
-                 most_merged_cells(call.options), self);
+                 most_cells(call.options), self);
     }
-    decide_together(call.mine, call.options.central(), call.decision, self);
-    const Options& options = call.options.parts;
+    const Options& options = call.options;
+    decide_together(call.mine, options, call.decision, self);
     call.result.report = report_of(call.decision.verdict, options.num_parts, options.part_sizes);
     call.result.cuts = std::move(call.decision.bisection.cuts);
     if (call.result.report.details.all_weights_zero)
@@ -106,27 +112,29 @@ void prepare(const Options& given, bool may_keep, Call& call, KeptParts& kept,
     const Points& points = call.points;
     const Box box = check_points(points);
     introduce(given, box, nullptr, call, self);
-    const Options& central = call.options.central();
-    kept.prepare(call.options, points, may_keep, mpi::rank_of(self.comm), mpi::size_of(self.comm),
-                 call.mine);
-    make_buffers(call.decision, central, points.dimension, kept.is_central());
-    call.settlement.prepare(call.options, kept.is_central(), self);
-    call.binned = bin_by_options(points, box, central);
+    const Options& options = call.options;
+    kept.prepare(options, call.is_spread, points, may_keep, mpi::rank_of(self.comm),
+                 mpi::size_of(self.comm), call.mine);
+    call.binned = bin_by_options(points, box, options);
+    call.settlement.prepare(options, call.is_spread, kept.is_central(), self);
+    call.decision.bisects = !call.is_spread;
+    if (call.is_spread) return;
+    make_buffers(call.decision, options, points.dimension, kept.is_central());
     add_records(points, call.binned, call.mine);
 }
 
-/// Makes the parts from the cuts of rank 0; many ranks may divide these further. Collective.
+/// Makes the parts, from the cuts of rank 0 if it makes them. Collective.
 void settle(Call& call, Participant& self) {
     Settlement& settlement = call.settlement;
     const Verdict& verdict = call.decision.verdict;
-    if (is_refined(call.options.central()) && verdict.num_points > 0) {
+    if (call.is_spread) {
+        settlement.search(call.binned, verdict, call.result, self);
+    } else if (is_refined(call.options) && verdict.num_points > 0) {
         const auto bin = [&]() -> const BinnedPoints& { return call.binned; };
         settlement.refine(call.points, std::ref(bin), call.decision, call.result, self);
     } else {
         settlement.assign(call.points, verdict.kept_imbalance < not_kept, call.result, self);
     }
-    if (call.options.is_spread())
-        settlement.divide_regions(call.binned, verdict, call.result, self);
 }
 
 Balance balance_from_scratch(const Points& points, const Options& given, bool may_keep,
@@ -135,7 +143,7 @@ Balance balance_from_scratch(const Points& points, const Options& given, bool ma
     KeptParts kept;
     self.attempt([&] { prepare(given, may_keep, call, kept, self); });
     estimate(call, self);
-    const Options& options = call.options.parts;
+    const Options& options = call.options;
     kept.read(call.decision.verdict, call.result, self);
     bool is_kept = kept.are_good(options.imbalance_tolerance);
     if (!is_kept) {
@@ -143,7 +151,7 @@ Balance balance_from_scratch(const Points& points, const Options& given, bool ma
         is_kept = kept.do_as_well_as(call.result.report.imbalance, options);
     }
     if (is_kept) kept.keep(call.options, call.decision, call.result, self);
-    if (call.options.is_spread()) hold_cuts(call.points, options, call.result, self);
+    if (call.is_spread) hold_cuts(call.points, options, call.result, self);
     number_parts(call);
     return std::move(call.result);
 }
@@ -154,10 +162,10 @@ struct EarlierParts {
     std::optional<SpreadReuse> spread{};  ///< if many ranks weigh the parts; else rank 0 does
 };
 
-/// Returns true if a call by these options may begin with earlier cuts.
-bool may_reuse(const Cuts& previous, const CallOptions& options) {
-    if (!options.is_spread()) return is_whole(previous);
-    return options.parts.refine != Refine::exact && !options.parts.axes.order.is_given();
+/// Returns true if the call may begin with earlier cuts.
+bool may_reuse(const Cuts& previous, const Call& call) {
+    if (!call.is_spread) return is_whole(previous);
+    return call.options.refine != Refine::exact && !call.options.axes.order.is_given();
 }
 
 /// Prepares a call from earlier cuts: assigns the points by them, and counts the parts if they may
@@ -168,20 +176,20 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
     const Points& points = call.points;
     check_arrays(points);
     introduce(given, Box{}, &previous, call, self);
-    if (!may_reuse(previous, call.options)) return;
-    const CallOptions& options = call.options;
-    const Cuts& cuts = take_earlier(call.decision, options, previous);
-    if (counts_earlier_parts(options.parts)) {
+    if (!may_reuse(previous, call)) return;
+    const Options& options = call.options;
+    const Cuts& cuts = take_earlier(call.decision, options, call.is_spread, previous);
+    if (counts_earlier_parts(options)) {
         earlier.totals = assign_and_count(cuts, points, call.result.parts);
         if (!earlier.totals.all_finite) reject_coordinates(points);
     } else {
         check_points(points);
     }
-    if (options.is_spread()) {
+    if (call.is_spread) {
         earlier.spread.emplace(cuts, earlier.totals, is_whole(previous), options, points,
                                call.result.parts, self.comm);
     } else {
-        call.settlement.prepare(options, are_cuts_limited(options.parts), self);
+        call.settlement.prepare(options, false, are_cuts_limited(options), self);
         add_totals(earlier.totals, call.mine);
     }
 }
@@ -190,7 +198,7 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
 /// many ranks weigh their parts.
 bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
     if (earlier.spread) return earlier.spread->ends(call.result, self);
-    const Options& options = call.options.parts;
+    const Options& options = call.options;
     Report& report = call.result.report;
     if (report.details.num_points == 0) return true;
     if (are_cuts_limited(options)) return false;
@@ -205,7 +213,7 @@ bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
 
 /// Moves the earlier cuts, first to allowed positions if there are limits. Collective.
 void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& self) {
-    const Options& options = call.options.parts;
+    const Options& options = call.options;
     Decision& decision = call.decision;
     const Box box = bounding_box(call.points);
     decision.verdict.box = box_together(box, self);
@@ -255,22 +263,22 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     EarlierParts earlier;
     self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
     // Both ways begin with the same messages, so a rank that has failed does not wait alone.
-    if (!self.failed() && !may_reuse(previous, call.options))
+    if (!self.failed() && !may_reuse(previous, call))
         return balance_from_scratch(points, given, may_keep, self, std::move(call.result.parts));
     estimate(call, self);
     const bool is_kept = keeps_earlier(call, earlier, self);
-    if (call.options.is_spread()) {
+    if (call.is_spread) {
         if (!is_kept)
             return balance_from_scratch(points, given, may_keep, self,
                                         std::move(call.result.parts));
-        hold_cuts(call.points, call.options.parts, call.result, self);
+        hold_cuts(call.points, call.options, call.result, self);
         return std::move(call.result);
     }
     if (!is_kept) settle_from_earlier(call, earlier, self);
     number_parts(call);
-    if (!may_be_poor(call.result.report, call.options.parts)) return std::move(call.result);
+    if (!may_be_poor(call.result.report, call.options)) return std::move(call.result);
     return better(std::move(call.result), balance_from_scratch(points, given, false, self, {}),
-                  call.options.parts);
+                  call.options);
 }
 
 }  // namespace

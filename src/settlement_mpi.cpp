@@ -6,6 +6,7 @@
 #include "cuts/direct_assignment.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "options/call_kind.hpp"
 #include "options/stage_scope.hpp"
 
 #include <algorithm>
@@ -15,12 +16,6 @@
 namespace rrcb {
 
 namespace {
-
-/// Gives points the number of the first part of their region, in place of its own.
-void number_as_in_tree(const Options& options, Balance& result) {
-    const std::vector<Descent> regions = region_nodes(options, result.cuts.num_parts);
-    for (Part& part : result.parts) part = regions[part].first_part;
-}
 
 /// Returns the cuts above each of these points, and those known before. Collective.
 Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self) {
@@ -38,16 +33,19 @@ Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self)
 
 }  // namespace
 
-void Settlement::prepare(const CallOptions& options, bool counts, const Participant& self) {
+void Settlement::prepare(const Options& options, bool is_spread, bool counts,
+                         const Participant& self) {
     options_ = &options;
-    const Options& central = options.central();
-    if (is_refined(central) || counts) sums_ = PartSums(central.part_sizes.size());
-    if (is_refined(central)) refinement_.emplace(central, self, sums_);
-    if (options.is_spread()) below_regions_.emplace(self);
+    if (is_spread) {
+        of_many_.emplace(self);
+        return;
+    }
+    if (is_refined(options) || counts) sums_ = PartSums(options.part_sizes.size());
+    if (is_refined(options)) refinement_.emplace(options, self, sums_);
 }
 
 void Settlement::assign(const Points& points, bool counts, Balance& result, Participant& self) {
-    const StageScope stage(options_->parts.observer, Stage::assignment, self.arithmetic);
+    const StageScope stage(options_->observer, Stage::assignment, self.arithmetic);
     self.attempt([&] {
         if (!counts) {
             assign_known(result.cuts, points, result.parts);
@@ -57,9 +55,8 @@ void Settlement::assign(const Points& points, bool counts, Balance& result, Part
         std::ranges::copy(totals.weights, sums_.here().begin());
     });
     if (!counts) return agree(self);
-    const Options& central = options_->central();
-    const double imbalance = sums_.add_up(central.part_sizes, self);
-    report_measured(imbalance, central.imbalance_tolerance, result.report);
+    const double imbalance = sums_.add_up(options_->part_sizes, self);
+    report_measured(imbalance, options_->imbalance_tolerance, result.report);
     result.report.part_weights = sums_.take();
 }
 
@@ -69,8 +66,7 @@ void Settlement::take_counts(std::span<const double> here, std::span<const doubl
 
 void Settlement::refine(const Points& points, const Bin& bin, Decision& decision, Balance& result,
                         Participant& self) {
-    const Options& central = options_->central();
-    const StageScope stage(central.observer, Stage::refinement, self.arithmetic);
+    const StageScope stage(options_->observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
     const Verdict& verdict = decision.verdict;
     Estimate estimate{std::move(result.cuts),
@@ -80,39 +76,30 @@ void Settlement::refine(const Points& points, const Bin& bin, Decision& decision
                       verdict.kept_imbalance,
                       !decision.part_weights.empty(),
                       verdict.heaviest,
-                      decision.reuses,
+                      !decision.bisects,
                       verdict.box};
     Refined refined = refinement_->refine(std::move(estimate), points, bin, result.parts, self);
-    report_measured(refined.imbalance, central.imbalance_tolerance, report);
+    report_measured(refined.imbalance, options_->imbalance_tolerance, report);
     report.part_weights = sums_.take();
     report.details.rounds = refined.rounds;
     report.details.coincident_cuts = refined.coincident_cuts;
     result.cuts = std::move(refined.cuts);
 }
 
-void Settlement::divide_regions(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
-                                Participant& self) {
-    const Options& options = options_->parts;
-    const StageScope stage(options.observer, Stage::refinement, self.arithmetic);
-    refinement_.reset();
+void Settlement::search(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
+                        Participant& self) {
+    const StageScope stage(options_->observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
-    const double weight = weight_of(report);
-    // The report has no weights without points, or for one region.
-    std::vector<double> weights = std::exchange(report.part_weights, {});
-    self.attempt([&] { weights.resize(result.cuts.num_parts, weight); });
-    self.attempt([&] { number_as_in_tree(options, result); });
-    const Regions regions{std::move(result.cuts), weights, verdict.box,
-                          report.details.coincident_cuts};
-    PartTree tree = tree_of(options, mpi::size_of(self.comm));
-    tree.weight = weight;
+    PartTree tree = tree_of(*options_, mpi::size_of(self.comm));
+    tree.weight = weight_of(report);
     tree.rule.common_weight = verdict.common_weight;
     tree.rule.heaviest = verdict.heaviest;
-    Refined refined = below_regions_->refine(regions, tree, binned, result.parts, self);
+    Refined refined = of_many_->refine(verdict.box, tree, binned, result.parts, self);
     agree(self);
     result.cuts = std::move(refined.cuts);
     if (report.details.num_points > 0)
-        report_measured(refined.imbalance, options.imbalance_tolerance, report);
-    report.details.rounds += refined.rounds;
+        report_measured(refined.imbalance, options_->imbalance_tolerance, report);
+    report.details.rounds = refined.rounds;
     report.details.coincident_cuts = refined.coincident_cuts;
 }
 

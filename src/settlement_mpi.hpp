@@ -1,6 +1,5 @@
 #pragma once
 
-#include "gather/call_options.hpp"
 #include "gather/decision_mpi.hpp"
 #include "search/refinement_mpi.hpp"
 
@@ -11,13 +10,13 @@
 
 namespace rrcb {
 
-/// Makes the parts from the cuts that rank 0 decided on, with buffers made before the first
-/// message.
+/// Makes the parts, from the cuts of rank 0 or by a search of many ranks, with buffers made before
+/// the first message.
 class Settlement {
   public:
-    /// Makes the buffers; `counts` if parts are counted even if the cuts are kept. Borrows
-    /// `options`. Not collective. Throws Error or std::bad_alloc.
-    void prepare(const CallOptions& options, bool counts, const Participant& self);
+    /// Makes the buffers; `counts` if parts are counted even if the cuts are kept. Borrows the
+    /// complete `options`. Not collective. Throws Error or std::bad_alloc.
+    void prepare(const Options& options, bool is_spread, bool counts, const Participant& self);
 
     /// Assigns the points by unchanged cuts; if `counts`, counts the parts. Collective.
     void assign(const Points& points, bool counts, Balance& result, Participant& self);
@@ -29,15 +28,15 @@ class Settlement {
     void refine(const Points& points, const Bin& bin, Decision& decision, Balance& result,
                 Participant& self);
 
-    /// Makes the parts below the regions that are the parts of `result`. Collective.
-    void divide_regions(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
-                        Participant& self);
+    /// Makes the parts by a search of many ranks. Collective.
+    void search(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
+                Participant& self);
 
   private:
-    const CallOptions* options_ = nullptr;
+    const Options* options_ = nullptr;
     PartSums sums_;
-    std::optional<Refinement> refinement_;           ///< if cuts may move
-    std::optional<RegionRefinement> below_regions_;  ///< if many ranks make the parts
+    std::optional<Refinement> refinement_;     ///< if cuts of rank 0 may move
+    std::optional<SpreadRefinement> of_many_;  ///< if many ranks make the parts
 };
 
 /// Gives each rank the cuts by Options::cuts after many ranks made the parts; with all cuts also

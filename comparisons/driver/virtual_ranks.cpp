@@ -1,5 +1,4 @@
-// What the search for the cuts below the regions takes on a great many virtual ranks in this
-// process, as a row of CSV.
+// Cost of the search for cuts by a great many virtual ranks in this process, as a row of CSV.
 #include "../../tests/support/virtual_search.hpp"
 
 #include <mpi.h>
@@ -38,10 +37,9 @@ bool read(int argc, char** argv, Arguments& arguments) {
 }
 
 void print_row(const Arguments& of) {
-    const int num_regions = of.tolerance > 1 ? 64 : 1;
     const auto start = std::chrono::steady_clock::now();
     const rrcb::test::VirtualCloud cloud(of.side, of.points_per_rank, of.layout);
-    rrcb::test::VirtualSearch ranks(cloud, num_regions, of.tolerance);
+    rrcb::test::VirtualSearch ranks(cloud, of.tolerance);
     const rrcb::test::SearchTotals totals = ranks.search();
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     std::cout << "ranks,layout,tolerance,points_per_rank,rounds,messages,bytes,bytes_in_a_row,"

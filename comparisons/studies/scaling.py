@@ -26,10 +26,9 @@ RANKS = (2, 3, 4, 8, 16, 32, 64)
 MOST_RANKS = 1 << 20
 COUNTED_POINTS = 5000  # a rank, of the counted calls
 CENTRAL_PARTS = 4096  # as many as rank 0 makes alone
-REGIONS = 64  # that it makes of more, unless cuts are exact
 FIXED_PER_LEVEL = 14  # collectives of a level of Zoltan's RCB besides the search for its median
 CHILDREN = 7  # of a rank in a tree of radix 8
-RANK_CELLS, CENTRAL_CELLS, MANY_CELLS = 16, 8192, 224  # of a rank, and the most handed on
+RANK_CELLS, CENTRAL_CELLS = 16, 8192  # of a rank, and the most handed on
 NS_PER_POINT, NS_PER_LOOK, NS_PER_CELL = 20, 2, 50  # moments and assignment; a look; a merge
 POINT_BYTES = 16  # in 2-D
 TERMS = {"1": lambda p: 1.0, "log": log2, "root": sqrt, "ranks": float, "ranks^1.5": lambda p: p**1.5}
@@ -136,9 +135,9 @@ def path(name: str, counts: pd.DataFrame, ranks: int, machine: Machine, virtual:
         work = 2 * NS_PER_POINT + NS_PER_LOOK * collectives["1"]
     else:
         is_central = ranks <= CENTRAL_PARTS
-        most = min(CENTRAL_CELLS if is_central else MANY_CELLS, RANK_CELLS * ranks)
+        most = min(CENTRAL_CELLS, RANK_CELLS * ranks) if is_central else 0  # many ranks need none
         climb = [min(most, RANK_CELLS * 8**level) for level in range(ceil(log / 3))]
-        cells = CHILDREN * sum(climb) + most * (log if is_central else 2 * log2(REGIONS))
+        cells = CHILDREN * sum(climb) + most * log
         messages += 2 * CHILDREN * len(climb)
         work += NS_PER_LOOK * log * (name == "rrcb-exact" or not is_central)
         work += NS_PER_CELL * cells / machine.points
@@ -158,9 +157,8 @@ def _search(virtual: pd.DataFrame, tolerance: float, ranks: int) -> tuple[float,
     """Messages and bytes one after the other, and bytes into a rank, by the most of any number of
     virtual ranks."""
     rows = virtual[virtual["tolerance"] == tolerance]
-    above = log2(REGIONS) if tolerance > 1 else 0
-    steps, rounds = log2(ranks), (rows["rounds"] / (np.log2(rows["ranks"]) - above)).max()
-    rounds *= steps - above
+    steps = log2(ranks)
+    rounds = steps * (rows["rounds"] / np.log2(rows["ranks"])).max()
     size = (rows["bytes_in_a_row"] / rows["rounds"] / 2 / np.log2(rows["ranks"])).max()
     into_rank = rounds * rows["most_into_rank"].max()
     return (2 * rounds + 3) * steps, 2 * rounds * steps * size, into_rank

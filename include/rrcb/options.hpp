@@ -87,8 +87,7 @@ struct Tuning {
                            ///< 3-D 256; 0: by its points
 
     /// Most parts that rank 0 makes without the others, at least 2. If there are more, and more
-    /// ranks, it makes regions, and each cut below them is found by a rank of its parts. So is
-    /// every cut with Refine::exact, or if the tolerance is missed. No effect with Refine::none,
+    /// ranks, each cut is found by a rank of its parts. No effect with Refine::none,
     /// Axes::min_width, Axes::grid or AxisOrder::grouped().
     int central_parts = 4096;
 };

@@ -27,9 +27,9 @@ RRCB_API const char* name_of(Stage stage);
 /// Observes on its own rank when a stage of `balance` begins and when it ends.
 ///
 /// Every stage that begins ends before another does, in failing calls too. Some come again in a
-/// call: the broadcast if points stay after new cuts were counted; the refinement if many
-/// ranks make the parts, first of regions, which with Refine::exact are assigned instead; all from
-/// the moments on if earlier cuts that are spread over the ranks do not stay, or may be poor.
+/// call: the broadcast if points stay after new cuts were counted; all from the moments on if
+/// earlier cuts that are spread over the ranks do not stay, or may be poor. Many ranks that make
+/// the parts do so in the refinement, without a bisection.
 /// The functions may not communicate over the communicator of the call, nor throw, since no rank
 /// may fail alone.
 class RRCB_API StageObserver {

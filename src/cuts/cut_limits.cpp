@@ -10,10 +10,6 @@
 
 namespace rrcb {
 
-bool are_cuts_limited(const Options& options) {
-    return !options.axes.min_width.empty() || !options.axes.grid.empty();
-}
-
 std::array<AxisLimits, max_dimension> axis_limits(const Options& options) {
     std::array<AxisLimits, max_dimension> axes;
     for (std::size_t a = 0; a < std::max(options.axes.min_width.size(), options.axes.grid.size());

@@ -7,9 +7,6 @@
 
 namespace rrcb {
 
-/// Returns true if the options limit the places of cuts: by min_width or a grid.
-bool are_cuts_limited(const Options& options);
-
 /// Returns the limits of cuts across each axis; for any options.
 std::array<AxisLimits, max_dimension> axis_limits(const Options& options);
 

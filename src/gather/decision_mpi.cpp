@@ -67,10 +67,10 @@ void check_together(const Summary& summary) {
 }
 
 /// Calls `visit` with each array of the message: the kept parts if points are kept, the weights of
-/// the parts of earlier cuts if all ranks have these cuts, otherwise the new cuts.
+/// the parts of earlier cuts if rank 0 makes no cuts, otherwise the new cuts.
 template <class Visit>
 void for_each_array(Decision& decision, Visit&& visit) {
-    if (decision.reuses) return visit(std::span(decision.part_weights));
+    if (!decision.bisects) return visit(std::span(decision.part_weights));
     const bool keeps = decision.verdict.keeps != 0;
     visit(std::span(keeps ? decision.kept.cuts.tree : decision.bisection.cuts.tree));
     if (keeps) visit(std::span(decision.kept.part_weights));
@@ -165,24 +165,20 @@ double weight_of(const Report& report) {
                                            : report.details.total_weight;
 }
 
-bool is_refined(const Options& options) {
-    return options.refine != Refine::none;
-}
-
 bool counts_earlier_parts(const Options& options) {
     return !are_cuts_limited(options) && options.refine != Refine::exact;
 }
 
-const Cuts& take_earlier(Decision& decision, const CallOptions& call, const Cuts& previous) {
-    const Options& options = call.parts;
+const Cuts& take_earlier(Decision& decision, const Options& options, bool spread,
+                         const Cuts& previous) {
     Cuts& cuts = decision.bisection.cuts;
-    decision.reuses = true;
+    decision.bisects = false;
     cuts = fitted(previous, options);
-    if (call.is_spread() && is_whole(cuts)) {
+    if (spread && is_whole(cuts)) {
         cuts.nodes.resize(cuts.tree.size());
         std::iota(cuts.nodes.begin(), cuts.nodes.end(), 0);
     }
-    if (call.is_spread()) return cuts;
+    if (spread) return cuts;
     decision.bisection.brackets.reserve(is_refined(options) ? cuts.tree.size() : 0);
     decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
     decision.message.resize(std::span(decision.part_weights).size_bytes());
@@ -212,13 +208,13 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
 void decide(const Contribution& all, const Options& options, Decision& decision) {
     check_together(all.summary);
     Bisection& bisection = decision.bisection;
-    if (!decision.reuses) {
+    if (decision.bisects) {
         const bool with_brackets = is_refined(options);
         bisection = bisect_gathered(all, options, bisection.cuts.dimension, with_brackets);
         bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
     }
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
-    if (decision.reuses) weigh_parts(all, options, decision);
+    if (!decision.bisects) weigh_parts(all, options, decision);
     weigh_kept(all, options, decision);
 }
 

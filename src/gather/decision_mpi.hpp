@@ -1,9 +1,9 @@
 #pragma once
 
 #include "collective/agreement_mpi.hpp"
-#include "gather/call_options.hpp"
 #include "gather/contribution.hpp"
 #include "gather/kept_tree.hpp"
+#include "options/call_kind.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/method/bisection.hpp>
@@ -44,8 +44,9 @@ struct Decision {
     Verdict verdict;
     Bisection bisection;
     KeptTree kept{};                     ///< on all ranks once the points are kept
-    bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
-    std::vector<double> part_weights{};  ///< of their parts, if counted
+    bool bisects = true;                 ///< rank 0 makes the cuts; else all ranks have earlier
+                                         ///< ones, or many ranks make them
+    std::vector<double> part_weights{};  ///< of the parts of earlier cuts, if counted
     std::vector<std::byte> message;      ///< the cuts, or the kept parts, as sent
 };
 
@@ -58,9 +59,6 @@ void report_measured(double imbalance, double tolerance, Report& report);
 /// Returns the weight of all points, or their number if they are balanced by count.
 double weight_of(const Report& report);
 
-/// Returns true if the cuts are to be moved by counts of all ranks.
-bool is_refined(const Options& options);
-
 /// Makes buffers for the decision; for kept parts only if rank 0 may read them. Not
 /// collective.
 void make_buffers(Decision& decision, const Options& options, int dimension, bool may_keep);
@@ -69,9 +67,10 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
 /// move the cuts.
 bool counts_earlier_parts(const Options& options);
 
-/// Takes earlier cuts as the decision, fitted to the options, and makes buffers for the weights of
-/// their parts if rank 0 weighs these; otherwise it numbers the cuts. Not collective.
-const Cuts& take_earlier(Decision& decision, const CallOptions& options, const Cuts& previous);
+/// Takes earlier cuts as the decision, fitted to the options. Makes buffers for the weights of
+/// their parts, which rank 0 weighs; if `spread`, numbers the cuts instead. Not collective.
+const Cuts& take_earlier(Decision& decision, const Options& options, bool spread,
+                         const Cuts& previous);
 
 /// Bisects the cells of all ranks on rank 0, or weighs the parts of earlier cuts. Determines
 /// whether the ranks already hold parts good enough to be kept. Throws Error if the ranks differ or

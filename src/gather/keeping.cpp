@@ -1,6 +1,7 @@
 #include "gather/keeping.hpp"
 
 #include "cuts/cut_limits.hpp"
+#include "options/call_kind.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,14 +10,14 @@
 
 namespace rrcb {
 
-void KeptParts::prepare(const CallOptions& options, const Points& points, bool may_keep, int rank,
-                        int num_ranks, Contribution& mine) {
-    is_central_ = reads_kept_tree(options.central(), num_ranks);
-    const bool is_spread = options.is_spread() && may_keep_parts(options.parts, num_ranks);
+void KeptParts::prepare(const Options& options, bool is_spread, const Points& points, bool may_keep,
+                        int rank, int num_ranks, Contribution& mine) {
+    is_central_ = !is_spread && reads_kept_tree(options, num_ranks);
+    is_spread = is_spread && may_keep_parts(options, num_ranks);
     if (!is_spread && !(is_central_ && may_keep)) return;
     const Extent extent = extent_of(points, mine.summary.box, mine.summary.weight);
     if (is_spread) {
-        extents_.emplace(options.parts, extent, may_keep, points.dimension, rank);
+        extents_.emplace(options, extent, may_keep, points.dimension, rank);
     } else {
         append_extent(extent, points.dimension, mine.extents);
     }
@@ -27,8 +27,7 @@ void KeptParts::read(const Verdict& verdict, const Balance& estimate, Participan
     const Report& report = estimate.report;
     imbalance_ = verdict.kept_imbalance;
     if (!extents_ || report.details.num_points == 0) return;
-    auto parts =
-        extents_->read(weight_of(report), report.details.all_weights_zero, estimate.cuts, self);
+    auto parts = extents_->read(weight_of(report), report.details.all_weights_zero, self);
     if (!parts) return;
     spread_ = std::move(*parts);
     imbalance_ = spread_.imbalance;
@@ -42,11 +41,11 @@ bool KeptParts::do_as_well_as(double imbalance, const Options& options) const {
     return imbalance_ < not_kept && !is_worth_moving(imbalance_, imbalance, options);
 }
 
-void KeptParts::keep(const CallOptions& options, Decision& decision, Balance& result,
+void KeptParts::keep(const Options& options, Decision& decision, Balance& result,
                      Participant& self) {
     Report& report = result.report;
     report.kept = true;
-    report_measured(imbalance_, options.parts.imbalance_tolerance, report);
+    report_measured(imbalance_, options.imbalance_tolerance, report);
     if (!extents_) return keep_central(options, decision, result, self);
     agree(self);
     std::ranges::fill(result.parts, static_cast<Part>(mpi::rank_of(self.comm)));
@@ -55,10 +54,10 @@ void KeptParts::keep(const CallOptions& options, Decision& decision, Balance& re
     report.details.coincident_cuts = mpi::sum_of(spread_.num_divided, self.comm);
 }
 
-void KeptParts::keep_central(const CallOptions& options, Decision& decision, Balance& result,
+void KeptParts::keep_central(const Options& options, Decision& decision, Balance& result,
                              Participant& self) const {
     const bool was_told = decision.verdict.keeps != 0;
-    const StageScope stage(options.parts.observer, was_told ? Stage::assignment : Stage::broadcast,
+    const StageScope stage(options.observer, was_told ? Stage::assignment : Stage::broadcast,
                            self.arithmetic);
     if (was_told) {
         agree(self);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "gather/call_options.hpp"
 #include "gather/decision_mpi.hpp"
 #include "gather/spread_extents_mpi.hpp"
 
@@ -17,8 +16,8 @@ class KeptParts {
   public:
     /// Notes the extent of this rank's points, which are checked and add up to `mine`; adds it to
     /// `mine` if rank 0 reads it. Not collective. Throws std::bad_alloc. `options` outlive this.
-    void prepare(const CallOptions& options, const Points& points, bool may_keep, int rank,
-                 int num_ranks, Contribution& mine);
+    void prepare(const Options& options, bool is_spread, const Points& points, bool may_keep,
+                 int rank, int num_ranks, Contribution& mine);
 
     /// Returns true if rank 0 may read them.
     bool is_central() const { return is_central_; }
@@ -35,10 +34,10 @@ class KeptParts {
     bool do_as_well_as(double imbalance, const Options& options) const;
 
     /// Makes the kept parts the result. Collective.
-    void keep(const CallOptions& options, Decision& decision, Balance& result, Participant& self);
+    void keep(const Options& options, Decision& decision, Balance& result, Participant& self);
 
   private:
-    void keep_central(const CallOptions& options, Decision& decision, Balance& result,
+    void keep_central(const Options& options, Decision& decision, Balance& result,
                       Participant& self) const;
 
     bool is_central_ = false;

@@ -5,6 +5,7 @@
 #include "bisection/limited_bisection.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
+#include "options/call_kind.hpp"
 
 #include <rrcb/quality.hpp>
 

@@ -83,12 +83,8 @@ SpreadExtents::SpreadExtents(const Options& options, const Extent& mine, bool ma
       dimension_(dimension),
       butterfly_(rank, options.num_parts, joins[dimension - 1]) {}
 
-std::optional<SpreadKeptTree> SpreadExtents::read(double total, bool by_count, const Cuts& regions,
-                                                  Participant& self) {
-    self.attempt([&] {
-        note_axes(root_of(regions), root_of(options_.num_parts, options_.tree), regions.tree);
-        tell_extents();
-    });
+std::optional<SpreadKeptTree> SpreadExtents::read(double total, bool by_count, Participant& self) {
+    self.attempt([&] { tell_extents(); });
     messages_.run(butterfly_, Butterfly::to_owners,
                   {0, may_keep_ ? 0.0 : 1.0, share(total, by_count)}, self);
     const double imbalance = butterfly_.flags()[2];
@@ -112,14 +108,6 @@ double SpreadExtents::share(double total, bool by_count) const {
     const double size = sizes.empty() ? 1 : sizes[butterfly_.rank()];
     if (mine_.count > 0 && !(size > 0)) return std::numeric_limits<double>::infinity();
     return over_ideal(weight, total, size / all_sizes);
-}
-
-/// Notes the axes that rank 0 chose by the cells, whose extents differ from those of the points.
-void SpreadExtents::note_axes(const Descent& region, const Descent& at, std::span<const Cut> cuts) {
-    if (region.is_part()) return;
-    region_axes_[at.node] = cuts[region.node].axis;
-    note_axes(region.lower(), at.lower(), cuts);
-    note_axes(region.upper(), at.upper(), cuts);
 }
 
 void SpreadExtents::tell_extents() {
@@ -152,15 +140,10 @@ std::optional<Cut> SpreadExtents::cut_of(std::size_t node, const Extent& below,
     const Box box = all.box();
     const AxisOrder& order = options_.axes.order;
     const bool is_given = order.is_given();
-    const auto chosen = region_axes_.find(node);
-    const bool is_chosen = !is_given && chosen != region_axes_.end();
-    const int usual = is_given    ? order.axes()[node]
-                      : is_chosen ? chosen->second
-                                  : longest_axis(box, dimension_, near_longest);
+    const int usual = is_given ? order.axes()[node] : longest_axis(box, dimension_, near_longest);
     for (int k = 0; k < (is_given ? 1 : dimension_); ++k) {
         const auto axis = static_cast<int>(ordering_axis(usual, k));
-        const bool is_usual = axis == usual && (is_given || is_chosen);
-        if (!is_usual && !is_long(box, axis, dimension_)) continue;
+        if (!is_given && !is_long(box, axis, dimension_)) continue;
         const auto cut = cut_between(below, above, axis, dimension_, options_.axes.plain,
                                      options_.coincident == Coincident::divide);
         if (cut) return cut;

@@ -8,7 +8,6 @@
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
 
-#include <map>
 #include <optional>
 #include <span>
 
@@ -32,20 +31,17 @@ class SpreadExtents {
                   int rank);
 
     /// Returns the parts that the ranks hold; nullopt if they are no bisection. `total` is their
-    /// weight or, `by_count`, their number of points. `regions` contains the cuts of rank 0 between
-    /// regions.
+    /// weight or, `by_count`, their number of points.
     ///
     /// Collective: one pass of records to their owners, and if all may keep their points one of
     /// cuts back. A message has at most 16 (1 + dimension + dimension^2) bytes for each cut above a
     /// part. Throws the error of one rank on all; a failure in the last messages is held back until
     /// the next agreement.
-    std::optional<SpreadKeptTree> read(double total, bool by_count, const Cuts& regions,
-                                       Participant& self);
+    std::optional<SpreadKeptTree> read(double total, bool by_count, Participant& self);
 
   private:
     double share(double total, bool by_count) const;
     void tell_extents();
-    void note_axes(const Descent& region, const Descent& at, std::span<const Cut> cuts);
     bool decide_cuts();
     std::optional<Cut> cut_of(std::size_t node, const Extent& below, const Extent& above) const;
     SpreadKeptTree parts_told() const;
@@ -54,7 +50,6 @@ class SpreadExtents {
     Extent mine_;
     bool may_keep_;
     int dimension_;
-    std::map<std::size_t, int> region_axes_{};  ///< of the cuts between regions, by node
     Butterfly butterfly_;
     ButterflyMessages messages_{};
 };

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <functional>
 #include <iterator>
 #include <utility>
@@ -26,7 +25,7 @@ void add(std::span<const double> a, std::span<const double> b, std::vector<doubl
 }  // namespace
 
 SpreadReuse::SpreadReuse(const Cuts& cuts, const PartTotals& totals, bool was_whole,
-                         const CallOptions& options, const Points& points, std::span<Part> parts,
+                         const Options& options, const Points& points, std::span<Part> parts,
                          MPI_Comm comm)
     : options_(options),
       points_(points),
@@ -52,7 +51,7 @@ void SpreadReuse::add_up(bool by_count) {
 
 /// Returns the largest weight of a part that this rank owns over its ideal weight.
 double SpreadReuse::largest_share(double total_weight) const {
-    const std::vector<double>& sizes = options_.parts.part_sizes;
+    const std::vector<double>& sizes = options_.part_sizes;
     const double all_sizes = sizes.empty() ? cuts_.num_parts : sum_of(sizes);
     double largest = 0;
     sums_.owned().for_each([&](const Record& part) {
@@ -75,12 +74,10 @@ double SpreadReuse::measure(double total_weight, bool by_count, Participant& sel
 }
 
 /// Returns all cuts if each rank has and gets them; otherwise those above the points and the parts
-/// of this rank, and those between regions.
+/// of this rank.
 Cuts SpreadReuse::kept_cuts() const {
-    if (was_whole_ && options_.parts.cuts == HeldCuts::whole)
+    if (was_whole_ && options_.cuts == HeldCuts::whole)
         return {cuts_.dimension, cuts_.num_parts, cuts_.tree, {}, cuts_.shape};
-    const auto num_regions = static_cast<unsigned>(options_.central().num_parts);
-    const int depth = std::bit_width(num_regions) - 1;
     std::vector<Part> needed;
     const auto [first, end] = parts_on(sums_.rank(), cuts_.num_parts, sums_.num_ranks());
     for (Part part = first; part < end; ++part) needed.push_back(part);
@@ -88,10 +85,9 @@ Cuts SpreadReuse::kept_cuts() const {
     std::ranges::sort(needed);
     Cuts kept{cuts_.dimension, cuts_.num_parts, {}, {}, cuts_.shape};
     for (std::size_t k = 0; k < cuts_.nodes.size(); ++k) {
-        const auto [at, above] = node_at(cuts_, static_cast<std::size_t>(cuts_.nodes[k]));
+        const Descent at = node_at(cuts_, static_cast<std::size_t>(cuts_.nodes[k])).at;
         const auto next = std::ranges::lower_bound(needed, at.first_part);
-        const bool is_needed = next != needed.end() && *next < at.first_part + at.num_parts;
-        if (!is_needed && above >= depth) continue;
+        if (next == needed.end() || *next >= at.first_part + at.num_parts) continue;
         kept.nodes.push_back(cuts_.nodes[k]);
         kept.tree.push_back(cuts_.tree[k]);
     }
@@ -102,7 +98,7 @@ bool SpreadReuse::ends(Balance& result, Participant& self) {
     Report& report = result.report;
     const double imbalance = measure(weight_of(report), report.details.all_weights_zero, self);
     if (report.details.num_points > 0) {
-        report_measured(imbalance, options_.parts.imbalance_tolerance, report);
+        report_measured(imbalance, options_.imbalance_tolerance, report);
         if (!report.within_tolerance) return false;
     }
     self.attempt([&] { result.cuts = kept_cuts(); });

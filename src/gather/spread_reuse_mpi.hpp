@@ -2,7 +2,6 @@
 
 #include "cuts/direct_assignment.hpp"
 #include "cuts/tier_search_mpi.hpp"
-#include "gather/call_options.hpp"
 
 #include <rrcb/balance.hpp>
 
@@ -18,13 +17,12 @@ class SpreadReuse {
     /// Takes cuts with their numbers, and the `parts` of the points and their `totals` by these.
     /// All except the cuts outlive it. Not collective; throws std::bad_alloc, and Error if the rank
     /// lacks a cut that it owns.
-    SpreadReuse(const Cuts& cuts, const PartTotals& totals, bool was_whole,
-                const CallOptions& options, const Points& points, std::span<Part> parts,
-                MPI_Comm comm);
+    SpreadReuse(const Cuts& cuts, const PartTotals& totals, bool was_whole, const Options& options,
+                const Points& points, std::span<Part> parts, MPI_Comm comm);
 
     /// Finds the parts of all points and counts them. Returns false if they are not within the
     /// tolerance. Otherwise it completes the report of `result`, and stores the cuts above the
-    /// points and parts of this rank, and those between regions.
+    /// points and parts of this rank.
     ///
     /// Collective: one pass through the ranks to find the parts, or more if one lacks cuts, one to
     /// add up and one to compare.
@@ -36,7 +34,7 @@ class SpreadReuse {
     double largest_share(double total_weight) const;
     Cuts kept_cuts() const;
 
-    const CallOptions& options_;
+    const Options& options_;
     const Points& points_;
     std::span<Part> parts_;
     const PartTotals& totals_;

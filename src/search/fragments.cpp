@@ -178,17 +178,6 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     return {std::move(lower), std::move(upper)};
 }
 
-std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
-    const std::vector<Fragment>& fragments, Part first_above, std::span<const Part> parts,
-    SortedPoints& points) {
-    std::vector<Fragment> lower;
-    std::vector<Fragment> upper;
-    const auto is_above = [&](LocalIndex i) { return parts[points.original[i]] >= first_above; };
-    for (const Fragment& fragment : fragments)
-        divide(fragment, partition(fragment, is_above, points), points, lower, upper);
-    return {std::move(lower), std::move(upper)};
-}
-
 void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,
                  const SortedPoints& points, std::span<Part> parts, std::span<double> weights) {
     std::ranges::fill(weights.subspan(at.first_part, at.num_parts), 0.0);

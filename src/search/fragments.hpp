@@ -56,12 +56,6 @@ double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points);
 
-/// Returns the fragments of the points in parts below `first_above`, and of the others, by `parts`
-/// of the original indices. Fragments with both are divided in place, and keep their boxes.
-std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
-    const std::vector<Fragment>& fragments, Part first_above, std::span<const Part> parts,
-    SortedPoints& points);
-
 /// Sets the part of every point of the fragments by the cuts at `at` and below. Writes the weights
 /// of these parts into `weights`, which has one entry per part of the whole tree.
 void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,

@@ -5,6 +5,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/direct_assignment.hpp"
+#include "options/call_kind.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -177,7 +178,7 @@ PartTree tree_of(const Options& options, int num_ranks) {
     tree.num_parts = options.num_parts;
     tree.num_ranks = num_ranks;
     tree.shape = options.tree;
-    tree.part_sizes = options.part_sizes;
+    tree.rule.part_sizes = options.part_sizes;
     if (options.axes.order.is_given()) tree.cut_axes = options.axes.order.axes();
     tree.rule.tolerance = options.imbalance_tolerance;
     tree.rule.is_exact = options.refine == Refine::exact;
@@ -188,19 +189,18 @@ PartTree tree_of(const Options& options, int num_ranks) {
     return tree;
 }
 
-RegionRefinement::RegionRefinement(const Participant& self)
+SpreadRefinement::SpreadRefinement(const Participant& self)
     : memory_(workspace_of(self.comm)),
       rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::spread) {}
 
-Refined RegionRefinement::refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
+Refined SpreadRefinement::refine(const Box& box, PartTree tree, const BinnedPoints& binned,
                                  std::span<Part> parts, Participant& self) {
     self.attempt([&] { memory_.sorted = sort_by_cell(binned, std::move(memory_.sorted)); });
-    Refined refined = search(regions, tree, parts, self);
+    Refined refined = search(box, tree, parts, self);
     const bool missed = refined.imbalance > tree.rule.tolerance;
     if (!missed || std::exchange(tree.rule.is_exact, true)) return refined;
     self.attempt([&] { memory_.parts.assign(parts.begin(), parts.end()); });
-    const Regions all_in_one{{regions.cuts.dimension, 1, {}}, {&tree.weight, 1}, regions.box};
-    Refined exact = search(all_in_one, tree, parts, self);
+    Refined exact = search(box, tree, parts, self);
     exact.rounds += refined.rounds;
     if (exact.imbalance < refined.imbalance) return exact;
     refined.rounds = exact.rounds;
@@ -209,16 +209,15 @@ Refined RegionRefinement::refine(const Regions& regions, PartTree tree, const Bi
 }
 
 /// Runs one search of the sorted points. Collective.
-Refined RegionRefinement::search(const Regions& regions, const PartTree& tree,
-                                 std::span<Part> parts, Participant& self) {
+Refined SpreadRefinement::search(const Box& box, const PartTree& tree, std::span<Part> parts,
+                                 Participant& self) {
     std::optional<TreeSearch> search;
     self.attempt(
-        [&] { search.emplace(tree, rounds_.rank(), regions, std::move(memory_.sorted), parts); });
+        [&] { search.emplace(tree, rounds_.rank(), box, std::move(memory_.sorted), parts); });
     Refined refined;
     refined.rounds = rounds_.run(search, self);
     refined.imbalance = rounds_.imbalance();
-    refined.coincident_cuts =
-        regions.num_coincident + mpi::sum_of(search->num_coincident(), self.comm);
+    refined.coincident_cuts = mpi::sum_of(search->num_coincident(), self.comm);
     self.attempt([&] { refined.cuts = search->cuts(); });
     memory_.sorted = search->take_points();
     return refined;

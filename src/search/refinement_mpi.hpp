@@ -113,26 +113,24 @@ class Refinement {
 /// Returns the parts of complete options, which it borrows; of the rule only what options choose.
 PartTree tree_of(const Options& options, int num_ranks);
 
-/// Makes the parts below regions. The owners of nodes decide. Buffers are made before the first
-/// message.
-class RegionRefinement {
+/// Makes the parts by a search of many ranks: the owners of nodes decide. Buffers are made before
+/// the first message.
+class SpreadRefinement {
   public:
     /// Not collective. Throws Error or std::bad_alloc.
-    explicit RegionRefinement(const Participant& self);
+    explicit SpreadRefinement(const Participant& self);
 
-    /// Finds the cuts below `regions` and writes the part of each point into `parts`. Returns the
-    /// cuts that this rank knows.
+    /// Finds the cuts of all points, which are in `box`, and writes the part of each point into
+    /// `parts`. Returns the cuts that this rank knows.
     ///
-    /// Collective. `regions` and `tree` are the same on every rank. If a tolerance is missed, it
-    /// searches once more, exactly and without the regions, and keeps the better cuts. Throws on
-    /// every rank the failure of one, before or here; a failure in the last messages is held back
-    /// until the next agreement.
-    Refined refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
-                   std::span<Part> parts, Participant& self);
+    /// Collective. `box` and `tree` are the same on every rank. If a tolerance is missed, it
+    /// searches once more, exactly, and keeps the better cuts. Throws on every rank the failure of
+    /// one, before or here; a failure in the last messages is held back until the next agreement.
+    Refined refine(const Box& box, PartTree tree, const BinnedPoints& binned, std::span<Part> parts,
+                   Participant& self);
 
   private:
-    Refined search(const Regions& regions, const PartTree& tree, std::span<Part> parts,
-                   Participant& self);
+    Refined search(const Box& box, const PartTree& tree, std::span<Part> parts, Participant& self);
 
     Workspace& memory_;
     TreeRounds rounds_;

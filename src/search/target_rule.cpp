@@ -1,37 +1,43 @@
 #include "search/target_rule.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rrcb {
 
-namespace {
+double weight_of(const Descent& at, std::span<const double> part_weights) {
+    return sum_of(part_weights.subspan(at.first_part, at.num_parts));
+}
 
-/// Returns the weight that the smallest of the parts should have.
-double smallest_weight(std::span<const double> sizes, const TargetRule& rule) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const double size : sizes)
-        if (size > 0) smallest = std::min(smallest, size * rule.weight_per_size);
+double TargetRule::size_of(const Descent& at) const {
+    return part_sizes.empty() ? at.num_parts : sum_of(sizes_of(at));
+}
+
+double TargetRule::share_below(const Descent& at) const {
+    if (part_sizes.empty()) return 1.0 * at.lower_parts() / at.num_parts;
+    return rrcb::share_below(sizes_of(at), at.lower_parts());
+}
+
+/// Returns the weight that the smallest of a node's parts should have.
+double TargetRule::smallest_weight(const Descent& at) const {
+    if (part_sizes.empty()) return weight_per_size;
+    double smallest = infinity;
+    for (const double size : sizes_of(at))
+        if (size > 0) smallest = std::min(smallest, size * weight_per_size);
     return smallest;
 }
 
-/// Returns the tolerance that the smallest part can use. It holds whole points if all weigh the
-/// same: at most 16 if 16.16 are allowed.
-double attainable_tolerance(std::span<const double> sizes, const TargetRule& rule) {
-    if (rule.common_weight == 0) return rule.tolerance;
-    const double smallest = smallest_weight(sizes, rule);
-    const double points = std::floor(rule.tolerance * smallest / rule.common_weight);
-    return std::max(1.0, points * rule.common_weight / smallest);
-}
-
-}  // namespace
-
-double weight_of(const Descent& at, std::span<const double> part_weights) {
-    return sum_of(part_weights.subspan(at.first_part, at.num_parts));
+/// Returns the tolerance that the smallest part of a node can use. It holds whole points if all
+/// weigh the same: at most 16 if 16.16 are allowed.
+double TargetRule::attainable_tolerance(const Descent& at) const {
+    if (common_weight == 0) return tolerance;
+    const double smallest = smallest_weight(at);
+    const double points = std::floor(tolerance * smallest / common_weight);
+    return std::max(1.0, points * common_weight / smallest);
 }
 
 bool TargetRule::are_within(const Descent& at, std::span<const double> part_weights) const {
@@ -48,7 +54,8 @@ bool TargetRule::are_within(const Descent& at, std::span<const double> part_weig
 
 bool TargetRule::are_points_light() const {
     constexpr double several = 4;
-    return several * heaviest <= (tolerance - 1) * smallest_weight(part_sizes, *this);
+    const Descent top = root_of(static_cast<int>(part_sizes.size()), {});
+    return several * heaviest <= (tolerance - 1) * smallest_weight(top);
 }
 
 bool TargetRule::may_stay(const Descent& at, std::span<const double> part_weights) const {
@@ -62,11 +69,10 @@ bool TargetRule::may_stay(const Descent& at, std::span<const double> part_weight
 /// parts within the tolerance. With more levels below, more of the tolerance is left to them, up to
 /// half.
 double TargetRule::most_weight(const Descent& at) const {
-    const auto sizes = sizes_of(at);
     const int all_levels = num_levels(at.shape, static_cast<int>(part_sizes.size()));
     const double left_below = num_levels(at.shape, at.num_parts) / (2.0 * all_levels);
-    const double excess = (attainable_tolerance(sizes, *this) - 1) * (1 - left_below);
-    return weight_per_size * sum_of(sizes) * (1 + excess);
+    const double excess = (attainable_tolerance(at) - 1) * (1 - left_below);
+    return weight_per_size * size_of(at) * (1 + excess);
 }
 
 /// Returns the allowed weight below a cut that is nearest to the present weight, with a margin in
@@ -89,12 +95,7 @@ CutTarget TargetRule::nearest_target(const Descent& at, double weight, double be
     return target;
 }
 
-double TargetRule::share_below(const Descent& at) const {
-    return rrcb::share_below(sizes_of(at), at.lower_parts());
-}
-
 CutTarget TargetRule::target_of(const Descent& at, double weight, double below) const {
-    const auto sizes = sizes_of(at);
     CutTarget target;
     target.share = share_below(at);
     target.target = target.share * weight;
@@ -106,10 +107,9 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     if (is_exact || !(weight > 0)) return target;
     if (is_earlier && below >= 0) return nearest_target(at, weight, below);
     // The tolerance left at this node is divided evenly, as factors, among its levels.
-    const double ideal = weight_per_size * sum_of(sizes);
+    const double ideal = weight_per_size * size_of(at);
     const int levels = num_levels(at.shape, at.num_parts);
-    const double growth =
-        std::pow(attainable_tolerance(sizes, *this) * ideal / weight, 1.0 / levels);
+    const double growth = std::pow(attainable_tolerance(at) * ideal / weight, 1.0 / levels);
     target.slack = std::max(target.slack, of_both * (growth - 1) * weight);
     return target;
 }

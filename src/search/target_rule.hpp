@@ -15,18 +15,17 @@ inline constexpr double not_counted = -1;
 /// If cuts are `earlier` ones, each moves as little as all parts within the tolerance allow, so
 /// that few points change parts. Otherwise each moves to the share of the parts below it.
 struct TargetRule {
-    std::span<const double> part_sizes;
-    double tolerance = 1;        ///< of the imbalance of all parts
-    double common_weight = 0;    ///< weight of each point if all weigh the same, else 0
-    double heaviest = 0;         ///< weight of the heaviest point
-    double weight_per_size = 0;  ///< weight that a part of size 1 is to have
-    double counted_weight = 0;   ///< of all parts, if these were counted
-    bool is_exact = false;       ///< no slack but half a point
-    bool is_earlier = false;     ///< the cuts are those of an earlier call, not limited
+    std::span<const double> part_sizes{};  ///< one per part; empty: all 1, in a spread search
+    double tolerance = 1;                  ///< of the imbalance of all parts
+    double common_weight = 0;              ///< weight of each point if all weigh the same, else 0
+    double heaviest = 0;                   ///< weight of the heaviest point
+    double weight_per_size = 0;            ///< weight that a part of size 1 is to have
+    double counted_weight = 0;             ///< of all parts, if these were counted
+    bool is_exact = false;                 ///< no slack but half a point
+    bool is_earlier = false;               ///< the cuts are those of an earlier call, not limited
 
-    std::span<const double> sizes_of(const Descent& at) const {
-        return part_sizes.subspan(at.first_part, at.num_parts);
-    }
+    /// Returns the sum of the sizes of a node's parts.
+    double size_of(const Descent& at) const;
 
     /// Returns the share of a node's weight that belongs below its cut.
     double share_below(const Descent& at) const;
@@ -48,6 +47,11 @@ struct TargetRule {
     CutTarget target_of(const Descent& at, double weight, double below = not_counted) const;
 
   private:
+    std::span<const double> sizes_of(const Descent& at) const {
+        return part_sizes.subspan(at.first_part, at.num_parts);
+    }
+    double smallest_weight(const Descent& at) const;
+    double attainable_tolerance(const Descent& at) const;
     double most_weight(const Descent& at) const;
     CutTarget nearest_target(const Descent& at, double weight, double below) const;
 };

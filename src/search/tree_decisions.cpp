@@ -4,7 +4,6 @@
 #include "search/tree_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -112,23 +111,6 @@ TreeSearch::LotAnswer TreeSearch::place_lot(const Node& node,
     return answer;
 }
 
-/// Returns the target of the cut of a node; for a spread search by the rule for a tree of its own.
-CutTarget TreeSearch::target_of(const Node& node, double weight) const {
-    const Descent& at = node.at;
-    if (is_central()) {
-        CutTarget target = tree_.rule.target_of(at, weight, node.below);
-        target.places = node.places;
-        return target;
-    }
-    TargetRule rule = tree_.rule;
-    // For equal parts an exact cut needs only the number of parts on each side.
-    const int below = at.lower_parts();
-    const std::array<double, 2> sides{1.0 * below, 1.0 * (at.num_parts - below)};
-    const bool by_sides = tree_.part_sizes.empty() && rule.is_exact;
-    rule.part_sizes = by_sides ? std::span<const double>(sides) : sizes_of(at);
-    return rule.target_of(root_of(static_cast<int>(rule.part_sizes.size()), tree_.shape), weight);
-}
-
 /// Advances a search with the joined records of all ranks. Empty records mean that it has no points
 /// left.
 CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
@@ -141,7 +123,8 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     if (payload.empty()) {
         // The weight was round-off.
         search.stage = CutSearch::done;
-        if (is_central()) search.cut = cut_unsearched(node.at, node.content, share_below(node.at));
+        if (is_central())
+            search.cut = cut_unsearched(node.at, node.content, tree_.rule.share_below(node.at));
         node.content.weight = 0;
         return search;
     }
@@ -171,7 +154,8 @@ void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histo
             return;
         }
     }
-    node.target = target_of(node, weight);
+    node.target = tree_.rule.target_of(node.at, weight, node.below);
+    node.target.places = node.places;
     node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;
     decide_by_bins(search, node.target, layout_, histogram);
 }

@@ -31,36 +31,23 @@ Box box_of(const Fragment& fragment, const SortedPoints& points) {
     return box;
 }
 
-double sum_of_sizes(const PartTree& tree) {
-    if (tree.part_sizes.empty()) return tree.num_parts;
-    return sum_of(tree.part_sizes);
-}
-
 }  // namespace
 
-TreeSearch::TreeSearch(const PartTree& tree, int rank, const Regions& regions,
-                       SortedPoints&& points, std::span<Part> parts)
+TreeSearch::TreeSearch(const PartTree& tree, int rank, const Box& box, SortedPoints&& points,
+                       std::span<Part> parts)
     : tree_(tree),
       rank_(rank),
-      dimension_(regions.cuts.dimension),
-      all_sizes_(sum_of_sizes(tree)),
+      dimension_(points.dimension()),
+      all_sizes_(tree.rule.size_of(root_of(tree.num_parts, tree.shape))),
       points_(std::move(points)),
       parts_(parts) {
     const PartRange own = parts_on(rank, tree.num_parts, tree.num_ranks);
     first_own_ = own.first;
     end_own_ = own.end;
     tree_.rule.weight_per_size = tree.weight / all_sizes_;
-    Descent largest = root_of(tree.num_parts, tree.shape);
-    for (int left = regions.cuts.num_parts; left > 1; left /= 2)
-        largest = std::ranges::max(largest.lower(), largest.upper(), {}, &Descent::num_parts);
-    if (tree.part_sizes.empty() && tree.ones.empty() && !tree.rule.is_exact) {
-        ones_.assign(largest.num_parts, 1.0);
-        tree_.ones = ones_;
-    }
     std::vector<Fragment> fragments = cell_fragments(points_);
     for (Fragment& fragment : fragments) fragment.box = box_of(fragment, points_);
-    enter_region(regions, root_of(regions.cuts), root_of(tree.num_parts, tree.shape),
-                 std::move(fragments), regions.box);
+    enter(root_of(tree.num_parts, tree.shape), {std::move(fragments), box, tree.weight});
 }
 
 TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
@@ -69,7 +56,7 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, Sorte
       guide_(&guide),
       rank_(rank),
       dimension_(guide.cuts.dimension),
-      all_sizes_(sum_of_sizes(tree)),
+      all_sizes_(tree.rule.size_of(root_of(guide.cuts))),
       layout_{.limits = tree.limits},
       points_(std::move(points)),
       parts_of_cells_(points_.is_sorted.size(), no_part),
@@ -84,32 +71,8 @@ int TreeSearch::owner_of(const Descent& at) const {
     return is_central() ? 0 : rrcb::owner_of(at, tree_.num_parts, tree_.num_ranks);
 }
 
-double TreeSearch::share_below(const Descent& at) const {
-    if (tree_.part_sizes.empty()) return 1.0 * at.lower_parts() / at.num_parts;
-    return rrcb::share_below(sizes_of(at), at.lower_parts());
-}
-
-/// Returns the sizes of the parts of a node; for equal ones only with a tolerance.
-std::span<const double> TreeSearch::sizes_of(const Descent& at) const {
-    if (tree_.part_sizes.empty()) return tree_.ones.first(at.num_parts);
-    return tree_.part_sizes.subspan(at.first_part, at.num_parts);
-}
-
 bool TreeSearch::holds_own_parts(const Descent& at) const {
     return at.first_part < end_own_ && first_own_ < at.first_part + at.num_parts;
-}
-
-/// Goes down the cuts between regions, which every rank knows.
-void TreeSearch::enter_region(const Regions& regions, const Descent& region, const Descent& at,
-                              std::vector<Fragment>&& fragments, const Box& box) {
-    if (region.is_part())
-        return enter(at, {std::move(fragments), box, regions.weights[region.first_part]});
-    const Cut& cut = regions.cuts.tree[region.node];
-    note(at.node, cut);
-    auto [lower, upper] = cut.divides != 0 ? split_by_parts(fragments, at.upper().first_part)
-                                           : split_tightly(fragments, cut, {});
-    enter_region(regions, region.lower(), at.lower(), std::move(lower), box_below(box, cut));
-    enter_region(regions, region.upper(), at.upper(), std::move(upper), box_above(box, cut));
 }
 
 /// Begins to search the cut of a node; goes on to its children if no counting is needed.
@@ -117,7 +80,7 @@ void TreeSearch::enter(const Descent& at, Content&& content) {
     if (ends_at(at, content)) return;
     if (recounts() && !content.are_parts_counted)
         return add_node(at, std::move(content), Question::parts);
-    const double share = at.is_part() ? 1 : share_below(at);
+    const double share = at.is_part() ? 1 : tree_.rule.share_below(at);
     const bool divides = share > 0 && share < 1;
     const bool stays = content.are_parts_counted && tree_.rule.may_stay(at, guide_->sums.sums());
     if (at.is_part() || (content.weight > 0 && divides && !stays))
@@ -227,14 +190,6 @@ TreeSearch::Halves TreeSearch::split_tightly(const std::vector<Fragment>& fragme
     return halves;
 }
 
-TreeSearch::Halves TreeSearch::split_by_parts(const std::vector<Fragment>& fragments,
-                                              Part first_above) {
-    Halves halves = rrcb::split_by_parts(fragments, first_above, parts_, points_);
-    for (auto* half : {&halves.first, &halves.second})
-        for (Fragment& fragment : *half) fragment.box = box_of(fragment, points_);
-    return halves;
-}
-
 /// Goes on below the cut that was found. The points of a lot form one row over all ranks.
 void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     if (is_central() || owner_of(node.at) == rank_) num_coincident_ += node.search.coincident;
@@ -265,14 +220,14 @@ void TreeSearch::end_at_part(const Descent& at, const Content& content) {
 
 /// Returns the share of the weight that a part should have.
 double TreeSearch::ideal_share(const Descent& at) const {
-    return (tree_.part_sizes.empty() ? 1.0 : sizes_of(at)[0]) / all_sizes_;
+    return tree_.rule.size_of(at) / all_sizes_;
 }
 
 /// Returns whether the round-off of a remainder may be large compared with the weight of a part, so
 /// that the points of the part must be weighed.
 bool TreeSearch::is_tiny(const Descent& part) const {
     constexpr double least_share = 0x1p-20;
-    const double share = tree_.part_sizes.empty() ? 1 : ideal_share(part);
+    const double share = tree_.rule.part_sizes.empty() ? 1 : ideal_share(part);
     return share > 0 && share < least_share;
 }
 

@@ -32,24 +32,13 @@ struct PartTree {
     int num_parts = 1;
     int num_ranks = 1;
     TreeShape shape{};
-    double weight = 0;                     ///< of all points
-    std::span<const double> part_sizes{};  ///< one per part; empty: equal
-    std::span<const int> cut_axes{};       ///< of all cuts in preorder; empty: free
-    std::span<const double> ones{};        ///< as many as a region has parts, if they are equal;
-                                           ///< empty: made
-    TargetRule rule{};  ///< of a spread search without the sizes and the weight per size
+    double weight = 0;                ///< of all points
+    std::span<const int> cut_axes{};  ///< of all cuts in preorder; empty: free
+    TargetRule rule{};                ///< of a spread search without the weight per size
     bool plain_cuts = false;
     bool centres_cuts = false;        ///< moves cuts to the middle between points of all ranks
     bool divides_coincident = false;  ///< divides coincident points, see Coincident
     std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
-};
-
-/// Regions at the top of a tree, their number a power of two; the same on every rank.
-struct Regions {
-    Cuts cuts{};                        ///< between them
-    std::span<const double> weights{};  ///< over all ranks
-    Box box{};                          ///< of all points
-    int num_coincident = 0;             ///< cuts between them that divide coincident points
 };
 
 /// Cuts to start from; the same on every rank.
@@ -78,14 +67,13 @@ struct Guide {
 /// are kept. If an earlier cut moves, the parts below are counted once more.
 class TreeSearch {
   public:
-    /// Starts a spread search below the regions; `parts` and the spans of `tree` are borrowed. If a
-    /// cut between regions divides coincident points, `parts` contains their sides, by the numbers
-    /// of the whole tree. Throws std::bad_alloc.
-    TreeSearch(const PartTree& tree, int rank, const Regions& regions, SortedPoints&& points,
+    /// Starts a spread search; the points of all ranks are in `box`. `parts` and the spans of
+    /// `tree` are borrowed. Throws std::bad_alloc.
+    TreeSearch(const PartTree& tree, int rank, const Box& box, SortedPoints&& points,
                std::span<Part> parts);
 
-    /// Starts a central search; `tree` has part sizes. Everything except the points is borrowed. If
-    /// cuts are exact, cells that no bracket reaches may be left out of the points. Throws
+    /// Starts a central search; the rule has part sizes. Everything except the points is borrowed.
+    /// If cuts are exact, cells that no bracket reaches may be left out of the points. Throws
     /// std::bad_alloc.
     TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
                std::span<Part> parts);
@@ -187,14 +175,9 @@ class TreeSearch {
     bool is_central() const { return guide_ != nullptr; }
     bool recounts() const { return tree_.rule.is_earlier && !tree_.rule.is_exact; }
     int owner_of(const Descent& at) const;
-    double share_below(const Descent& at) const;
-    std::span<const double> sizes_of(const Descent& at) const;
-    CutTarget target_of(const Node& node, double weight) const;
     double ideal_share(const Descent& part) const;
     bool is_tiny(const Descent& part) const;
     bool holds_own_parts(const Descent& at) const;
-    void enter_region(const Regions& regions, const Descent& region, const Descent& at,
-                      std::vector<Fragment>&& fragments, const Box& box);
     void enter(const Descent& at, Content&& content);
     bool ends_at(const Descent& at, Content& content);
     void add_node(const Descent& at, Content&& content, Question question);
@@ -204,7 +187,6 @@ class TreeSearch {
     void note(std::size_t node, const Cut& cut);
     void sort_between(double lower, double upper, int axis, const Content& content);
     Halves split_tightly(const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot);
-    Halves split_by_parts(const std::vector<Fragment>& fragments, Part first_above);
     void end_at_cut(Node&& node, const LotAnswer& told);
     void end_at_part(const Descent& at, const Content& content);
     CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
@@ -227,10 +209,9 @@ class TreeSearch {
     const Guide* guide_ = nullptr;  ///< of a central search
     int rank_;
     int dimension_;
-    Part first_own_ = 0;        ///< first of the parts that this rank holds
-    Part end_own_ = 0;          ///< the one behind the last
-    double all_sizes_ = 0;      ///< sum of the sizes of all parts
-    std::vector<double> ones_;  ///< sizes of the parts of a region, see sizes_of()
+    Part first_own_ = 0;    ///< first of the parts that this rank holds
+    Part end_own_ = 0;      ///< the one behind the last
+    double all_sizes_ = 0;  ///< sum of the sizes of all parts
     HistogramLayout layout_;
     SortedPoints points_;
     std::vector<Part> parts_of_cells_;  ///< if cells are left out; no_part: the points have parts

@@ -93,8 +93,7 @@ TEST(SpreadBalance, tolerance_is_met_and_measured) {
 }
 
 TEST(SpreadBalance, a_tolerance_that_exact_cuts_reach_is_not_missed) {
-    // So few points a part that slack spent above leaves too little below, and that regions may
-    // weigh a bit too much for any cuts in them.
+    // So few points a part that slack spent above leaves too little below.
     for (const int central : central_parts())
         for (const int count : {25 * num_ranks(), 50 * num_ranks(), 50 * num_ranks() + 1}) {
             const auto mine = share_of_cloud(static_cast<std::size_t>(count), 2, uniform);
@@ -216,7 +215,7 @@ TEST(SpreadBalance, points_in_one_place_stay_together) {
 }
 
 TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ranks_below) {
-    // All in one place; or in so few that regions and cuts below them divide some.
+    // All in one place; or in so few that cuts divide some.
     for (const double places : {1.0, 3.0, 40.0})
         for (const int central : central_parts()) {
             const auto mine = share_of_cloud(

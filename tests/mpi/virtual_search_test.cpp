@@ -1,4 +1,4 @@
-// Thousands of ranks in one process, through the code that ranks run, find the cuts below regions.
+// Thousands of ranks in one process, through the code that ranks run, find the cuts.
 #include "../support/virtual_search.hpp"
 
 #include <gtest/gtest.h>
@@ -41,16 +41,14 @@ class ManySearchers : public testing::TestWithParam<Case> {};
 TEST_P(ManySearchers, balance_all_points_by_short_messages_and_little_memory) {
     const auto [side, layout, tolerance] = GetParam();
     const VirtualCloud cloud(side, points_per_rank, layout);
-    // As a call makes them: of exact cuts all are found by their owners.
-    const int num_regions = tolerance > 1 ? 64 : 1;
-    VirtualSearch ranks(cloud, num_regions, tolerance);
+    VirtualSearch ranks(cloud, tolerance);
     const SearchTotals totals = ranks.search();
 
     const double imbalance = imbalance_of(ranks.parts(), cloud.num_ranks());
     EXPECT_EQ(ranks.imbalance(), imbalance);
     // As even as whole points are.
     EXPECT_LE(imbalance, tolerance > 1 ? 1 + 1.0 / points_per_rank : 1);
-    const int levels = std::bit_width(static_cast<unsigned>(cloud.num_ranks() / num_regions)) - 1;
+    const int levels = std::bit_width(static_cast<unsigned>(cloud.num_ranks())) - 1;
     EXPECT_GE(totals.rounds, levels);
     EXPECT_LE(totals.rounds, 3 * levels);
     EXPECT_EQ(totals.messages.messages, 2 * totals.rounds * messages_of_pass(cloud.num_ranks()));

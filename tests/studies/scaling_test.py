@@ -22,7 +22,7 @@ COUNTS = pd.DataFrame(
     }
 )
 VIRTUAL = pd.DataFrame(
-    {"ranks": [256], "tolerance": [1.01], "rounds": [4], "bytes_in_a_row": [6400], "most_into_rank": [50]}
+    {"ranks": [256], "tolerance": [1.01], "rounds": [16], "bytes_in_a_row": [25600], "most_into_rank": [50]}
 )
 
 
@@ -40,11 +40,11 @@ class ScalingTest(unittest.TestCase):
         self.assertAlmostEqual(path["bytes"], 1600)
 
     def test_search_of_many_ranks_takes_two_passes_a_round(self) -> None:
-        # Of 256 ranks 64 regions are above: 2 rounds for each of the 2 levels below.
+        # With 256 ranks 2 rounds for each of 8 levels.
         messages, size, into_rank = scaling._search(VIRTUAL, 1.01, 1024)
-        self.assertAlmostEqual(messages, (2 * 8 + 3) * 10)
-        self.assertAlmostEqual(size, 2 * 8 * 10 * 100)
-        self.assertAlmostEqual(into_rank, 8 * 50)
+        self.assertAlmostEqual(messages, (2 * 20 + 3) * 10)
+        self.assertAlmostEqual(size, 2 * 20 * 10 * 100)
+        self.assertAlmostEqual(into_rank, 20 * 50)
 
 
 if __name__ == "__main__":

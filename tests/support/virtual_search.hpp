@@ -1,4 +1,4 @@
-// The search for the cuts below regions on a great many virtual ranks, in one process.
+// The search for cuts on a great many virtual ranks, in one process.
 #pragma once
 
 #include "gather/contribution.hpp"
@@ -6,8 +6,6 @@
 #include "search/tree_search.hpp"
 #include "virtual_cloud.hpp"
 #include "virtual_round.hpp"
-
-#include <rrcb/balance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,20 +33,16 @@ struct SearchTotals {
     }
 };
 
-/// Ranks of a cloud, a part each, that search for the cuts below the regions of all points.
+/// Ranks of a cloud, a part each, that search for the cuts of all points.
 class VirtualSearch {
   public:
-    VirtualSearch(const VirtualCloud& cloud, int num_regions, double tolerance)
+    VirtualSearch(const VirtualCloud& cloud, double tolerance)
         : parts_(cloud.coordinates.size() / 2),
           ranks_(static_cast<std::size_t>(cloud.num_ranks())),
-          memory_(ranks_.size(), Memory{sizeof(Rank), sizeof(Rank)}),
-          ones_(ranks_.size() / static_cast<std::size_t>(num_regions), 1.0) {
-        Balance top = make_regions(cloud, num_regions, tolerance);
-        const std::vector<double> all{static_cast<double>(parts_.size())};
-        const Regions regions{std::move(top.cuts), num_regions == 1 ? all : top.report.part_weights,
-                              bounding_box(cloud.points())};
+          memory_(ranks_.size(), Memory{sizeof(Rank), sizeof(Rank)}) {
         const PartTree tree = tree_of(cloud, tolerance);
-        for (int rank = 0; rank < cloud.num_ranks(); ++rank) start(cloud, tree, regions, rank);
+        const Box box = bounding_box(cloud.points());
+        for (int rank = 0; rank < cloud.num_ranks(); ++rank) start(cloud, tree, box, rank);
     }
 
     int num_ranks() const { return static_cast<int>(ranks_.size()); }
@@ -100,9 +94,9 @@ class VirtualSearch {
         TreeSearch search;
         Butterfly butterfly;
 
-        Rank(const PartTree& tree, int rank, const Regions& regions, SortedPoints&& points,
+        Rank(const PartTree& tree, int rank, const Box& box, SortedPoints&& points,
              std::span<Part> parts)
-            : search(tree, rank, regions, std::move(points), parts),
+            : search(tree, rank, box, std::move(points), parts),
               butterfly(rank, tree.num_ranks, TreeSearch::join) {}
     };
     struct Memory {
@@ -120,18 +114,9 @@ class VirtualSearch {
 
     Rank& of(int rank) { return *ranks_[static_cast<std::size_t>(rank)]; }
 
-    static Balance make_regions(const VirtualCloud& cloud, int num_regions, double tolerance) {
-        Options options;
-        options.num_parts = num_regions;
-        const double share = std::log2(num_regions) / std::log2(cloud.num_ranks());
-        options.imbalance_tolerance = std::pow(tolerance, share);
-        return balance(cloud.points(), options, MPI_COMM_SELF);
-    }
-
     PartTree tree_of(const VirtualCloud& cloud, double tolerance) const {
         PartTree tree;
         tree.num_parts = tree.num_ranks = cloud.num_ranks();
-        tree.ones = ones_;
         tree.weight = static_cast<double>(parts_.size());
         tree.rule.tolerance = tolerance;
         tree.rule.is_exact = !(tolerance > 1);
@@ -139,7 +124,7 @@ class VirtualSearch {
         return tree;
     }
 
-    void start(const VirtualCloud& cloud, const PartTree& tree, const Regions& regions, int rank) {
+    void start(const VirtualCloud& cloud, const PartTree& tree, const Box& box, int rank) {
         const Points mine = cloud.points_of(rank);
         Options options;
         options.num_parts = cloud.num_ranks();
@@ -147,7 +132,7 @@ class VirtualSearch {
         const std::size_t first = static_cast<std::size_t>(rank) * mine.count;
         const auto parts = std::span(parts_).subspan(first, mine.count);
         run(rank, [&] {
-            ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, regions, std::move(sorted),
+            ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, box, std::move(sorted),
                                                            parts);
         });
     }
@@ -170,7 +155,6 @@ class VirtualSearch {
     std::vector<Part> parts_;
     std::vector<std::optional<Rank>> ranks_;
     std::vector<Memory> memory_;
-    std::vector<double> ones_;
 };
 
 }  // namespace rrcb::test

@@ -90,7 +90,6 @@ Found search(const Points& points, double weight, double width, bool leaves_out)
     PartTree tree;
     tree.num_parts = 4;
     tree.weight = weight;
-    tree.part_sizes = sizes;
     tree.rule = {sizes, 1, points.weights.empty() ? 1.0 : 0.0, 7, weight / 4, 0, true, false};
     Found found;
     found.parts.resize(points.count, no_part);

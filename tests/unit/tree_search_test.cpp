@@ -1,8 +1,8 @@
-// Cuts below regions, found by the ranks that own them, against all points in one place.
+// Cuts found by the ranks that own them, against all points in one place.
 #include "search/tree_search.hpp"
 
 #include "../support/clouds.hpp"
-#include "../support/virtual_regions.hpp"
+#include "../support/virtual_owners.hpp"
 #include "cells/binned_points.hpp"
 #include "cuts/cut_limits.hpp"
 
@@ -27,7 +27,6 @@ enum class Spread { sorted, scattered, on_few_ranks };
 
 struct Case {
     int num_ranks = 4;
-    int num_regions = 2;
     int num_parts = 4;
     int dimension = 2;
     Spread spread = Spread::sorted;
@@ -40,7 +39,7 @@ struct Case {
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& one) {
-    return out << one.num_ranks << " ranks, " << one.num_regions << " regions, " << one.num_parts
+    return out << one.num_ranks << " ranks, " << one.num_parts
                << " parts, " << one.dimension << "-D, " << one.cloud << ", weights " << one.weights
                << ", spread " << static_cast<int>(one.spread) << (one.is_exact ? ", exact" : "");
 }
@@ -50,7 +49,6 @@ class Global {
   public:
     explicit Global(const Case& one) : case_(one), d_(static_cast<std::size_t>(one.dimension)) {
         make_points();
-        make_regions();
         spread();
     }
 
@@ -62,7 +60,7 @@ class Global {
         PartTree tree;
         tree.num_parts = case_.num_parts;
         tree.num_ranks = case_.num_ranks;
-        tree.part_sizes = case_.part_sizes;
+        tree.rule.part_sizes = case_.part_sizes;
         tree.weight = total();
         tree.rule.tolerance = tolerance;
         tree.rule.is_exact = case_.is_exact;
@@ -91,7 +89,7 @@ class Global {
     void expect_best_cuts() const {
         std::vector<std::size_t> all(size());
         std::iota(all.begin(), all.end(), 0U);
-        descend({0, 0, case_.num_parts}, all, 0);
+        descend({0, 0, case_.num_parts}, all);
     }
 
     /// Ranks know the cuts of all nodes that they have points in, and on the way to their parts.
@@ -183,42 +181,14 @@ class Global {
         }
     }
 
-    /// Halves the points along the first axis, again and again, by the sizes of the parts.
-    void make_regions() {
-        regions_.cuts.dimension = case_.dimension;
-        regions_.cuts.num_parts = case_.num_regions;
-        regions_.cuts.tree.resize(static_cast<std::size_t>(case_.num_regions - 1));
-        std::vector<std::size_t> all(size());
-        std::iota(all.begin(), all.end(), 0U);
+    Box box() const {
+        Box box;
         for (std::size_t a = 0; a < d_; ++a)
             for (std::size_t i = 0; i < size(); ++i) {
-                regions_.box.lower[a] = std::min(regions_.box.lower[a], x(i, a));
-                regions_.box.upper[a] = std::max(regions_.box.upper[a], x(i, a));
+                box.lower[a] = std::min(box.lower[a], x(i, a));
+                box.upper[a] = std::max(box.upper[a], x(i, a));
             }
-        make_region(root_of(regions_.cuts), {0, 0, case_.num_parts}, all);
-        regions_.weights = region_weights_;
-    }
-
-    void make_region(const Descent& region, const Descent& at, std::vector<std::size_t>& members) {
-        double sum = 0;
-        for (const std::size_t i : members) sum += weight(i);
-        if (region.is_part()) {
-            region_weights_.push_back(sum);
-            return;
-        }
-        std::ranges::stable_sort(members, {}, [&](std::size_t i) { return x(i, 0); });
-        double below = 0;
-        std::size_t k = 0;
-        const double target = sizes(at) > 0 ? sum * sizes(at.lower()) / sizes(at) : 0;
-        while (k < members.size() && below < target) below += weight(members[k++]);
-        const double value = members.empty()      ? 0
-                             : k < members.size() ? x(members[k], 0)
-                                                  : std::nextafter(x(members.back(), 0), infinity);
-        const Cut cut = plane(0, value);
-        regions_.cuts.tree[region.node] = cut;
-        auto [lower, upper] = divided(members, cut);
-        make_region(region.lower(), at.lower(), lower);
-        make_region(region.upper(), at.upper(), upper);
+        return box;
     }
 
     /// By the definition of a cut, in words of its own.
@@ -265,10 +235,10 @@ class Global {
             if (!weights_.empty()) weights.push_back(weights_[i]);
         }
         Points points = interleaved_points(coordinates, case_.dimension, weights);
-        const Box box = bounding_box(points);
-        const BinnedPoints binned = bin_by_cell(points, make_support_mesh(box, case_.dimension, 4));
+        const BinnedPoints binned =
+            bin_by_cell(points, make_support_mesh(bounding_box(points), case_.dimension, 4));
         local_parts_.emplace_back(mine.size(), -1);
-        searches_.push_back(std::make_unique<TreeSearch>(tree, rank, regions_, sort_by_cell(binned),
+        searches_.push_back(std::make_unique<TreeSearch>(tree, rank, box(), sort_by_cell(binned),
                                                          local_parts_.back()));
     }
 
@@ -293,7 +263,7 @@ class Global {
         }
     }
 
-    void descend(const Descent& at, const std::vector<std::size_t>& members, int depth) const {
+    void descend(const Descent& at, const std::vector<std::size_t>& members) const {
         if (members.empty()) return;
         if (at.is_part()) {
             for (const std::size_t i : members) ASSERT_EQ(parts_[i], at.first_part) << case_;
@@ -302,9 +272,9 @@ class Global {
         ASSERT_TRUE(cuts_.contains(at.node)) << case_;
         const Cut& cut = cuts_.at(at.node);
         const auto [lower, upper] = divided(members, cut);
-        if ((1 << depth) >= case_.num_regions) expect_best(at, members, lower, cut);
-        descend(at.lower(), lower, depth + 1);
-        descend(at.upper(), upper, depth + 1);
+        expect_best(at, members, lower, cut);
+        descend(at.lower(), lower);
+        descend(at.upper(), upper);
     }
 
     void expect_best(const Descent& at, const std::vector<std::size_t>& members,
@@ -369,8 +339,6 @@ class Global {
     std::size_t d_;
     std::vector<double> coordinates_;
     std::vector<double> weights_;
-    Regions regions_;
-    std::vector<double> region_weights_;
     std::vector<std::vector<std::size_t>> members_;  ///< points of each rank
     std::vector<std::vector<Part>> local_parts_;
     std::vector<std::unique_ptr<TreeSearch>> searches_;
@@ -387,15 +355,12 @@ void expect_exact(const Case& one) {
 }
 
 TEST(TreeSearch, cuts_exactly_on_any_number_of_ranks) {
-    for (const int ranks : {3, 4, 5, 6, 7, 9, 10, 12, 16})
-        for (const int regions : {1, 2, 4, 8})
-            for (const Spread spread : {Spread::sorted, Spread::scattered, Spread::on_few_ranks})
-                if (ranks > regions)
-                    expect_exact({.num_ranks = ranks,
-                                  .num_regions = regions,
-                                  .num_parts = ranks,
-                                  .spread = spread,
-                                  .weights = ranks % 2 == 0 ? "equal" : "any"});
+    for (const int ranks : {2, 3, 4, 5, 6, 7, 9, 10, 12, 16})
+        for (const Spread spread : {Spread::sorted, Spread::scattered, Spread::on_few_ranks})
+            expect_exact({.num_ranks = ranks,
+                          .num_parts = ranks,
+                          .spread = spread,
+                          .weights = ranks % 2 == 0 ? "equal" : "any"});
 }
 
 TEST(TreeSearch, makes_more_parts_than_ranks_and_fewer) {
@@ -403,7 +368,6 @@ TEST(TreeSearch, makes_more_parts_than_ranks_and_fewer) {
         for (const int ranks : {3, 4, 7, 10})
             for (const Spread spread : {Spread::sorted, Spread::scattered})
                 expect_exact({.num_ranks = ranks,
-                              .num_regions = 2,
                               .num_parts = parts,
                               .spread = spread,
                               .weights = "any"});
@@ -415,7 +379,6 @@ TEST(TreeSearch, cuts_clouds_of_any_kind) {
             for (const char* weights : {"equal", "any", "decades", "some"})
                 for (const bool plain : {false, true})
                     expect_exact({.num_ranks = 7,
-                                  .num_regions = 4,
                                   .num_parts = 11,
                                   .dimension = dimension,
                                   .spread = Spread::scattered,
@@ -431,7 +394,6 @@ TEST(TreeSearch, leaves_parts_of_no_size_empty) {
                                                               {1, 2, 3, 4, 5, 6, 7, 8, 9}})
         for (const int ranks : {3, 9, 14})
             expect_exact({.num_ranks = ranks,
-                          .num_regions = 2,
                           .num_parts = 9,
                           .spread = Spread::scattered,
                           .part_sizes = sizes});
@@ -441,7 +403,6 @@ TEST(TreeSearch, gathers_no_more_than_it_may_whatever_shares_a_coordinate) {
     // More points in one bin, and in one place, than are gathered: bins by bits, and ties.
     for (const char* cloud : {"decades", "lattice", "one place", "corner", "next to 1"})
         expect_exact({.num_ranks = 5,
-                      .num_regions = 2,
                       .num_parts = 7,
                       .spread = Spread::scattered,
                       .cloud = cloud,
@@ -455,7 +416,6 @@ TEST(TreeSearch, gives_the_same_parts_wherever_points_lie) {
         for (const Spread spread : {Spread::sorted, Spread::scattered, Spread::on_few_ranks})
             for (const int ranks : {5, 8, 16}) {
                 Global all({.num_ranks = ranks,
-                            .num_regions = 4,
                             .num_parts = 12,
                             .dimension = dimension,
                             .spread = spread,
@@ -468,7 +428,7 @@ TEST(TreeSearch, gives_the_same_parts_wherever_points_lie) {
 }
 
 TEST(TreeSearch, counts_the_cuts_among_points_in_one_place) {
-    Global all({.num_ranks = 4, .num_regions = 2, .num_parts = 8, .cloud = "one place"});
+    Global all({.num_ranks = 4, .num_parts = 8, .cloud = "one place"});
     all.run();
     // All points are on one side of all cuts; each cut on the way to their part counts.
     EXPECT_EQ(all.num_coincident(), 2);
@@ -478,7 +438,6 @@ TEST(TreeSearch, keeps_to_a_tolerance_in_two_rounds_a_level) {
     for (const int ranks : {16, 64})
         for (const Spread spread : {Spread::sorted, Spread::scattered}) {
             Global all({.num_ranks = ranks,
-                        .num_regions = 4,
                         .num_parts = ranks,
                         .spread = spread,
                         .is_exact = false,
@@ -486,7 +445,7 @@ TEST(TreeSearch, keeps_to_a_tolerance_in_two_rounds_a_level) {
             const auto counts = all.run(1.02);
             EXPECT_LE(all.counted_imbalance(), 1.02);
             EXPECT_EQ(all.told_imbalance(), all.counted_imbalance());
-            const int levels = ranks == 16 ? 2 : 4;
+            const int levels = ranks == 16 ? 4 : 6;
             EXPECT_LE(counts.rounds, 3 * levels);
             RecordProperty("rounds_" + std::to_string(ranks), counts.rounds);
         }
@@ -495,7 +454,6 @@ TEST(TreeSearch, keeps_to_a_tolerance_in_two_rounds_a_level) {
 TEST(TreeSearch, sends_little_where_points_lie_in_their_parts) {
     for (const bool is_exact : {false, true}) {
         Global all({.num_ranks = 1000,
-                    .num_regions = is_exact ? 1 : 16,
                     .num_parts = 1000,
                     .dimension = 3,
                     .spread = Spread::sorted,
@@ -504,7 +462,7 @@ TEST(TreeSearch, sends_little_where_points_lie_in_their_parts) {
         all.run(1.1);
         const auto counts = all.run_where_parts_lie(1.1);
         EXPECT_LE(counts.most_bytes_in, 16384U);
-        EXPECT_LE(counts.rounds, is_exact ? 40 : 12) << "10 levels or 6";
+        EXPECT_LE(counts.rounds, is_exact ? 40 : 20) << "10 levels";
         RecordProperty("bytes", static_cast<int>(counts.most_bytes_in));
     }
 }

@@ -4,7 +4,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/cuts_mpi.hpp"
-#include "gather/call_options.hpp"
+#include "options/call_kind.hpp"
 #include "options/validation.hpp"
 #include "paper/paper_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"

@@ -2,6 +2,7 @@
 
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
+#include "options/call_kind.hpp"
 #include "zoltan/real/message.hpp"
 
 #include <array>

@@ -1,5 +1,4 @@
-// The search for the cuts below regions by many ranks in one process, through the code that ranks
-// run.
+// The search for cuts by many ranks in one process, through the code that ranks run.
 #pragma once
 
 #include "search/tree_search.hpp"

@@ -1,6 +1,7 @@
 #include "balance_mpi.hpp"
 
 #include "bisection/limited_bisection.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/machines_mpi.hpp"
@@ -9,7 +10,6 @@
 #include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
-#include "gather/kept_parts_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "gather/spread_reuse_mpi.hpp"
 #include "options/call_kind.hpp"
@@ -57,7 +57,7 @@ struct Call {
 };
 
 /// Completes the options, and summarizes them and the points for the other ranks.
-void introduce(const Options& given, const Box& box, const Cuts* previous, Call& call,
+void introduce(const Options& given, const PointSummary& summary, const Cuts* previous, Call& call,
                const Participant& self) {
     const Points& points = call.points;
     Options options = complete(given, call.ranks, previous);
@@ -66,7 +66,7 @@ void introduce(const Options& given, const Box& box, const Cuts* previous, Call&
     require(options.tree.dealt == 0 || !call.is_spread,
             "tree.dealt must be 0 if many ranks make the parts; raise tuning.central_parts");
     if (previous) check_previous(*previous, options, points.dimension);
-    call.mine.summary = summarize(points, box, mpi::rank_of(self.comm));
+    call.mine.summary = summarize(summary, !points.weights.empty(), mpi::rank_of(self.comm));
     call.mine.summary.request = request_of(options, points.dimension, previous);
     if (!options.part_sizes.empty() && options.tree.dealt != 0)
         for (Part end = 0; end < options.num_parts; ++end)
@@ -106,20 +106,19 @@ void estimate(Call& call, Participant& self) {
 }
 
 /// Prepares a call from scratch. Not collective.
-void prepare(const Options& given, bool may_keep, Call& call, KeptParts& kept,
-             const Participant& self) {
+void prepare(const Options& given, bool may_keep, Call& call, const Participant& self) {
     const StageScope stage(given.observer, Stage::moments, self.arithmetic);
     const Points& points = call.points;
-    const Box box = check_points(points);
-    introduce(given, box, nullptr, call, self);
+    const PointSummary summary = summary_of(points);
+    introduce(given, summary, nullptr, call, self);
     const Options& options = call.options;
-    kept.prepare(options, call.is_spread, points, may_keep, mpi::rank_of(self.comm),
-                 mpi::size_of(self.comm), call.mine);
-    call.binned = bin_by_options(points, box, options);
-    call.settlement.prepare(options, call.is_spread, kept.is_central(), self);
+    const bool reads_kept = !call.is_spread && reads_kept_tree(options, mpi::size_of(self.comm));
+    call.binned = bin_by_options(points, summary.box, options);
+    call.settlement.prepare(options, call.is_spread, reads_kept, self);
     call.decision.bisects = !call.is_spread;
     if (call.is_spread) return;
-    make_buffers(call.decision, options, points.dimension, kept.is_central());
+    if (reads_kept && may_keep) append_extent(summary.extent, points.dimension, call.mine.extents);
+    make_buffers(call.decision, options, points.dimension, reads_kept);
     add_records(points, call.binned, call.mine);
 }
 
@@ -137,20 +136,41 @@ void settle(Call& call, Participant& self) {
     }
 }
 
+/// Makes the parts that the ranks hold the result. Collective.
+void keep(Call& call, Participant& self) {
+    Decision& decision = call.decision;
+    const bool is_known = decision.verdict.keeps != 0;
+    const StageScope stage(call.options.observer, is_known ? Stage::assignment : Stage::broadcast,
+                           self.arithmetic);
+    if (is_known) {
+        agree(self);
+    } else {
+        broadcast_kept(decision, self);
+    }
+    KeptTree& kept = decision.kept;
+    Report& report = call.result.report;
+    report.kept = is_in_order(kept);
+    report_measured(decision.verdict.kept_imbalance, call.options.imbalance_tolerance, report);
+    report.part_weights = std::move(kept.part_weights);
+    report.details.coincident_cuts = static_cast<int>(
+        std::ranges::count_if(kept.cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
+    std::ranges::fill(call.result.parts, kept.parts[mpi::rank_of(self.comm)]);
+    call.result.cuts = std::move(kept.cuts);
+}
+
 Balance balance_from_scratch(const Points& points, const Options& given, bool may_keep,
                              Participant& self, std::vector<Part>&& memory) {
     Call call(points, given.observer, self, std::move(memory));
-    KeptParts kept;
-    self.attempt([&] { prepare(given, may_keep, call, kept, self); });
+    self.attempt([&] { prepare(given, may_keep, call, self); });
     estimate(call, self);
     const Options& options = call.options;
-    kept.read(call.decision.verdict, call.result, self);
-    bool is_kept = kept.are_good(options.imbalance_tolerance);
+    const double kept = call.decision.verdict.kept_imbalance;
+    bool is_kept = keeps_at_once(kept, options.imbalance_tolerance);
     if (!is_kept) {
         settle(call, self);
-        is_kept = kept.do_as_well_as(call.result.report.imbalance, options);
+        is_kept = kept < not_kept && !is_worth_moving(kept, call.result.report.imbalance, options);
     }
-    if (is_kept) kept.keep(call.options, call.decision, call.result, self);
+    if (is_kept) keep(call, self);
     if (call.is_spread) hold_cuts(call.points, options, call.result, self);
     number_parts(call);
     return std::move(call.result);
@@ -174,8 +194,7 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
                       const Participant& self) {
     const StageScope stage(given.observer, Stage::assignment, self.arithmetic);
     const Points& points = call.points;
-    check_arrays(points);
-    introduce(given, Box{}, &previous, call, self);
+    introduce(given, summary_of_weights(points), &previous, call, self);
     if (!may_reuse(previous, call)) return;
     const Options& options = call.options;
     const Cuts& cuts = take_earlier(call.decision, options, call.is_spread, previous);

@@ -28,8 +28,8 @@ RRCB_API const char* name_of(Stage stage);
 ///
 /// Every stage that begins ends before another does, in failing calls too. Some come again in a
 /// call: the broadcast if points stay after new cuts were counted; all from the moments on if
-/// earlier cuts that are spread over the ranks do not stay, or may be poor. Many ranks that make
-/// the parts do so in the refinement, without a bisection.
+/// earlier cuts that are spread over the ranks do not stay, or may be poor. Many ranks make the
+/// parts in the refinement; the bisection is then empty.
 /// The functions may not communicate over the communicator of the call, nor throw, since no rank
 /// may fail alone.
 class RRCB_API StageObserver {

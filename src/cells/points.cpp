@@ -1,5 +1,6 @@
 #include "arithmetic/non_stop.hpp"
 #include "arithmetic/vector_clones.hpp"
+#include "cells/box.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
@@ -184,6 +185,10 @@ Points column_points(std::span<const std::span<const float>> columns,
 Box bounding_box(const Points& points) {
     const NonStop arithmetic;
     check_reach(points);
+    return box_of(points);
+}
+
+Box box_of(const Points& points) {
     if (points.count == 0) return {};
     return points.has_floats() ? box_of_axes(points, points.float_axes)
                                : box_of_axes(points, points.axes);

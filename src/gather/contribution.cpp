@@ -106,21 +106,15 @@ BinnedPoints bin_by_options(const Points& points, const Box& box, const Options&
     return bin_by_cell(points, make_support_mesh(box, dimension, cells));
 }
 
-Summary summarize(const Points& points, const Box& box, int rank) {
+Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
     Summary summary;
-    summary.box = box;
-    summary.num_points = static_cast<std::int64_t>(points.count);
-    summary.weight = points.weights.empty()
-                         ? static_cast<double>(points.count)
-                         : std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
-    if (points.count > 0) {
-        (points.weights.empty() ? summary.unweighted_rank : summary.weighted_rank) = rank;
-        const auto [lightest, heaviest] = points.weights.empty()
-                                              ? std::ranges::min_max_result<double>{1.0, 1.0}
-                                              : std::ranges::minmax(points.weights);
-        summary.lightest = lightest;
-        summary.heaviest = heaviest;
-    }
+    summary.box = points.box;
+    summary.num_points = static_cast<std::int64_t>(points.extent.count);
+    summary.weight = points.extent.weight;
+    summary.lightest = points.lightest;
+    summary.heaviest = points.heaviest;
+    if (summary.num_points > 0)
+        (are_weighted ? summary.weighted_rank : summary.unweighted_rank) = rank;
     return summary;
 }
 

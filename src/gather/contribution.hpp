@@ -4,6 +4,7 @@
 #include "collective/failure.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "options/request.hpp"
+#include "passes/summary.hpp"
 
 #include <rrcb/method/statistical_domain.hpp>
 #include <rrcb/points.hpp>
@@ -54,8 +55,8 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
 /// Finds the cells of checked points in the support mesh of the options.
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options);
 
-/// Returns the totals of checked points of a rank.
-Summary summarize(const Points& points, const Box& box, int rank);
+/// Returns the totals of a rank's points, from one reading of these.
+Summary summarize(const PointSummary& points, bool are_weighted, int rank);
 
 /// Reduces checked points to the moments of their cells.
 void add_records(const Points& points, const BinnedPoints& binned, Contribution& mine);

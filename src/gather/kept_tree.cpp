@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace rrcb {
@@ -19,16 +20,13 @@ namespace {
 
 class Reader {
   public:
-    Reader(std::span<const Extent> extents, const Cuts& estimate, const Options& options,
-           bool by_number)
+    Reader(std::span<const Extent> extents, const Cuts& estimate, const Options& options)
         : extents_(extents),
           estimate_(estimate),
           options_(options),
-          by_number_(by_number),
           by_count_(std::ranges::all_of(extents, [](const Extent& p) { return p.weight == 0; })),
-          ranks_(extents.size()) {
-        for (std::size_t end = 0; end < ranks_.size(); ++end)
-            ranks_[end] = static_cast<std::size_t>(part_at(estimate, static_cast<Part>(end)));
+          ends_(extents.size()) {
+        std::iota(ends_.begin(), ends_.end(), 0);
         kept_.cuts = estimate;
         gaps_.resize(estimate.tree.size());
         kept_.parts.resize(extents.size());
@@ -36,40 +34,41 @@ class Reader {
     }
 
     std::optional<KeptTree> read() {
-        if (!read_node(root_of(estimate_), ranks_, true)) return std::nullopt;
+        if (!read_node(root_of(estimate_), ends_, true)) return std::nullopt;
         if (are_cuts_limited(options_) && !move_into_places()) return std::nullopt;
         kept_.imbalance = imbalance(kept_.part_weights, options_.part_sizes);
         return std::move(kept_);
     }
 
   private:
-    /// Reads the points of a group of ranks as the parts of a node. `expected`: all cuts above are
-    /// across the axes of the estimate.
-    bool read_node(const Descent& at, std::span<std::size_t> ranks, bool expected) {
-        if (at.is_part()) return settle(at.first_part, ranks.front());
+    /// Reads the points of a group of ranks, named by the ends of the tree that are theirs by
+    /// number, as the parts of a node. `expected`: all cuts above are across the axes of the
+    /// estimate.
+    bool read_node(const Descent& at, std::span<Part> ends, bool expected) {
+        if (at.is_part()) return settle(at.first_part, ends.front());
         const int usual = estimate_.tree[at.node].axis;
         const int num_below = at.lower().num_parts;
         if (!has_size(at.lower()) || !has_size(at.upper())) {
             // All points belong to the parts with a size above 0.
             kept_.cuts.tree[at.node] = plane(usual, has_size(at.lower()) ? infinity : -infinity);
-            return read_node(at.lower(), ranks.first(num_below), expected) &&
-                   read_node(at.upper(), ranks.subspan(num_below), expected);
+            return read_node(at.lower(), ends.first(num_below), expected) &&
+                   read_node(at.upper(), ends.subspan(num_below), expected);
         }
         for (int k = 0; k < estimate_.dimension; ++k) {
             const auto axis = static_cast<int>(ordering_axis(usual, k));
-            if (!by_number_) sort_across(axis, ranks);
-            const Extent below = joined(ranks.first(num_below));
-            const Extent above = joined(ranks.subspan(num_below));
+            divide_across(axis, num_below, ends);
+            const Extent below = joined(ends.first(num_below));
+            const Extent above = joined(ends.subspan(num_below));
             const bool as_expected = expected && axis == usual;
             if (!may_cross(axis, usual, as_expected, below, above)) continue;
             const auto cut = cut_between(below, above, axis, estimate_.dimension,
-                                         options_.axes.plain, may_divide());
+                                         options_.axes.plain, may_divide(num_below, ends));
             if (!cut) continue;
             if (are_cuts_limited(options_)) gaps_[at.node] = gap_between(below, above, axis);
             if (gaps_[at.node].empty()) continue;
             kept_.cuts.tree[at.node] = *cut;
-            return read_node(at.lower(), ranks.first(num_below), as_expected) &&
-                   read_node(at.upper(), ranks.subspan(num_below), as_expected);
+            return read_node(at.lower(), ends.first(num_below), as_expected) &&
+                   read_node(at.upper(), ends.subspan(num_below), as_expected);
         }
         return false;
     }
@@ -87,7 +86,7 @@ class Reader {
 
     /// Moves the cuts to allowed positions in their gaps; returns false if these are not enough.
     bool move_into_places() {
-        CutLimits limits(options_, joined(ranks_).box(), estimate_.dimension,
+        CutLimits limits(options_, joined(ends_).box(), estimate_.dimension,
                          {axes_of(kept_.cuts.tree), gaps_});
         if (!limits.has_room()) return false;
         rrcb::move_into_places(limits, kept_.cuts);
@@ -103,25 +102,39 @@ class Reader {
         return as_expected || is_long(all.box(), axis, estimate_.dimension);
     }
 
-    void sort_across(int axis, std::span<std::size_t> ranks) const {
+    const Extent& extent_at(Part end) const { return extents_[part_at(estimate_, end)]; }
+
+    /// Puts the ranks with the first points across an axis to the beginning. Coincident points are
+    /// in the order of their ranks. Ranks without points stay on the side of their number.
+    void divide_across(int axis, int num_below, std::span<Part> ends) const {
         const PositionOrder is_before(axis, 0, estimate_.dimension);
-        std::ranges::sort(ranks, [&](std::size_t i, std::size_t j) {
-            const Vector& one = extents_[i].first[axis];
-            const Vector& other = extents_[j].first[axis];
+        const auto has_points = [&](Part end) { return extent_at(end).count > 0; };
+        std::ranges::sort(ends);
+        std::vector<Part> filled;
+        std::ranges::copy_if(ends, std::back_inserter(filled), has_points);
+        const auto middle =
+            filled.begin() + std::ranges::count_if(ends.first(num_below), has_points);
+        std::ranges::nth_element(filled, middle, [&](Part i, Part j) {
+            const Vector& one = extent_at(i).first[axis];
+            const Vector& other = extent_at(j).first[axis];
             return is_before(one, other) || (!is_before(other, one) && i < j);
         });
+        auto next = filled.begin();
+        for (Part& end : ends)
+            if (has_points(end)) end = *next++;
     }
 
-    Extent joined(std::span<const std::size_t> ranks) const {
+    Extent joined(std::span<const Part> ends) const {
         Extent all;
-        for (const std::size_t rank : ranks) join(all, extents_[rank], estimate_.dimension);
+        for (const Part end : ends) join(all, extent_at(end), estimate_.dimension);
         return all;
     }
 
     /// Coincident points are in the order of their ranks, so parts in another order divide none.
-    bool may_divide() const {
-        return by_number_ && options_.tree.dealt == 0 &&
-               options_.coincident == Coincident::divide && options_.refine != Refine::none;
+    bool may_divide(int num_below, std::span<const Part> ends) const {
+        return options_.tree.dealt == 0 && options_.coincident == Coincident::divide &&
+               options_.refine != Refine::none &&
+               std::ranges::max(ends.first(num_below)) < std::ranges::min(ends.subspan(num_below));
     }
 
     bool has_size(const Descent& at) const {
@@ -130,9 +143,9 @@ class Reader {
     }
 
     /// Gives the points of a rank their part; returns false if the part must stay empty.
-    bool settle(Part part, std::size_t rank) {
-        const Extent& extent = extents_[rank];
-        kept_.parts[rank] = part;
+    bool settle(Part part, Part end) {
+        const Extent& extent = extent_at(end);
+        kept_.parts[part_at(estimate_, end)] = part;
         kept_.part_weights[part] = by_count_ ? extent.count : extent.weight;
         return extent.count == 0 || options_.part_sizes[part] > 0;
     }
@@ -140,14 +153,19 @@ class Reader {
     std::span<const Extent> extents_;
     const Cuts& estimate_;
     const Options& options_;
-    bool by_number_;
     bool by_count_;
-    std::vector<std::size_t> ranks_;  ///< in the order of the parts that were read
-    std::vector<Places> gaps_;        ///< between the points on both sides of each cut
+    std::vector<Part> ends_;    ///< in the order of the parts that were read
+    std::vector<Places> gaps_;  ///< between the points on both sides of each cut
     KeptTree kept_;
 };
 
 }  // namespace
+
+bool is_in_order(const KeptTree& kept) {
+    for (std::size_t rank = 0; rank < kept.parts.size(); ++rank)
+        if (part_at(kept.cuts, kept.parts[rank]) != static_cast<Part>(rank)) return false;
+    return true;
+}
 
 bool is_long(const Box& box, int axis, int dimension) {
     constexpr double enough = 0.8;
@@ -176,10 +194,7 @@ std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axi
 
 std::optional<KeptTree> read_kept_tree(std::span<const Extent> extents, const Cuts& estimate,
                                        const Options& options) {
-    if (auto kept = Reader(extents, estimate, options, true).read()) return kept;
-    if (std::ranges::any_of(extents, [](const Extent& extent) { return extent.count == 0; }))
-        return {};
-    return Reader(extents, estimate, options, false).read();
+    return Reader(extents, estimate, options).read();
 }
 
 }  // namespace rrcb

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gather/extent.hpp"
+#include "passes/extent.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
@@ -19,6 +19,9 @@ struct KeptTree {
     double imbalance = 1;
 };
 
+/// Returns true if rank r holds part r for every rank: then nothing moves.
+bool is_in_order(const KeptTree& kept);
+
 /// Returns true if no other axis of the box is much longer. This is less strict than for a new cut,
 /// whose extents are estimated; otherwise cuts might turn in every call.
 bool is_long(const Box& box, int axis, int dimension);
@@ -33,8 +36,8 @@ std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axi
 /// `options`, one per rank; nullopt if they are no bisection. Not collective.
 ///
 /// The cuts give each point the part of its rank, except coincident points that a cut divides, if
-/// the options allow it. Rank r holds part r if that is possible. Otherwise, if every rank has
-/// points, parts go to the ranks in any order, as after a renumbering.
+/// the options allow it. Ranks may hold the parts in any order, as after a renumbering; a rank
+/// without points holds the part of its number.
 ///
 /// A cut must be across an axis that a new cut might have:
 /// - that of the same cut in `estimate`, if all cuts above it are across those of `estimate` too,

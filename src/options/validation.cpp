@@ -24,21 +24,6 @@ std::string tally(std::size_t bad) {
            " on this rank)";
 }
 
-void check_weights(const Points& points) {
-    std::size_t bad = 0;
-    double sum = 0;
-    for (const double weight : points.weights) {
-        bad += !(weight >= 0 && weight - weight == 0);
-        sum += weight;
-    }
-    if (bad == 0 && std::isfinite(sum)) return;
-    for (LocalIndex i = 0; i < points.weights.size(); ++i)
-        if (!(points.weights[i] >= 0 && std::isfinite(points.weights[i])))
-            reject("weight of object " + std::to_string(i) + " is negative, NaN or infinite" +
-                   tally(bad));
-    reject("the sum of the weights overflows; scale them down");
-}
-
 /// Returns true if `axes` are in one array, point after point.
 template <class Axes>
 bool are_interleaved(const Points& points, const Axes& axes) {
@@ -285,11 +270,29 @@ void check_ranks(std::span<const RankRange> ranks_of_parts, int num_ranks) {
                 "ranks_of_parts must name ranks of this communicator");
 }
 
-void check_arrays(const Points& points) {
+void reject_weights(const Points& points) {
+    const auto is_bad = [](double weight) { return !(weight >= 0 && std::isfinite(weight)); };
+    const auto first = std::ranges::find_if(points.weights, is_bad);
+    if (first == points.weights.end()) reject("the sum of the weights overflows; scale them down");
+    reject("weight of object " + std::to_string(first - points.weights.begin()) +
+           " is negative, NaN or infinite" + tally(std::ranges::count_if(points.weights, is_bad)));
+}
+
+void check_lengths(const Points& points) {
     check_coordinates(points);
     require(points.weights.empty() || points.weights.size() == points.count,
             "weights must hold one entry per point, or none for unit weights");
-    check_weights(points);
+}
+
+void check_arrays(const Points& points) {
+    check_lengths(points);
+    bool are_positive = true;
+    double sum = 0;
+    for (const double weight : points.weights) {
+        are_positive = are_positive && weight >= 0;
+        sum += weight;
+    }
+    if (!are_positive || !std::isfinite(sum)) reject_weights(points);
 }
 
 Box check_points(const Points& points) {

@@ -24,8 +24,15 @@ Options complete(Options options, const Ranks& ranks, const Cuts* previous);
 /// Throws Error with the option and its range if `options` are illegal.
 void check_options(const Options& options, int dimension);
 
-/// Throws Error if the arrays of the points do not fit together, or weights are illegal.
+/// Throws Error if the arrays of the points do not fit together.
+void check_lengths(const Points& points);
+
+/// Throws Error as check_lengths(), or if weights are illegal.
 void check_arrays(const Points& points);
+
+/// Throws Error with the first weight that is illegal, and their number, or for their sum. One must
+/// be.
+[[noreturn]] void reject_weights(const Points& points);
 
 /// Throws Error with the first coordinate that is NaN or infinite, and their number. Some must be.
 [[noreturn]] void reject_coordinates(const Points& points);

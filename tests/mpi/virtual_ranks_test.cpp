@@ -56,9 +56,9 @@ struct VirtualRanks {
     /// What a rank sends to its parent.
     Contribution contribution_of(int rank) {
         const Points mine = points_of(rank);
-        const Box box = check_points(mine);
-        Contribution all{summarize(mine, box, 0), {}};
-        add_records(mine, bin_by_options(mine, box, options), all);
+        const PointSummary summary = summary_of(mine);
+        Contribution all{summarize(summary, false, 0), {}};
+        add_records(mine, bin_by_options(mine, summary.box, options), all);
         all.summary.first_rank = rank;
         MergeTree{num_ranks()}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);

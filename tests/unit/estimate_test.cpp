@@ -99,9 +99,9 @@ struct Ranks {
     /// What a rank hands to its parent.
     Contribution contribution_of(int rank) const {
         const Points mine = points_of(rank);
-        const Box box = check_points(mine);
-        Contribution all{summarize(mine, box, 0), {}};
-        add_records(mine, bin_by_options(mine, box, options), all);
+        const PointSummary summary = summary_of(mine);
+        Contribution all{summarize(summary, false, 0), {}};
+        add_records(mine, bin_by_options(mine, summary.box, options), all);
         MergeTree{num_ranks}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);
             all.records.insert(all.records.end(), theirs.records.begin(), theirs.records.end());

@@ -1,11 +1,15 @@
-#include "gather/extent.hpp"
-
 #include "arithmetic/position_order.hpp"
+#include "passes/summary.hpp"
+
+#include <rrcb/error.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -20,7 +24,7 @@ std::vector<double> lattice_cloud(std::size_t count, int dimension, int width) {
 }
 
 Extent extent_of_all(const Points& points) {
-    return extent_of(points, bounding_box(points), static_cast<double>(points.count));
+    return summary_of(points).extent;
 }
 
 void expect_ends(const Points& points, const Extent& extent) {
@@ -71,8 +75,8 @@ TEST(Extent, of_two_is_that_of_their_points_together) {
 
 TEST(Extent, travels_as_doubles) {
     const auto coordinates = lattice_cloud(50, 2, 9);
-    const Extent extent = extent_of(interleaved_points(coordinates, 2),
-                                    bounding_box(interleaved_points(coordinates, 2)), 12.5);
+    Extent extent = extent_of_all(interleaved_points(coordinates, 2));
+    extent.weight = 12.5;
     std::vector<double> doubles;
     append_extent(extent, 2, doubles);
     append_extent(Extent{}, 2, doubles);
@@ -86,6 +90,37 @@ TEST(Extent, travels_as_doubles) {
     Extent still_empty = extents[1];
     join(still_empty, extents[0], 2);
     expect_ends(interleaved_points(coordinates, 2), still_empty);
+}
+
+TEST(PointSummary, reads_weights_and_refuses_the_first_illegal_value) {
+    std::vector<double> coordinates = lattice_cloud(600, 2, 9);
+    std::vector<double> weights(600, 2.5);
+    weights[3] = 0.5;
+    weights[599] = 7;
+    const auto summary = [&] { return summary_of(interleaved_points(coordinates, 2, weights)); };
+    EXPECT_EQ(summary().lightest, 0.5);
+    EXPECT_EQ(summary().heaviest, 7);
+    EXPECT_EQ(summary().extent.weight, 598 * 2.5 + 7.5);
+    EXPECT_EQ(summary().box.lower, bounding_box(interleaved_points(coordinates, 2)).lower);
+    EXPECT_EQ(summary().box.upper, bounding_box(interleaved_points(coordinates, 2)).upper);
+    const auto text_for = [&](double& value, double illegal) -> std::string {
+        const double legal = std::exchange(value, illegal);
+        std::string text;
+        try {
+            summary();
+        } catch (const Error& error) {
+            text = error.what();
+        }
+        value = legal;
+        return text;
+    };
+    for (const double illegal : {-1.0, NAN, HUGE_VAL})
+        EXPECT_NE(text_for(weights[300], illegal).find("weight of object 300"), std::string::npos);
+    weights[7] = 1e308;
+    EXPECT_NE(text_for(weights[300], 1e308).find("overflows"), std::string::npos);
+    for (const double illegal : {double(NAN), -HUGE_VAL})
+        EXPECT_NE(text_for(coordinates[803], illegal).find("coordinate of object 401 on axis 1"),
+                  std::string::npos);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "arithmetic/position_order.hpp"
 #include "cuts/tree.hpp"
+#include "passes/summary.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -27,8 +28,7 @@ Extent extent_of(const Positions& positions, int dimension) {
     std::vector<double> coordinates;
     for (const Vector& x : positions)
         coordinates.insert(coordinates.end(), x.begin(), x.begin() + dimension);
-    const Points points = interleaved_points(coordinates, dimension);
-    return rrcb::extent_of(points, bounding_box(points), static_cast<double>(points.count));
+    return summary_of(interleaved_points(coordinates, dimension)).extent;
 }
 
 Options options_for(std::size_t num_parts) {

@@ -27,9 +27,6 @@ struct Extent {
     }
 };
 
-/// Returns the extent of checked points that weigh `weight` and span `box`.
-Extent extent_of(const Points& points, const Box& box, double weight);
-
 /// Adds the points of another extent.
 void join(Extent& extent, const Extent& other, int dimension);
 

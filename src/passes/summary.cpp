@@ -1,0 +1,96 @@
+#include "passes/summary.hpp"
+
+#include "arithmetic/position_order.hpp"
+#include "arithmetic/running_sums.hpp"
+#include "cells/box.hpp"
+#include "options/validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+/// Returns a range of consecutive points.
+Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
+    Points range = points;
+    range.count = last - first;
+    const std::size_t begin = first * points.stride;
+    for (int a = 0; a < points.dimension; ++a) {
+        if (points.has_floats())
+            range.float_axes[a] = points.float_axes[a].subspan(begin);
+        else
+            range.axes[a] = points.axes[a].subspan(begin);
+    }
+    return range;
+}
+
+/// Widens the ends of the order across `axis` by the points that reach `lower` or `upper`, the ends
+/// of all points so far.
+void widen(const Points& points, double lower, double upper, int axis, Extent& extent) {
+    const PositionOrder is_before(axis, 1, points.dimension);
+    Vector& first = extent.first[axis];
+    Vector& last = extent.last[axis];
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        const double value = points.coordinate(i, axis);
+        const bool is_first = value == lower;
+        const bool is_last = value == upper;
+        if (!is_first && !is_last) continue;
+        const Vector position = points.position(i);
+        if (is_first && (first[axis] != value || is_before(position, first))) first = position;
+        if (is_last && (last[axis] != value || is_before(last, position))) last = position;
+    }
+}
+
+/// Adds a block of points, which `of_block` encloses.
+void add_block(const Points& block, const Box& of_block, PointSummary& summary) {
+    for (int a = 0; a < block.dimension; ++a) {
+        double& lower = summary.box.lower[a];
+        double& upper = summary.box.upper[a];
+        // Few blocks hold ends of the order, unless the points are sorted along an axis.
+        const bool has_ends = of_block.lower[a] <= lower || of_block.upper[a] >= upper;
+        lower = std::min(lower, of_block.lower[a]);
+        upper = std::max(upper, of_block.upper[a]);
+        if (has_ends) widen(block, lower, upper, a, summary.extent);
+    }
+}
+
+}  // namespace
+
+PointSummary summary_of_weights(const Points& points) {
+    check_lengths(points);
+    PointSummary summary;
+    Extent& extent = summary.extent;
+    extent.count = extent.weight = static_cast<double>(points.count);
+    if (points.count == 0) return summary;
+    summary.lightest = summary.heaviest = 1;
+    if (points.weights.empty()) return summary;
+    summary.lightest = std::numeric_limits<double>::infinity();
+    summary.heaviest = extent.weight = 0;
+    for (const double weight : points.weights) {
+        summary.lightest = std::min(summary.lightest, weight);
+        summary.heaviest = std::max(summary.heaviest, weight);
+        extent.weight += weight;
+    }
+    // A sum with NaN or infinity is not finite.
+    if (summary.lightest < 0 || !std::isfinite(extent.weight)) reject_weights(points);
+    return summary;
+}
+
+PointSummary summary_of(const Points& points) {
+    constexpr LocalIndex points_in_block = 256;
+    PointSummary summary = summary_of_weights(points);
+    bool are_finite = true;
+    in_ranges(points.count, points_in_block, [&](LocalIndex first, LocalIndex last) {
+        const Points block = range_of(points, first, last);
+        const Box of_block = box_of(block);
+        for (int a = 0; a < points.dimension; ++a)
+            are_finite = are_finite && !std::isnan(of_block.lower[a]);
+        if (are_finite) add_block(block, of_block, summary);
+    });
+    if (!are_finite) reject_coordinates(points);
+    return summary;
+}
+
+}  // namespace rrcb

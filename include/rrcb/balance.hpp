@@ -32,7 +32,7 @@ struct ReportDetails {
 struct Report {
     double imbalance = 1;              ///< heaviest part / mean part, counted; NaN if not counted
     bool within_tolerance = false;     ///< `imbalance` is at most Options::imbalance_tolerance
-    bool kept = false;                 ///< points stay: those of each rank are one part
+    bool kept = false;                 ///< nothing moves: the points of rank r are part r
     std::vector<double> part_weights;  ///< over all ranks, one per part, by count if all weights
                                        ///< are 0; empty if not counted, or if ranks get their own
                                        ///< cuts only

@@ -22,7 +22,7 @@ class Report:
 
     imbalance: float  #: heaviest part / mean part
     within_tolerance: bool
-    kept: bool  #: the points stay on their ranks
+    kept: bool  #: nothing moves: the points of rank r are part r
     num_points: int  #: over all ranks
     total_weight: float
     least_imbalance: float  #: lower bound of the imbalance of any partition

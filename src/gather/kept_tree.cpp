@@ -20,10 +20,12 @@ namespace {
 
 class Reader {
   public:
-    Reader(std::span<const Extent> extents, const Cuts& estimate, const Options& options)
+    Reader(std::span<const Extent> extents, const Cuts& estimate, const Options& options,
+           bool by_number)
         : extents_(extents),
           estimate_(estimate),
           options_(options),
+          by_number_(by_number),
           by_count_(std::ranges::all_of(extents, [](const Extent& p) { return p.weight == 0; })),
           ends_(extents.size()) {
         std::iota(ends_.begin(), ends_.end(), 0);
@@ -56,13 +58,13 @@ class Reader {
         }
         for (int k = 0; k < estimate_.dimension; ++k) {
             const auto axis = static_cast<int>(ordering_axis(usual, k));
-            divide_across(axis, num_below, ends);
+            if (!by_number_) divide_across(axis, num_below, ends);
             const Extent below = joined(ends.first(num_below));
             const Extent above = joined(ends.subspan(num_below));
             const bool as_expected = expected && axis == usual;
             if (!may_cross(axis, usual, as_expected, below, above)) continue;
             const auto cut = cut_between(below, above, axis, estimate_.dimension,
-                                         options_.axes.plain, may_divide(num_below, ends));
+                                         options_.axes.plain, may_divide());
             if (!cut) continue;
             if (are_cuts_limited(options_)) gaps_[at.node] = gap_between(below, above, axis);
             if (gaps_[at.node].empty()) continue;
@@ -105,7 +107,7 @@ class Reader {
     const Extent& extent_at(Part end) const { return extents_[part_at(estimate_, end)]; }
 
     /// Puts the ranks with the first points across an axis to the beginning. Coincident points are
-    /// in the order of their ranks. Ranks without points stay on the side of their number.
+    /// in the order of their ranks. Ranks without points stay on their side.
     void divide_across(int axis, int num_below, std::span<Part> ends) const {
         const PositionOrder is_before(axis, 0, estimate_.dimension);
         const auto has_points = [&](Part end) { return extent_at(end).count > 0; };
@@ -131,10 +133,9 @@ class Reader {
     }
 
     /// Coincident points are in the order of their ranks, so parts in another order divide none.
-    bool may_divide(int num_below, std::span<const Part> ends) const {
-        return options_.tree.dealt == 0 && options_.coincident == Coincident::divide &&
-               options_.refine != Refine::none &&
-               std::ranges::max(ends.first(num_below)) < std::ranges::min(ends.subspan(num_below));
+    bool may_divide() const {
+        return by_number_ && options_.tree.dealt == 0 &&
+               options_.coincident == Coincident::divide && options_.refine != Refine::none;
     }
 
     bool has_size(const Descent& at) const {
@@ -153,6 +154,7 @@ class Reader {
     std::span<const Extent> extents_;
     const Cuts& estimate_;
     const Options& options_;
+    bool by_number_;
     bool by_count_;
     std::vector<Part> ends_;    ///< in the order of the parts that were read
     std::vector<Places> gaps_;  ///< between the points on both sides of each cut
@@ -194,7 +196,10 @@ std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axi
 
 std::optional<KeptTree> read_kept_tree(std::span<const Extent> extents, const Cuts& estimate,
                                        const Options& options) {
-    return Reader(extents, estimate, options).read();
+    // By number first: an order of the ranks that divides the same boxes in another way moves
+    // points.
+    if (auto kept = Reader(extents, estimate, options, true).read()) return kept;
+    return Reader(extents, estimate, options, false).read();
 }
 
 }  // namespace rrcb

@@ -114,7 +114,7 @@ TEST(PointSummary, reads_weights_and_refuses_the_first_illegal_value) {
         value = legal;
         return text;
     };
-    for (const double illegal : {-1.0, NAN, HUGE_VAL})
+    for (const double illegal : {-1.0, double(NAN), HUGE_VAL})
         EXPECT_NE(text_for(weights[300], illegal).find("weight of object 300"), std::string::npos);
     weights[7] = 1e308;
     EXPECT_NE(text_for(weights[300], 1e308).find("overflows"), std::string::npos);

@@ -317,13 +317,18 @@ TEST(KeptTree, in_one_place_are_read_only_where_a_search_may_divide_them) {
     EXPECT_FALSE(read(held, across({0}, 2), options));
 }
 
-TEST(KeptTree, of_ranks_without_points_are_read_by_number_alone) {
+TEST(KeptTree, may_have_ranks_without_points) {
     const Distribution held{{{0, 0}}, {}, {{2, 0}}, {{3, 0}}};
     const auto current = read(held, across({0, 0, 0}, 2));
     ASSERT_TRUE(current);
     EXPECT_EQ(current->part_weights, (std::vector<double>{1, 0, 1, 1}));
     expect_cuts_give_every_rank_its_part(held, *current);
-    EXPECT_FALSE(read({{{3, 0}}, {}, {{2, 0}}, {{0, 0}}}, across({0, 0, 0}, 2)));
+    const auto renumbered = read({{{3, 0}}, {}, {{2, 0}}, {{0, 0}}}, across({0, 0, 0}, 2));
+    ASSERT_TRUE(renumbered);
+    EXPECT_EQ(renumbered->parts[0], 3);
+    EXPECT_EQ(renumbered->parts[2], 2);
+    EXPECT_FALSE(is_in_order(*renumbered));
+    EXPECT_TRUE(is_in_order(*current));
 }
 
 TEST(KeptTree, leave_parts_of_size_zero_empty) {

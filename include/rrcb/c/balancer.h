@@ -33,7 +33,7 @@ typedef struct rrcb_cuts {
 typedef struct rrcb_report {
     double imbalance;           /**< heaviest part / mean part, counted; NaN if not counted */
     int within_tolerance;       /**< 1: `imbalance` is within the tolerance */
-    int kept;                   /**< 1: the points stay on their ranks */
+    int kept;                   /**< 1: nothing moves, the points of rank r are part r */
     int64_t num_points;         /**< over all ranks */
     double total_weight;        /**< over all ranks */
     double least_imbalance;     /**< lower bound of the imbalance of any partition */

@@ -93,7 +93,7 @@ StepRecord Controller::State::hand_in(const RankLoad& load, BadInput fault) {
     mine.cost = has_bad_cost_ ? 0 : cost_;
     mine.least_imbalance = least_imbalance_;
     mine.is_due = root_asks_ ? 1 : 0;
-    if (fault != BadInput::none) mine.bad_input = 4 * rank_ + static_cast<int>(fault);
+    if (fault != BadInput::none) mine.bad_input = code_of(rank_, fault);
     mine.num_rebalances = num_rebalances_;
     mine.minus_num_rebalances = -num_rebalances_;
     cost_ = 0;

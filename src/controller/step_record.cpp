@@ -11,6 +11,8 @@ namespace rrcb {
 
 namespace {
 
+constexpr std::int64_t most_ranks = std::int64_t{1} << 31;
+
 std::string whole(double number) {
     return std::to_string(static_cast<std::int64_t>(number));
 }
@@ -24,6 +26,10 @@ std::string text_of(BadInput input) {
 }
 
 }  // namespace
+
+double code_of(int rank, BadInput input) {
+    return static_cast<double>(4 * (most_ranks - rank) + static_cast<int>(input));
+}
 
 void join(const StepRecord& theirs, StepRecord& ours) {
     ours.work += theirs.work;
@@ -54,7 +60,8 @@ void check_record(const StepRecord& all) {
                " times on another; call it on every rank after each rebalance";
     } else if (all.bad_input > 0) {
         const auto code = static_cast<std::int64_t>(all.bad_input);
-        text = "rank " + std::to_string(code / 4) + text_of(static_cast<BadInput>(code % 4));
+        text = "rank " + std::to_string(most_ranks - code / 4) +
+               text_of(static_cast<BadInput>(code % 4));
     }
     if (!text.empty()) throw Error(ErrorCode::invalid_argument, text);
 }

@@ -16,10 +16,13 @@ struct StepRecord {
     double cost = 0;  ///< of the rebalances since the step before
     double least_imbalance = 1;
     double is_due = 0;     ///< the root's decision; 0 from all others
-    double bad_input = 0;  ///< 4 rank + BadInput
+    double bad_input = 0;  ///< code_of() that of the lowest rank
     double num_rebalances = 0;
     double minus_num_rebalances = 0;
 };
+
+/// Returns the code of invalid input, larger for lower ranks.
+double code_of(int rank, BadInput input);
 
 /// Adds the step of other ranks.
 void join(const StepRecord& theirs, StepRecord& ours);

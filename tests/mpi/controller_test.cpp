@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -146,6 +147,15 @@ TEST(Controller, refuses_bad_loads_and_costs_of_one_rank_on_all) {
         EXPECT_FALSE(costs.step(1));
         expect_error(costs, last + ": the cost of a rebalance is" + fix);
     }
+}
+
+TEST(Controller, names_the_lowest_of_the_ranks_with_bad_input) {
+    const int lowest = std::min(1, num_ranks() - 1);
+    Controller controller(MPI_COMM_WORLD);
+    EXPECT_FALSE(controller.step(rank() < lowest ? 1 : -1));
+    expect_error(controller, "rank " + std::to_string(lowest) +
+                                 ": the load, the points or a column of a step are negative, NaN "
+                                 "or infinite; give a finite number of at least 0");
 }
 
 TEST(Controller, reports_ranks_that_have_not_rebalanced) {

@@ -13,7 +13,7 @@ namespace rrcb {
 enum class Refine {
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the counted imbalance is within `imbalance_tolerance`
-    exact       ///< to the weighted median: each cut to within the weight of one object, which goes
+    exact       ///< to the weighted median: each cut to within the weight of one point, which goes
                 ///< to the side that it makes less too heavy
 };
 

@@ -16,8 +16,8 @@
 
 namespace rrcb {
 
-using LocalIndex = std::size_t;        ///< counts objects of one rank
-using GlobalCount = std::int64_t;      ///< counts objects over all ranks
+using LocalIndex = std::size_t;        ///< counts points of one rank
+using GlobalCount = std::int64_t;      ///< counts points over all ranks
 using Part = std::int32_t;             ///< number of a part, 0 ... parts - 1
 using Vector = std::array<double, 3>;  ///< a position or lengths, an entry per axis
 

@@ -49,7 +49,7 @@ void PeriodicImages::check(const Points& points) const {
         for (int a = 0; a < dimension_; ++a) {
             const double x = points.coordinate(i, a);
             if (x >= box_.lower[a] && x <= box_.upper[a]) continue;
-            reject("coordinate " + text_of(x) + " of object " + std::to_string(i) + " on axis " +
+            reject("coordinate " + text_of(x) + " of point " + std::to_string(i) + " on axis " +
                    std::to_string(a) + " is outside the periodic box, " + text_of(box_.lower[a]) +
                    " to " + text_of(box_.upper[a]));
         }

@@ -240,7 +240,7 @@ void reject_coordinates(const Points& points) {
             first_axis = axis;
         }
     }
-    reject("coordinate of object " + std::to_string(first) + " on axis " +
+    reject("coordinate of point " + std::to_string(first) + " on axis " +
            std::to_string(first_axis) + " is NaN or infinite" + tally(bad));
 }
 
@@ -274,7 +274,7 @@ void reject_weights(const Points& points) {
     const auto is_bad = [](double weight) { return !(weight >= 0 && std::isfinite(weight)); };
     const auto first = std::ranges::find_if(points.weights, is_bad);
     if (first == points.weights.end()) reject("the sum of the weights overflows; scale them down");
-    reject("weight of object " + std::to_string(first - points.weights.begin()) +
+    reject("weight of point " + std::to_string(first - points.weights.begin()) +
            " is negative, NaN or infinite" + tally(std::ranges::count_if(points.weights, is_bad)));
 }
 

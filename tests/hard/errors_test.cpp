@@ -59,27 +59,27 @@ std::string last_rank() {
 }
 
 TEST(Errors, a_coordinate_that_is_nan) {
-    expect_error(last_rank() + "coordinate of object 3 on axis 0 is NaN or infinite (1 such value",
+    expect_error(last_rank() + "coordinate of point 3 on axis 0 is NaN or infinite (1 such value",
                  [](Share& share, Options&) {
                      if (is_last_rank()) share.coordinates[3] = nan;
                  });
 }
 
 TEST(Errors, all_coordinates_are_nan) {
-    expect_error("rank 0: coordinate of object 0 on axis 0", [](Share& share, Options&) {
+    expect_error("rank 0: coordinate of point 0 on axis 0", [](Share& share, Options&) {
         share.coordinates.assign(share.coordinates.size(), nan);
     });
 }
 
 TEST(Errors, a_coordinate_that_is_infinite) {
     for (const double bad : {infinity, -infinity})
-        expect_error(last_rank() + "coordinate of object 0 on axis 0", [&](Share& share, Options&) {
+        expect_error(last_rank() + "coordinate of point 0 on axis 0", [&](Share& share, Options&) {
             if (is_last_rank()) share.coordinates[0] = bad;
         });
 }
 
 TEST(Errors, a_weight_that_is_negative) {
-    expect_error(last_rank() + "weight of object 2 is negative, NaN or infinite (1 such value",
+    expect_error(last_rank() + "weight of point 2 is negative, NaN or infinite (1 such value",
                  [](Share& share, Options&) {
                      if (is_last_rank()) share.weights[2] = -1e-300;
                  });
@@ -87,13 +87,13 @@ TEST(Errors, a_weight_that_is_negative) {
 
 TEST(Errors, a_weight_that_is_nan_or_infinite) {
     for (const double bad : {nan, infinity})
-        expect_error(last_rank() + "weight of object 2", [&](Share& share, Options&) {
+        expect_error(last_rank() + "weight of point 2", [&](Share& share, Options&) {
             if (is_last_rank()) share.weights[2] = bad;
         });
 }
 
 TEST(Errors, of_several_ranks_are_told_by_the_lowest) {
-    expect_error("rank 0: weight of object 1",
+    expect_error("rank 0: weight of point 1",
                  [](Share& share, Options&) { share.weights[rank() == 0 ? 1 : 0] = nan; });
 }
 

@@ -47,7 +47,7 @@ TEST_F(Agreement, on_a_coordinate_that_is_no_number) {
         if (last()) x[3] = x[5] = bad;
         expect_error(interleaved_points(x, 2), {},
                      last_rank() +
-                         "coordinate of object 1 on axis 1 is NaN or infinite (2 such "
+                         "coordinate of point 1 on axis 1 is NaN or infinite (2 such "
                          "values on this rank)");
     }
 }
@@ -58,7 +58,7 @@ TEST_F(Agreement, on_an_impossible_weight) {
         std::vector<double> weights(3, 1.0);
         if (last()) weights[2] = bad;
         expect_error(interleaved_points(x, 1, weights), {},
-                     last_rank() + "weight of object 2 is negative, NaN or infinite (1 such value");
+                     last_rank() + "weight of point 2 is negative, NaN or infinite (1 such value");
     }
 }
 

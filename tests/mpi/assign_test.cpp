@@ -82,7 +82,7 @@ TEST(AssignTogether, refuses_what_one_rank_gives_wrong_on_all) {
     const std::string last = "rank " + std::to_string(num_ranks() - 1) + ": ";
     const std::vector<double> x{0, is_last_rank() ? std::nan("") : 1, 0};
     const std::span<const double> some(x);
-    expect_refusal(last + "coordinate of object 0 on axis 1 is NaN", right,
+    expect_refusal(last + "coordinate of point 0 on axis 1 is NaN", right,
                    interleaved_points(some.first(2), 2));
     expect_refusal(last + "positions must have the dimension", right,
                    interleaved_points(std::span<const double>(), is_last_rank() ? 3 : 2));

@@ -122,7 +122,7 @@ TEST(Inputs, that_are_unusable_on_one_rank_are_refused_on_all) {
     if (last) points.axes[0] = doubles;
     expect_refusal(points, "give coordinates in axes or float_axes, not in both");
     if (last) x[3] = std::numeric_limits<float>::quiet_NaN();
-    expect_refusal(interleaved_points(x, 2), "coordinate of object 1 on axis 1 is NaN or infinite");
+    expect_refusal(interleaved_points(x, 2), "coordinate of point 1 on axis 1 is NaN or infinite");
     const std::vector<float> five(5);
     expect_refusal(interleaved_points(std::span(five).first(last ? 5 : 4), 2),
                    "the length of the coordinate array must be a multiple of the dimension");

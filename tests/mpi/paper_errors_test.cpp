@@ -40,11 +40,11 @@ TEST(PaperErrors, of_points_of_one_rank_reach_all) {
         options.domain = domain;
         Share broken = crowded_share(rank());
         if (is_last_rank()) broken.coordinates[3] = nan;
-        expect_error(broken, options, last_rank() + "coordinate of object 1 on axis 1");
+        expect_error(broken, options, last_rank() + "coordinate of point 1 on axis 1");
         broken = crowded_share(rank());
         broken.weights.assign(300, 1.0);
         if (is_last_rank()) broken.weights[2] = -1;
-        expect_error(broken, options, last_rank() + "weight of object 2 is negative");
+        expect_error(broken, options, last_rank() + "weight of point 2 is negative");
         if (num_ranks() == 1) continue;
         broken.weights.assign(300, 5e305);
         expect_error(broken, options, "the sum of the weights of all ranks overflows");

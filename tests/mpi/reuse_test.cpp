@@ -185,11 +185,11 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
         "previous cuts must have");
     std::vector<double> weights(700, 1.0);
     if (is_last) weights[3] = -1;
-    expect_error([&] { call(cuts, weights); }, "weight of object 3");
+    expect_error([&] { call(cuts, weights); }, "weight of point 3");
     std::vector<double> giant(700, is_last ? 2e305 : 1e305);
     if (num_ranks() > 2) expect_error([&] { call(cuts, giant); }, "overflows");
     if (is_last) mine[601] = std::nan("");
-    expect_error([&] { call(cuts); }, "coordinate of object 300 on axis 1");
+    expect_error([&] { call(cuts); }, "coordinate of point 300 on axis 1");
     if (is_last) mine[601] = 0.5;
     call(cuts);
 }

@@ -115,11 +115,11 @@ TEST(PointSummary, reads_weights_and_refuses_the_first_illegal_value) {
         return text;
     };
     for (const double illegal : {-1.0, double(NAN), HUGE_VAL})
-        EXPECT_NE(text_for(weights[300], illegal).find("weight of object 300"), std::string::npos);
+        EXPECT_NE(text_for(weights[300], illegal).find("weight of point 300"), std::string::npos);
     weights[7] = 1e308;
     EXPECT_NE(text_for(weights[300], 1e308).find("overflows"), std::string::npos);
     for (const double illegal : {double(NAN), -HUGE_VAL})
-        EXPECT_NE(text_for(coordinates[803], illegal).find("coordinate of object 401 on axis 1"),
+        EXPECT_NE(text_for(coordinates[803], illegal).find("coordinate of point 401 on axis 1"),
                   std::string::npos);
 }
 

@@ -17,17 +17,17 @@ using rrcb::PaperDomain;
 using rrcb::PaperOptions;
 using rrcb::Refine;
 
-/// A parameter in brackets, and the option it is.
+/// A parameter in brackets, and that of the plug-in.
 struct Key {
     std::string_view name;
-    std::string_view option;
+    std::string_view parameter;
 };
 
-constexpr Key keys[] = {{"mesh", "tuning.support_mesh"},
-                        {"refine", "refine"},
-                        {"tol", "imbalance_tolerance"},
-                        {"central", "tuning.central_parts"},
-                        {"machines", "tree.group_size"}};
+constexpr Key keys[] = {{"mesh", "RRCB_SUPPORT_MESH"},
+                        {"refine", "RRCB_REFINE"},
+                        {"tol", "IMBALANCE_TOL"},
+                        {"central", "RRCB_CENTRAL_PARTS"},
+                        {"machines", "RRCB_MACHINES"}};
 
 /// A parameter in brackets of the paper's methods.
 struct PaperKey {
@@ -158,7 +158,7 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
         check(key.read(upper_case(value), *paper), key.legal);
     } else {
         const Key& key = *std::ranges::find(keys, name, &Key::name);
-        const rrcb::Option& option = *rrcb::find_option(key.option);
+        const rrcb::Option& option = *rrcb::find_parameter(key.parameter);
         check(rrcb::read_option(option, value, std::get<Options>(*method.options)),
               rrcb::legal_values(option));
     }
@@ -168,7 +168,7 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
 /// Adds the refinement always, others if they are not the default.
 void add(const Options& options, ZoltanParameters& parameters) {
     for (const Key& key : keys) {
-        const rrcb::Option& option = *rrcb::find_option(key.option);
+        const rrcb::Option& option = *rrcb::find_parameter(key.parameter);
         const std::string value = rrcb::write_option(option, options);
         if (key.name == "refine" || value != rrcb::write_option(option, Options{}))
             parameters.emplace_back(option.parameter, value);

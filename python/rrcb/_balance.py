@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from functools import cached_property
 from typing import Any, Sequence
 
@@ -212,11 +213,16 @@ def set_option(own: c.Handle, name: str, value: Any) -> None:
         raise c.Error("the option cuts cannot be set from Python: every rank gets all cuts")
     if value is None:
         raise c.Error(f"the option {name} is None: leave it out for its default")
-    c.call("set", own, name.encode(), text_of(value).encode())
+    try:
+        c.call("set", own, name.encode(), text_of(value).encode())
+    except c.Error as error:  # A keyword has no dot.
+        raise c.Error(re.sub(r"\b(axes|tree|tuning)\.", r"\1__", str(error)), error.kind) from None
 
 
 def text_of(value: Any) -> str:
     """Returns a value as the text of an option: numbers of a row by spaces, rows by commas."""
+    if isinstance(value, (bool, np.bool_)):
+        return "ON" if value else "OFF"
     if isinstance(value, (tuple, list, np.ndarray)):
         return (", " if np.ndim(value) > 1 else " ").join(map(text_of, value))
     return f"{value:.17g}" if isinstance(value, float) else str(value)

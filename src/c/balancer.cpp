@@ -22,14 +22,19 @@ void set_option(const char* name, const char* value, Options& options) {
     require(value, "value");
     const Option* option = find_option(name);
     if (option == nullptr)
-        reject("there is no option \"" + std::string(name) + "\"; docs/parameters.md lists them");
+        reject("there is no option \"" + std::string(name) + "\"; docs/parameters.md lists them" +
+               suggestion(name, option_names()));
+    if (std::holds_alternative<Lists>(option->kind))
+        reject(std::string(name) + " cannot be set by a text; call rrcb_set_part_sizes");
     if (!read_option(*option, value, options))
-        reject(std::string(name) + " takes " + legal_values(*option) + ", not \"" + value + '"');
+        reject(std::string(name) + " takes " + texts_of(*option) + ", not \"" + value + '"');
 }
 
 Cuts copy_of(const rrcb_cuts& given) {
     const auto size = static_cast<std::size_t>(std::max(given.num_parts, 1) - 1);
     if (size > 0) require(given.tree, "tree");
+    if (given.larger_below != 0 && given.larger_below != 1)
+        reject("larger_below must be 0 or 1, not " + std::to_string(given.larger_below));
     Cuts cuts{given.dimension, given.num_parts, std::vector<Cut>(size)};
     cuts.shape = {given.group_size, given.larger_below != 0, given.dealt};
     std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {

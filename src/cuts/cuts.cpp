@@ -20,7 +20,7 @@ const Cut& known_cut(const Cuts& cuts, const Descent& at) {
     const Cut* cut = find_cut(cuts, at.node);
     if (cut == nullptr) reject_unknown();
     require(cut->axis >= 0 && cut->axis < cuts.dimension && !std::isnan(cut->at[cut->axis]),
-            "cuts must cross axes of the points at numbers");
+            illegal_cut);
     return *cut;
 }
 

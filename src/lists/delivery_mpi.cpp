@@ -195,14 +195,15 @@ LocalIndex total(std::span<const RankCount> counts) {
 }
 
 void check_column(const ByteColumn& column, LocalIndex count, const std::string& entries) {
-    const bool fits = column.components == 0 ? column.num_values == 0
-                                             : column.num_values % column.components == 0 &&
-                                                   column.num_values / column.components == count;
-    if (!fits && column.components == 0) reject("components of a column must be 1 or more");
-    if (!fits)
-        reject("a column has " + std::to_string(column.num_values) + " values for " +
-               std::to_string(count) + " " + entries + "; give " +
-               std::to_string(column.components) + " for each");
+    const std::size_t components = column.components;
+    if (components == 0)
+        reject("components of a column must be 1 or more; leave out columns without values");
+    if (column.num_values % components == 0 && column.num_values / components == count) return;
+    std::string fix = "; give " + std::to_string(components) + " for each";
+    if (count > 0 && column.num_values > 0 && column.num_values % count == 0)
+        fix += ", or column(values, " + std::to_string(column.num_values / count) + ')';
+    reject("a column has " + std::to_string(column.num_values) + " values for " +
+           std::to_string(count) + " " + entries + fix);
 }
 
 void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int num_ranks) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace rrcb {
 
@@ -38,10 +39,39 @@ bool is_bounded(const Range<Number>& range) {
     return range.most < std::numeric_limits<Number>::max();
 }
 
+std::string upper_case(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return result;
+}
+
 bool equal_words(std::string_view a, std::string_view b) {
-    return std::ranges::equal(
-        a, b, {}, [](unsigned char c) { return std::toupper(c); },
-        [](unsigned char c) { return std::toupper(c); });
+    return upper_case(a) == upper_case(b);
+}
+
+/// Returns the fewest letters to insert, delete or replace that make a text a part of another one.
+std::size_t distance_within(std::string_view part, std::string_view text) {
+    std::vector<std::size_t> row(text.size() + 1);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < text.size(); ++j) {
+            const std::size_t replaced = diagonal + (part[i] == text[j] ? 0 : 1);
+            diagonal = std::exchange(row[j + 1], std::min({replaced, row[j] + 1, row[j + 1] + 1}));
+        }
+    }
+    return *std::ranges::min_element(row);
+}
+
+std::size_t distance_between(std::string_view a, std::string_view b) {
+    return a.size() < b.size() ? distance_within(a, b) : distance_within(b, a);
+}
+
+/// Returns "A", "A or B", "A, B or C".
+std::string choice_between(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t k = 0; k < names.size(); ++k)
+        text += (k == 0 ? "" : k + 1 == names.size() ? " or " : ", ") + names[k];
+    return text;
 }
 
 /// Returns numbers separated by blanks or commas; nothing if the text contains anything else.
@@ -93,7 +123,7 @@ std::string bounds_of(const Range<Number>& range) {
 
 const Option* find_option(std::string_view name) {
     for (const Option& option : option_table)
-        if (option.name == name) return &option;
+        if (!name.empty() && option.name == name) return &option;
     return nullptr;
 }
 
@@ -101,6 +131,30 @@ const Option* find_parameter(std::string_view parameter) {
     for (const Option& option : option_table)
         if (!parameter.empty() && option.parameter == parameter) return &option;
     return nullptr;
+}
+
+std::vector<std::string> option_names() {
+    std::vector<std::string> names;
+    for (const Option& option : option_table)
+        if (*option.name != '\0' && !std::holds_alternative<Lists>(option.kind))
+            names.emplace_back(option.name);
+    return names;
+}
+
+std::string suggestion(std::string_view given, const std::vector<std::string>& names) {
+    if (given.size() < 3) return "";
+    const std::string wanted = upper_case(given);
+    std::size_t least = given.size();
+    std::vector<std::string> nearest;
+    for (const std::string& name : names) {
+        const std::size_t distance = distance_between(wanted, upper_case(name));
+        // More letters make another word.
+        if (distance > std::min({least, given.size() / 4, name.size() / 4})) continue;
+        if (distance < least) nearest.clear();
+        nearest.push_back(name);
+        least = distance;
+    }
+    return nearest.empty() ? "" : "; did you mean " + choice_between(nearest) + '?';
 }
 
 bool is_legal(const Option& option, const Options& options, int dimension) {
@@ -136,12 +190,19 @@ std::string requirement(const Option& option, int dimension) {
 }
 
 std::string words_of(const Choice& choice) {
-    std::string text;
-    for (const Word& word : choice) {
-        const bool last = &word + 1 == choice.end();
-        text += std::string(&word == choice.begin() ? "" : last ? " or " : ", ") + word.word;
-    }
-    return text;
+    std::vector<std::string> words;
+    for (const Word& word : choice) words.emplace_back(word.word);
+    return choice_between(words);
+}
+
+std::string texts_of(const Option& option) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) {
+        std::string text = legal_values(option);
+        if constexpr (is_range<Kind>)
+            if (kind.zero != nullptr)
+                text += ", or " + std::string(automatic) + " for " + kind.zero;
+        return text;
+    });
 }
 
 std::string legal_values(const Option& option) {

@@ -89,7 +89,7 @@ struct Rows {
 };
 
 struct Option {
-    const char* name;       ///< in Options and errors
+    const char* name;       ///< in Options and errors; empty: a row above has the member
     const char* parameter;  ///< in the plug-in and in Teuchos' list; empty: in neither
     const char* text;       ///< its effect
     std::variant<Range<int>, Range<double>, Choice, Lists, Rows> kind;
@@ -110,6 +110,8 @@ inline constexpr Word held_cuts_words[] = {
     {"WHOLE", static_cast<int>(HeldCuts::whole), "all of them"},
     {"OWN", static_cast<int>(HeldCuts::own), "those above its points and its parts"}};
 
+inline constexpr Word switch_words[] = {{"OFF", 0, "no"}, {"ON", 1, "yes"}};
+
 inline constexpr Word machine_words[] = {{"ON", 1, "yes"},
                                          {"OFF", 0, "no, the number of parts is halved"}};
 
@@ -121,19 +123,20 @@ inline void set_machines(Options& options, int value) {
     options.tree.group_size = 1 - value;
 }
 
-template <auto field>
+template <auto... path>
 int value_of(const Options& options) {
-    return static_cast<int>(options.*field);
+    return static_cast<int>(Member<path...>::get(options));
 }
 
-template <class Enumeration, Enumeration Options::*field>
+template <auto... path>
 void set_value(Options& options, int value) {
-    options.*field = static_cast<Enumeration>(value);
+    Member<path...>::set(options, static_cast<typename Member<path...>::Value>(value));
 }
 
-template <class Enumeration, Enumeration Options::*field, std::size_t num_words>
+/// The words of an enumeration or a bool at the end of a path.
+template <auto... path, std::size_t num_words>
 constexpr Choice choice_of(const Word (&words)[num_words]) {
-    return {words, num_words, value_of<field>, set_value<Enumeration, field>};
+    return {words, num_words, value_of<path...>, set_value<path...>};
 }
 
 std::vector<double> values_of_part_sizes(const Options& options);
@@ -160,11 +163,19 @@ inline constexpr Option option_table[] = {
     {"tuning.support_mesh", "RRCB_SUPPORT_MESH", "Cells per axis of each rank's support mesh",
      Range<int>{field<&Options::tuning, &Tuning::support_mesh>, 1, 4096, false, 256,
                 " cells per axis", "as many as suit the points of the rank"}},
-    {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid", "",
-     "Tree, axes and places of the cuts", Lists{values_of_tree, check_tree_options}},
-    {"tree.group_size", "RRCB_MACHINES",
-     "Whether whole machines are cut off first, if machines are alike",
+    {"tree.group_size", "", "Consecutive parts in a group, all of which are parts of one node",
+     Range<int>{field<&Options::tree, &TreeShape::group_size>, 1, std::numeric_limits<int>::max(),
+                false, std::numeric_limits<int>::max(), "", "the parts of each machine"}},
+    {"", "RRCB_MACHINES", "Whether whole machines are cut off first, if machines are alike",
      Choice{machine_words, std::size(machine_words), machines_of, set_machines}},
+    {"tree.larger_below", "", "Whether the larger half of an odd number of parts is below a cut",
+     choice_of<&Options::tree, &TreeShape::larger_below>(switch_words)},
+    {"tree.dealt", "", "Consecutive parts that go to a group before the next gets its own",
+     Range<int>{field<&Options::tree, &TreeShape::dealt>, 0, std::numeric_limits<int>::max()}},
+    {"axes.plain", "", "Whether points on a plane stay together",
+     choice_of<&Options::axes, &Axes::plain>(switch_words)},
+    {"one of axes.order, axes.min_width, axes.grid", "", "Axes and places of the cuts",
+     Lists{values_of_tree, check_tree_options}},
     {"axes.min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
      Rows{min_width_of, check_min_width, set_min_width, 1, "a number above 0 for each axis",
           "0.1 0.1"}},
@@ -173,9 +184,9 @@ inline constexpr Option option_table[] = {
           "0 0.05, 0 0.05"}},
     {"refine", "RRCB_REFINE",
      "Accuracy to which the estimated cuts are corrected by counting objects",
-     choice_of<Refine, &Options::refine>(refine_words)},
+     choice_of<&Options::refine>(refine_words)},
     {"coincident", "RRCB_COINCIDENT", "Coincident points that a balanced cut would divide",
-     choice_of<Coincident, &Options::coincident>(coincident_words)},
+     choice_of<&Options::coincident>(coincident_words)},
     {"imbalance_tolerance", "IMBALANCE_TOL",
      "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE",
      Range<double>{field<&Options::imbalance_tolerance>, 1, std::numeric_limits<double>::max()}},
@@ -184,7 +195,7 @@ inline constexpr Option option_table[] = {
      Range<int>{field<&Options::tuning, &Tuning::central_parts>, 2,
                 std::numeric_limits<int>::max()}},
     {"cuts", "", "Cuts that each rank gets if many ranks make the parts",
-     choice_of<HeldCuts, &Options::cuts>(held_cuts_words)},
+     choice_of<&Options::cuts>(held_cuts_words)},
 };
 
 /// Returns true if ranks compare the value of the option by itself.
@@ -192,9 +203,17 @@ constexpr bool is_compared(const Option& option) {
     return !std::holds_alternative<Rows>(option.kind);
 }
 
-/// Returns the option with a name in Options, or of a parameter; null if there is none.
+/// Returns the option with a name in Options, or of a parameter; null if there is none, or it is
+/// empty.
 const Option* find_option(std::string_view name);
 const Option* find_parameter(std::string_view parameter);
+
+/// Returns the names of all options that can be written as text.
+std::vector<std::string> option_names();
+
+/// Returns the names nearest to an unknown one as the end of an error: "; did you mean refine?".
+/// Returns nothing if no name is near.
+std::string suggestion(std::string_view given, const std::vector<std::string>& names);
 
 /// Calls visit(kind) with the kind of the option's values.
 template <class Visit>
@@ -213,6 +232,10 @@ std::string words_of(const Choice& choice);
 
 /// Returns the legal texts of the option: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
 std::string legal_values(const Option& option);
+
+/// Returns the texts that read_option() reads: "a whole number, 1 or more, or AUTO for one part per
+/// rank".
+std::string texts_of(const Option& option);
 
 /// Returns a sentence on the effect and the values of the option.
 std::string documentation(const Option& option);

@@ -82,9 +82,7 @@ std::vector<double> values_of_part_sizes(const Options& options) {
 
 std::vector<double> values_of_tree(const Options& options) {
     const AxisOrder& order = options.axes.order;
-    std::vector<double> values{1.0 * options.tree.group_size, 1.0 * options.tree.larger_below,
-                               1.0 * options.tree.dealt,      1.0 * options.axes.plain,
-                               1.0 * order.is_grouped(),      1.0 * order.is_given()};
+    std::vector<double> values{1.0 * order.is_grouped(), 1.0 * order.is_given()};
     values.insert(values.end(), order.axes().begin(), order.axes().end());
     for (const auto& limits : {min_width_of(options), grid_of(options)}) {
         values.push_back(-1);

@@ -80,9 +80,10 @@ bool has_its_cuts(const Cuts& cuts) {
            std::ranges::adjacent_find(nodes, std::greater_equal()) == nodes.end();
 }
 
-bool cross_axes_at_numbers(const Cuts& cuts) {
+bool has_legal_cuts(const Cuts& cuts) {
     return std::ranges::all_of(cuts.tree, [&](const Cut& cut) {
         return cut.axis >= 0 && cut.axis < cuts.dimension &&
+               (cut.divides == 0 || cut.divides == 1) &&
                std::ranges::none_of(cut.at, [](double x) { return std::isnan(x); });
     });
 }
@@ -153,8 +154,6 @@ void check_part_sizes(const Options& options, int) {
 }
 
 void check_tree_options(const Options& options, int dimension) {
-    require(options.tree.group_size >= 0,
-            "tree.group_size must be at least 1, or 0 for the parts of each machine");
     require(options.tree.number_fits(options.num_parts),
             "tree.dealt must divide tree.group_size and num_parts; the last group must be full, or "
             "lack so many parts");
@@ -168,7 +167,7 @@ void check_tree(const Cuts& cuts) {
     require(has_its_cuts(cuts),
             "the tree must hold one cut less than there are parts, in groups of 1 or more, or the "
             "ascending number of each one that it holds");
-    require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
+    require(has_legal_cuts(cuts), illegal_cut);
 }
 
 void check_positions(const Points& positions, const Cuts& cuts) {
@@ -214,8 +213,7 @@ void check_previous(const Cuts& previous, const Options& options, int dimension)
     require(previous.dimension == dimension && previous.num_parts == options.num_parts &&
                 previous.shape == options.tree && has_its_cuts(previous),
             "previous cuts must have the dimension, number of parts and shape of tree asked for");
-    require(cross_axes_at_numbers(previous),
-            "previous cuts must cross axes of the points at numbers");
+    require(has_legal_cuts(previous), illegal_cut);
 }
 
 void check_options(const Options& options, int dimension) {

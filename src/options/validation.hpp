@@ -52,6 +52,10 @@ void check_parts(std::span<const Part> parts, int num_parts);
 /// Throws Error unless all ranks are below `num_ranks`.
 void check_ranks(std::span<const RankRange> ranks_of_parts, int num_ranks);
 
+inline constexpr const char* illegal_cut =
+    "a cut has an axis that the points lack, NaN in at, or a divides that is neither 0 nor 1; give "
+    "the cuts of a balance unchanged";
+
 /// Throws Error if cuts are neither a tree nor a part of one.
 void check_tree(const Cuts& cuts);
 

@@ -180,10 +180,11 @@ std::vector<std::string> names_of(const ParameterList& list) {
 }
 
 [[noreturn]] void reject_name(const std::string& name, const ParameterList& valid) {
+    const std::vector<std::string> names = names_of(valid);
     std::string known;
-    for (const std::string& choice : names_of(valid)) known += (known.empty() ? "" : ", ") + choice;
-    throw Error(ErrorCode::invalid_argument,
-                "unknown parameter '" + name + "'; choose from: " + known);
+    for (const std::string& choice : names) known += (known.empty() ? "" : ", ") + choice;
+    throw Error(ErrorCode::invalid_argument, "unknown parameter '" + name + "'; choose from: " +
+                                                 known + suggestion(name, names));
 }
 
 /// Returns the valid list with the values of `given`. Throws Error.

@@ -156,8 +156,10 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
     with([](Options& o) { o.tuning.support_mesh = 3; }, "tuning.support_mesh");
     with([](Options& o) { o.refine = Refine::exact; }, "refine");
     with([](Options& o) { o.imbalance_tolerance = 2; }, "imbalance_tolerance");
-    with([](Options& o) { o.axes.plain = true; },
-         "one of tree, axes.order, axes.plain, axes.min_width, axes.grid");
+    with([](Options& o) { o.axes.plain = true; }, "axes.plain");
+    with([](Options& o) { o.tree.larger_below = true; }, "tree.larger_below");
+    with([](Options& o) { o.axes.min_width = {1}; },
+         "one of axes.order, axes.min_width, axes.grid");
     with([&](Options& o) { o.part_sizes.assign(static_cast<std::size_t>(num_ranks_), 2.0); },
          "part_sizes");
     const std::vector<double> empty;

@@ -180,7 +180,9 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     expect_error(rrcb_ghosts_create(balancer, &shifted, &options, &ghosts), "must be in bytes");
     find(options);
     double value = 0;
-    const rrcb_column column{is_last_rank() ? RRCB_BYTE : RRCB_DOUBLE, 0, &value, &value};
+    rrcb_column column{RRCB_DOUBLE, 0, &value, &value};
+    expect_error(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr), "must be 1 or more");
+    column = {is_last_rank() ? RRCB_BYTE : RRCB_DOUBLE, 1, &value, &value};
     expect_error(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr),
                  "give a type of numbers");
     const rrcb_column* no_columns = is_last_rank() ? nullptr : &column;

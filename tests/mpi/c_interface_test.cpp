@@ -162,6 +162,34 @@ TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
     }
 }
 
+TEST_F(CInterface, makes_trees_of_the_shapes_of_cpp) {
+    for (const TreeShape& shape : {TreeShape{}, TreeShape{0}, TreeShape{2}, TreeShape{4, true},
+                                   TreeShape{2, false, 1}, TreeShape{4, true, 2}}) {
+        const Cloud cloud(2);
+        Options options;
+        options.num_parts = 12;
+        options.tree = shape;
+        options.axes.plain = true;
+        const auto set = [&](const char* name, const std::string& value) {
+            EXPECT_EQ(rrcb_set(balancer, name, value.c_str()), RRCB_OK) << rrcb_last_error();
+        };
+        set("num_parts", "12");
+        set("tree.group_size", shape.group_size == 0 ? "AUTO" : std::to_string(shape.group_size));
+        set("tree.larger_below", shape.larger_below ? "ON" : "OFF");
+        set("tree.dealt", std::to_string(shape.dealt));
+        set("axes.plain", "on");
+        ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
+        const Balance expected = rrcb::balance(cloud.points(), options, MPI_COMM_WORLD);
+        EXPECT_EQ(parts, expected.parts);
+        rrcb_cuts cuts;
+        ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
+        expect_same_cuts(cuts, expected.cuts);
+        EXPECT_EQ(cuts.group_size, expected.cuts.shape.group_size);
+        EXPECT_EQ(cuts.larger_below, expected.cuts.shape.larger_below ? 1 : 0);
+        EXPECT_EQ(cuts.dealt, expected.cuts.shape.dealt);
+    }
+}
+
 TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     const Cloud cloud(3);
     ASSERT_EQ(balance(cloud), RRCB_OK);
@@ -259,6 +287,8 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
     expect_error_everywhere(move({RRCB_DOUBLE, 1, x.data(), nullptr}), invalid, "to is null");
     expect_error_everywhere(move({static_cast<rrcb_type>(7), 1, x.data(), here.data()}), invalid,
                             "rrcb_type");
+    expect_error_everywhere(move({RRCB_DOUBLE, 0, x.data(), here.data()}), invalid,
+                            "components of a column must be 1 or more");
     expect_error_everywhere(
         rrcb_transfer(balancer, 1, is_last_rank() ? nullptr : &right, nullptr, nullptr), invalid,
         "columns is null");
@@ -285,7 +315,13 @@ TEST_F(CInterface, options_that_differ_fail_on_all) {
 
 TEST_F(CInterface, names_what_it_does_not_know) {
     EXPECT_EQ(rrcb_set(balancer, "colour", "blue"), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::strstr(rrcb_last_error(), "colour"), nullptr);
+    EXPECT_STREQ(rrcb_last_error(), "there is no option \"colour\"; docs/parameters.md lists them");
+    EXPECT_EQ(rrcb_set(balancer, "tolerance", "1.1"), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "did you mean imbalance_tolerance?"), nullptr);
+    EXPECT_EQ(rrcb_set(balancer, "tree.group_size", "OFF"), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "or AUTO for the parts of each machine"), nullptr);
+    EXPECT_EQ(rrcb_set(balancer, "part_sizes", "1 2"), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "call rrcb_set_part_sizes"), nullptr);
     EXPECT_EQ(rrcb_set(balancer, "refine", "twice"), RRCB_INVALID_ARGUMENT);
     EXPECT_NE(std::strstr(rrcb_last_error(), "EXACT"), nullptr) << rrcb_last_error();
     EXPECT_EQ(rrcb_set(nullptr, "refine", "NONE"), RRCB_INVALID_ARGUMENT);
@@ -303,6 +339,18 @@ TEST_F(CInterface, names_what_it_does_not_know) {
         EXPECT_NE(std::strstr(rrcb_last_error(), "1, 2 or 3 dimensions"), nullptr);
     }
     rrcb_destroy(nullptr);
+}
+
+TEST_F(CInterface, refuses_numbers_that_a_flag_does_not_have) {
+    for (const std::int32_t flag : {-1, 2, 55}) {
+        const rrcb_cut cut{0, flag, {1}};
+        const rrcb_cuts divided{1, 2, &cut, 1, 0, 0};
+        EXPECT_EQ(rrcb_set_cuts(balancer, &divided), RRCB_INVALID_ARGUMENT);
+        EXPECT_NE(std::strstr(rrcb_last_error(), "divides that is neither 0 nor 1"), nullptr);
+        const rrcb_cuts large{1, 1, nullptr, 1, flag, 0};
+        EXPECT_EQ(rrcb_set_cuts(balancer, &large), RRCB_INVALID_ARGUMENT);
+        EXPECT_NE(std::strstr(rrcb_last_error(), "larger_below must be 0 or 1"), nullptr);
+    }
 }
 
 TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {

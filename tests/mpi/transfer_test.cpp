@@ -89,19 +89,16 @@ TEST(Transfer, moves_columns_of_any_type_and_width_in_one_message_for_each_pair)
         large.push_back({number, {}});
         large.back().rest.back() = letters.back();
     }
-    const std::vector<float> nothing;
     TransferReport report;
-    const auto [x, letter, first, again, empty] = transfer(
-        lists,
-        columns(column(positions, 3), letters, large, std::span(numbers), column(nothing, 0)),
-        MPI_COMM_WORLD, {}, &report);
+    const auto [x, letter, first, again] =
+        transfer(lists, columns(column(positions, 3), letters, large, std::span(numbers)),
+                 MPI_COMM_WORLD, {}, &report);
 
     const std::vector<std::int64_t> expected = numbers_after(lists);
     ASSERT_EQ(x.size(), 3 * expected.size());
     ASSERT_EQ(letter.size(), expected.size());
     ASSERT_EQ(first.size(), expected.size());
     EXPECT_EQ(again, expected);
-    EXPECT_TRUE(empty.empty());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_EQ(x[3 * i], static_cast<double>(expected[i]));
         EXPECT_EQ(x[3 * i + 2], static_cast<double>(expected[i]) + 0.5);
@@ -301,9 +298,22 @@ TEST(Transfer, refuses_more_components_than_a_size_can_count) {
 TEST(Transfer, refuses_columns_without_components) {
     Plan one;
     one.num_points = 1;
-    const std::vector<double> x(1);
-    expect_on_all_ranks(text_of([&] { transfer(one, column(x, 0), MPI_COMM_WORLD); }),
-                        "components of a column must be 1 or more");
+    for (const std::size_t num_values : {0, 1}) {
+        const std::vector<double> x(num_values);
+        expect_on_all_ranks(text_of([&] { transfer(one, column(x, 0), MPI_COMM_WORLD); }),
+                            "components of a column must be 1 or more");
+    }
+}
+
+TEST(Transfer, suggests_the_components_that_a_column_lacks) {
+    Plan two;
+    two.num_points = 2;
+    for (const auto& [num_values, fix] :
+         {std::pair{6, "; give 1 for each, or column(values, 3)"}, {5, "; give 1 for each"}}) {
+        const std::vector<double> x(static_cast<std::size_t>(num_values));
+        const std::string text = text_of([&] { transfer(two, x, MPI_COMM_WORLD); });
+        EXPECT_TRUE(text.ends_with(fix)) << text;
+    }
 }
 
 TEST(Transfer, refuses_a_plan_of_another_communicator) {

@@ -55,9 +55,17 @@ def test_raises_the_error_of_one_rank_on_all():
                       (-np.ones(len(x)), "")):
         given = on_rank(0, bad, np.ones(len(x)))
         same_error(lambda: rrcb.balance(x, weights=given, comm=comm), text)
-    for name, value in (("nonsense", 1), ("refine", "WRONG"), ("refine", None), ("cuts", "OWN")):
+    for name, value, text in (
+        ("nonsense", 1, "nonsense"),
+        ("refine", "WRONG", "refine"),
+        ("refine", None, "refine"),
+        ("cuts", "OWN", "cuts"),
+        ("tolerence", 1.1, "did you mean imbalance_tolerance?"),
+        ("support_mesh", 8, "did you mean tuning__support_mesh?"),
+        ("tree__larger_below", 2, "tree__larger_below takes OFF or ON"),
+    ):
         given = on_rank(last, {name: value}, {})
-        same_error(lambda: rrcb.balance(x, comm=comm, **given), name)
+        same_error(lambda: rrcb.balance(x, comm=comm, **given), text)
 
 
 class Silent(MPI.Intracomm):

@@ -47,6 +47,19 @@ TEST(OptionTable, is_searched_by_the_name_of_an_option_or_of_a_parameter) {
     EXPECT_EQ(find_option("imbalance_tolerance"), find_parameter("IMBALANCE_TOL"));
     EXPECT_EQ(find_option("colour"), nullptr);
     EXPECT_EQ(find_parameter(""), nullptr);
+    EXPECT_EQ(find_option(""), nullptr);
+}
+
+TEST(OptionTable, suggests_the_names_nearest_to_an_unknown_one) {
+    const auto nearest = [](std::string_view given) { return suggestion(given, option_names()); };
+    EXPECT_EQ(nearest("tolerance"), "; did you mean imbalance_tolerance?");
+    EXPECT_EQ(nearest("Imbalance_tolerence"), "; did you mean imbalance_tolerance?");
+    EXPECT_EQ(nearest("tolerence"), "; did you mean imbalance_tolerance?");
+    EXPECT_EQ(nearest("refine_mode"), "; did you mean refine?");
+    EXPECT_EQ(nearest("min_width"), "; did you mean axes.min_width?");
+    EXPECT_EQ(nearest("parts"), "; did you mean num_parts or tuning.central_parts?");
+    EXPECT_EQ(nearest("reine"), "; did you mean refine?");
+    EXPECT_EQ(nearest("colour") + nearest("") + nearest("xyz"), "");
 }
 
 TEST(OptionTable, writes_what_it_reads) {
@@ -58,6 +71,10 @@ TEST(OptionTable, writes_what_it_reads) {
         {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
         {"tuning.central_parts", {"2", "64", "2147483647"}},
         {"cuts", {"WHOLE", "OWN"}},
+        {"tree.group_size", {"AUTO", "1", "12"}},
+        {"tree.larger_below", {"OFF", "ON"}},
+        {"tree.dealt", {"0", "2"}},
+        {"axes.plain", {"OFF", "ON"}},
         {"axes.min_width", {"NONE", "0.1", "0.1 1e-300 5e-324"}},
         {"axes.grid", {"NONE", "0 0.05", "-1.5 0.25, 1e+300 7, 0 1"}}};
     for (const auto& [name, values] : texts) {
@@ -136,6 +153,8 @@ TEST(Check, refuses_limits_of_cuts_that_are_no_lengths_or_not_one_per_axis) {
 
 TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range) {
     EXPECT_EQ(complaint([](Options&) {}), "");
+    EXPECT_EQ(complaint([](Options& o) { o.tree.group_size = -1; }),
+              "tree.group_size must be positive, or 0 for the parts of each machine");
     EXPECT_EQ(complaint([](Options& o) { o.num_parts = -1; }),
               "num_parts must be positive, or 0 for one part per rank");
     for (const int dimension : {1, 2, 3}) {
@@ -172,19 +191,17 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"num_parts", [](Options& o) { o.num_parts = 3; }},
         {"part_sizes", [](Options& o) { o.part_sizes = {1}; }},
         {"tuning.support_mesh", [](Options& o) { o.tuning.support_mesh = 3; }},
-        {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid",
-         [](Options& o) { o.axes.plain = true; }},
-        {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid",
-         [](Options& o) { o.tree.group_size = 2; }},
-        {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid",
-         [](Options& o) { o.tree.larger_below = true; }},
-        {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid",
+        {"tree.group_size", [](Options& o) { o.tree.group_size = 2; }},
+        {"tree.larger_below", [](Options& o) { o.tree.larger_below = true; }},
+        {"tree.dealt", [](Options& o) { o.tree.dealt = 1; }},
+        {"axes.plain", [](Options& o) { o.axes.plain = true; }},
+        {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) { o.axes.order = AxisOrder::given({1}); }},
-        {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid",
+        {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) { o.axes.order = AxisOrder::grouped({1}); }},
-        {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid",
+        {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) { o.axes.min_width = {1}; }},
-        {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid",
+        {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) {
              o.axes.grid = {{0, 1}};
          }},

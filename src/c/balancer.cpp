@@ -68,7 +68,8 @@ void require(const void* pointer, const char* name) {
 
 void require_array(std::size_t count, const void* values, const char* name) {
     if (count > 0 && values == nullptr)
-        reject(std::string(name) + " is null (in Fortran: or an array has the wrong length)");
+        reject(std::string(name) + " is null (in Fortran: or has the wrong length); it must hold " +
+               std::to_string(count) + (count == 1 ? " entry" : " entries"));
 }
 
 void require_cuts(const rrcb_balancer& own) {
@@ -226,7 +227,7 @@ int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan) {
         require_plan(own);
         const rrcb::Plan& from = *own.plan;
         *plan = {from.num_points,
-                 from.num_points - from.export_indices.size() + from.import_indices.size(),
+                 rrcb::c::num_points_after(from),
                  from.export_indices.size(),
                  from.export_indices.data(),
                  from.export_ranks.data(),

@@ -66,6 +66,11 @@ void require_cuts(const rrcb_balancer& own);
 void require_parts(const rrcb_balancer& own, std::size_t num_parts);
 void require_plan(const rrcb_balancer& own);
 
+/// Returns the number of points that this rank has after a plan.
+inline LocalIndex num_points_after(const Plan& plan) {
+    return plan.num_points - plan.export_indices.size() + plan.import_indices.size();
+}
+
 /// Runs the body of a function of a handle; no exception leaves it.
 template <class Handle, class Body>
 int guarded(Handle* handle, Body&& body) noexcept {

@@ -2,6 +2,8 @@
 
 #include "options/rejection.hpp"
 
+#include <string>
+
 namespace rrcb::c {
 
 namespace {
@@ -26,26 +28,42 @@ ValueType type_of(const rrcb_column& column) {
         case RRCB_DOUBLE:
             return {ValueKind::floating_point, sizeof(double)};
     }
-    reject("the type of a column must be an rrcb_type");
+    reject("the type of a column must be an rrcb_type, such as RRCB_DOUBLE");
 }
 
 /// Returns the caller's memory for a column.
-std::byte* room_at(void* to, std::size_t num_values) {
-    require_array(num_values, to, "to");
+std::byte* room_at(void* to, std::size_t) {
     return static_cast<std::byte*>(to);
 }
+
+/// One array of a column.
+struct Side {
+    const char* name;
+    const void* values;
+    LocalIndex num_points;
+
+    void require_of(std::size_t k, std::size_t components) const {
+        if (num_points == 0 || components == 0 || values != nullptr) return;
+        reject(std::string(name) + " of column " + std::to_string(k) +
+               " (the first is 0) is null (in Fortran: or too short); it must hold " +
+               std::to_string(components) + " for each of " + std::to_string(num_points) +
+               " points");
+    }
+};
 
 }  // namespace
 
 std::vector<detail::ByteColumn> columns_of(std::span<const rrcb_column> columns,
-                                           LocalIndex num_points) {
+                                           LocalIndex num_from, LocalIndex num_to) {
     std::vector<detail::ByteColumn> result;
-    for (const rrcb_column& column : columns) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        const rrcb_column& column = columns[k];
         const ValueType type = type_of(column);
-        const std::size_t num_values = num_points * column.components;
-        require_array(num_values, column.from, "from");
-        result.push_back({static_cast<const std::byte*>(column.from), num_values, type.kind,
-                          type.bytes, column.components, column.to, room_at});
+        for (const Side& side :
+             {Side{"from", column.from, num_from}, Side{"to", column.to, num_to}})
+            side.require_of(k, column.components);
+        result.push_back({static_cast<const std::byte*>(column.from), num_from * column.components,
+                          type.kind, type.bytes, column.components, column.to, room_at});
     }
     return result;
 }

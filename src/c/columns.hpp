@@ -10,10 +10,10 @@
 
 namespace rrcb::c {
 
-/// Returns columns as the library moves them. Throws Error for unknown types, and if a column of
-/// `num_points` points is null.
+/// Returns columns as the library moves them, from `num_from` points to `num_to`. Throws Error for
+/// unknown types, and if `from` or `to` of a column is null.
 std::vector<detail::ByteColumn> columns_of(std::span<const rrcb_column> columns,
-                                           LocalIndex num_points);
+                                           LocalIndex num_from, LocalIndex num_to);
 
 /// Returns a view of the columns of a call. Throws Error if they are null.
 std::span<const rrcb_column> given_columns(const rrcb_column* columns, std::size_t count);
@@ -31,11 +31,13 @@ struct ColumnCall {
     const rrcb_transfer_limits* limits;
     rrcb_transfer_report* report;
 
-    /// Moves columns of `num_points` points along a plan, or from groups. Collective.
+    /// Moves columns of `num_from` points to `num_to` along a plan, or from groups. Collective.
     template <class AnyPlan>
-    void move_by(const AnyPlan& plan, LocalIndex num_points, Participant& self) const {
+    void move_by(const AnyPlan& plan, LocalIndex num_from, LocalIndex num_to,
+                 Participant& self) const {
         std::vector<detail::ByteColumn> moved;
-        self.attempt([&] { moved = columns_of(given_columns(columns, num_columns), num_points); });
+        self.attempt(
+            [&] { moved = columns_of(given_columns(columns, num_columns), num_from, num_to); });
         TransferReport made;
         move(plan, moved, limits_of(limits), &made, self);
         store(made, report);

@@ -91,7 +91,7 @@ void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
     std::vector<detail::ByteColumn> of_points;
     std::vector<ByteResult> arrived;
     self.attempt([&] {
-        of_ghosts = columns_of(columns, total(own.plan.receive));
+        of_ghosts = columns_of(columns, total(own.plan.receive), own.plan.num_points);
         arrived.reserve(columns.size());
         for (std::size_t k = 0; k < columns.size(); ++k) {
             if (columns[k].type == RRCB_BYTE)
@@ -147,7 +147,7 @@ int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_
                       const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
     return guarded_together(ghosts, [&](const auto& own, Participant& self) {
         const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
-        call.move_by(own.plan, own.plan.num_points, self);
+        call.move_by(own.plan, own.plan.num_points, rrcb::total(own.plan.receive), self);
     });
 }
 

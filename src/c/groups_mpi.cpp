@@ -57,7 +57,7 @@ int rrcb_groups_fetch(const rrcb_groups* groups, size_t num_columns, const rrcb_
                       const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
     return guarded_together(groups, [&](const auto& own, Participant& self) {
         const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
-        call.move_by(own.groups, own.groups.weights.size(), self);
+        call.move_by(own.groups, own.groups.weights.size(), own.groups.of_points.size(), self);
     });
 }
 

@@ -4,9 +4,11 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/participant.hpp"
+#include "options/rejection.hpp"
 
 #include <initializer_list>
 #include <memory>
+#include <string>
 
 namespace rrcb::c {
 
@@ -20,7 +22,10 @@ std::unique_ptr<Handle> make_handle(
     Participant self{mpi::duplicate_of(comm)};
     std::unique_ptr<Handle> made;
     self.attempt([&] {
-        require(static_cast<const void*>(where), Handle::name);
+        if (where == nullptr)
+            reject(std::string(Handle::name) +
+                   " is null; give the address of a pointer (in Fortran: destroy what was created "
+                   "before)");
         check();
         made = std::make_unique<Handle>();
     });

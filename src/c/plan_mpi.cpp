@@ -52,7 +52,7 @@ int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column
         const rrcb::Plan none;
         const rrcb::Plan& plan = own.plan ? *own.plan : none;
         const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
-        call.move_by(plan, plan.num_points, self);
+        call.move_by(plan, plan.num_points, rrcb::c::num_points_after(plan), self);
     });
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace rrcb::c {
 
@@ -14,6 +15,29 @@ namespace {
 
 std::size_t bytes_of(rrcb_type type) {
     return type == RRCB_FLOAT ? sizeof(float) : sizeof(double);
+}
+
+// Types by which the Fortran module reports arrays that do not fit together; `stride` is then the
+// extent that does not.
+enum FortranFault { wrong_weights = 5, wrong_axis = 6, wrong_shape = 7 };
+
+/// Throws Error for points that the Fortran module could not make.
+void check_fortran(const rrcb_points& from) {
+    const std::string count = std::to_string(from.count);
+    const std::string extent = std::to_string(from.stride);
+    switch (static_cast<int>(from.type)) {
+        case wrong_weights:
+            reject("weights has " + extent + " entries for " + count +
+                   " points; give one for each, or no weights");
+        case wrong_axis:
+            reject("x, y and z must have one length, not " + count + " and " + extent);
+        case wrong_shape:
+            reject("coordinates has the shape (" + extent + ", " + count +
+                   "); give (dimension, points) with a dimension of 1, 2 or 3, or call "
+                   "rrcb_column_points(x(:,1), x(:,2), x(:,3))");
+        default:
+            return;
+    }
 }
 
 /// Sets the coordinates of a type, from the first point on.
@@ -30,11 +54,12 @@ void set_axes(const rrcb_points& from, Points& points, std::array<std::span<cons
 
 void check_coordinate(rrcb_type type) {
     if (type != RRCB_DOUBLE && type != RRCB_FLOAT)
-        reject("coordinates must have the type RRCB_DOUBLE or RRCB_FLOAT");
+        reject("coordinates must have the type RRCB_DOUBLE or RRCB_FLOAT; set it to theirs");
 }
 
 Points points_of(const rrcb_points* from) {
     require(from, "points");
+    check_fortran(*from);
     Points points;
     points.dimension = from->dimension;
     points.count = from->count;

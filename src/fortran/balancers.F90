@@ -3,6 +3,7 @@ module rrcb_balancers
   use, intrinsic :: iso_c_binding
   use rrcb_types
   use rrcb_c_functions
+  use rrcb_functions, only: settle
 #ifdef RRCB_MPI_F08
   use mpi_f08, only: MPI_Comm
 #endif
@@ -46,10 +47,10 @@ contains
 
   !> Makes a balancer. Collective over the communicator, which must outlive it.
   subroutine create_by_number(self, comm, error)
-    class(rrcb_balancer), intent(inout) :: self
+    class(rrcb_balancer), intent(inout), target :: self
     integer, intent(in) :: comm
-    integer, intent(out) :: error
-    error = c_create(int(comm, c_int), self%handle)
+    integer, intent(out), optional :: error
+    call settle(c_create(int(comm, c_int), room_for(self%handle)), error)
   end subroutine
 
 #ifdef RRCB_MPI_F08
@@ -57,7 +58,7 @@ contains
   subroutine create_by_type(self, comm, error)
     class(rrcb_balancer), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     call self%create(comm%mpi_val, error)
   end subroutine
 #endif
@@ -75,16 +76,16 @@ contains
   subroutine set(self, option, value, error)
     class(rrcb_balancer), intent(inout) :: self
     character(*), intent(in) :: option, value
-    integer, intent(out) :: error
-    error = c_set(self%handle, trim(option)//c_null_char, trim(value)//c_null_char)
+    integer, intent(out), optional :: error
+    call settle(c_set(self%handle, trim(option)//c_null_char, trim(value)//c_null_char), error)
   end subroutine
 
   !> Sets the relative weights of the parts. Not collective, but the same on all ranks.
   subroutine set_part_sizes(self, sizes, error)
     class(rrcb_balancer), intent(inout) :: self
     real(c_double), intent(in), contiguous :: sizes(:)
-    integer, intent(out) :: error
-    error = c_set_part_sizes(self%handle, size(sizes, kind=c_size_t), sizes)
+    integer, intent(out), optional :: error
+    call settle(c_set_part_sizes(self%handle, size(sizes, kind=c_size_t), sizes), error)
   end subroutine
 
   !> Divides the points of all ranks into parts and keeps the cuts. Collective.
@@ -94,8 +95,8 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_points), intent(in) :: points
     integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
-    integer, intent(out) :: error
-    error = c_balance(self%handle, points, place_of(parts, points%count))
+    integer, intent(out), optional :: error
+    call settle(c_balance(self%handle, points, place_of(parts, points%count)), error)
   end subroutine
 
   !> Divides points that moved little, from the cuts of the balancer. Collective.
@@ -105,23 +106,23 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_points), intent(in) :: points
     integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
-    integer, intent(out) :: error
-    error = c_rebalance(self%handle, points, place_of(parts, points%count))
+    integer, intent(out), optional :: error
+    call settle(c_rebalance(self%handle, points, place_of(parts, points%count)), error)
   end subroutine
 
   !> Frees the buffers that calls on the communicator keep. Not collective.
   subroutine release_buffers(self, error)
     class(rrcb_balancer), intent(inout) :: self
-    integer, intent(out) :: error
-    error = c_release_buffers(self%handle)
+    integer, intent(out), optional :: error
+    call settle(c_release_buffers(self%handle), error)
   end subroutine
 
   !> Copies the report of the last balance. Not collective.
   subroutine get_report(self, report, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_report), intent(inout) :: report
-    integer, intent(out) :: error
-    error = c_get_report(self%handle, report)
+    integer, intent(out), optional :: error
+    call settle(c_get_report(self%handle, report), error)
   end subroutine
 
   !> Copies the cuts. Not collective. Fails before the first balance, and if the balancer holds only a
@@ -129,10 +130,10 @@ contains
   subroutine get_cuts(self, cuts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_cuts), intent(inout) :: cuts
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     type(c_cuts) :: from
     type(rrcb_cut), pointer :: tree(:)
-    error = c_get_cuts(self%handle, from)
+    call settle(c_get_cuts(self%handle, from), error)
     call c_f_pointer(from%tree, tree, [from%num_parts - 1])
     cuts%dimension = from%dimension
     cuts%group_size = from%group_size
@@ -145,15 +146,15 @@ contains
   !> Gives each rank's balancer all cuts, if each holds a part of them. Collective.
   subroutine gather_cuts(self, error)
     class(rrcb_balancer), intent(inout) :: self
-    integer, intent(out) :: error
-    error = c_gather_cuts(self%handle)
+    integer, intent(out), optional :: error
+    call settle(c_gather_cuts(self%handle), error)
   end subroutine
 
   !> Copies cuts of an earlier run into the balancer. Not collective.
   subroutine set_cuts(self, cuts, error)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_cuts), intent(in) :: cuts
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     type(rrcb_cut), target :: tree(num_cuts(cuts))
     type(c_cuts) :: given
     if (size(tree) > 0) tree = cuts%tree
@@ -161,7 +162,7 @@ contains
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
                    merge(1, 0, cuts%larger_below), cuts%dealt)
     if (size(tree) > 0) given%tree = c_loc(tree)
-    error = c_set_cuts(self%handle, given)
+    call settle(c_set_cuts(self%handle, given), error)
   end subroutine
 
   pure integer function num_cuts(cuts)
@@ -177,8 +178,8 @@ contains
     class(rrcb_balancer), intent(in) :: self
     real(c_double), intent(in) :: position(:)
     integer(c_int32_t), intent(inout) :: part
-    integer, intent(out) :: error
-    error = c_part_of(self%handle, three_of(position), part)
+    integer, intent(out), optional :: error
+    call settle(c_part_of(self%handle, three_of(position), part), error)
   end subroutine
 
   pure function three_of(values) result(three)
@@ -195,8 +196,8 @@ contains
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
     integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
-    integer, intent(out) :: error
-    error = c_assign(self%handle, points, place_of(parts, points%count))
+    integer, intent(out), optional :: error
+    call settle(c_assign(self%handle, points, place_of(parts, points%count)), error)
   end subroutine
 
   !> Finds the parts of points, whichever cuts the ranks hold. Collective.
@@ -206,8 +207,8 @@ contains
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
     integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
-    integer, intent(out) :: error
-    error = c_assign_all(self%handle, points, place_of(parts, points%count))
+    integer, intent(out), optional :: error
+    call settle(c_assign_all(self%handle, points, place_of(parts, points%count)), error)
   end subroutine
 
   !> Finds the region of a part; sides without a cut are infinite. Not collective.
@@ -218,8 +219,8 @@ contains
     class(rrcb_balancer), intent(in) :: self
     integer(c_int32_t), intent(in) :: part
     real(c_double), intent(inout) :: lower(3), upper(3)
-    integer, intent(out) :: error
-    error = c_box_of(self%handle, part, lower, upper)
+    integer, intent(out), optional :: error
+    call settle(c_box_of(self%handle, part, lower, upper), error)
   end subroutine
 
   !> Finds the parts that a closed box touches. Not collective.
@@ -230,34 +231,36 @@ contains
     class(rrcb_balancer), intent(in) :: self
     real(c_double), intent(in) :: lower(:), upper(:)
     integer(c_int32_t), allocatable, intent(inout) :: parts(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     integer(c_size_t) :: count
+    integer(c_int) :: code
     count = 16
     do
       parts = spread(0_c_int32_t, 1, count)
-      error = c_parts_touching(self%handle, three_of(lower), three_of(upper), &
-                               size(parts, kind=c_size_t), parts, count)
-      if (error /= rrcb_ok) count = 0
+      code = c_parts_touching(self%handle, three_of(lower), three_of(upper), &
+                              size(parts, kind=c_size_t), parts, count)
+      if (code /= rrcb_ok) count = 0
       if (count <= size(parts)) exit
     end do
     parts = parts(:count)
+    call settle(code, error)
   end subroutine
 
   !> Makes the plan of a move into the parts given, one for each point. Collective.
   subroutine make_plan(self, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     integer(c_int32_t), intent(in), contiguous :: parts(:)
-    integer, intent(out) :: error
-    error = c_make_plan(self%handle, size(parts, kind=c_size_t), parts)
+    integer, intent(out), optional :: error
+    call settle(c_make_plan(self%handle, size(parts, kind=c_size_t), parts), error)
   end subroutine
 
   !> Copies the lists of the plan. Not collective.
   subroutine get_plan(self, plan, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_plan), intent(inout) :: plan
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     type(c_plan) :: from
-    error = c_get_plan(self%handle, from)
+    call settle(c_get_plan(self%handle, from), error)
     plan%num_points = from%num_points
     plan%num_points_after = from%num_points_after
     plan%export_indices = indices_at(from%export_indices, from%num_exports)
@@ -275,13 +278,14 @@ contains
   subroutine transfer_columns(self, columns, error, limit, report)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_column), intent(in) :: columns(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     integer(c_size_t), intent(in), optional :: limit
     type(rrcb_transfer_report), intent(inout), optional :: report
     type(c_plan) :: plan
-    error = c_get_plan(self%handle, plan)
-    error = c_transfer(self%handle, size(columns, kind=c_size_t), &
-                       columns_in_c(columns, plan%num_points, plan%num_points_after), limit, report)
+    integer(c_int) :: code
+    code = c_get_plan(self%handle, plan)
+    call settle(c_transfer(self%handle, size(columns, kind=c_size_t), &
+      columns_in_c(columns, plan%num_points, plan%num_points_after), limit, report), error)
   end subroutine
 
   !> Numbers the parts of the cuts so that many points stay. Collective.
@@ -294,7 +298,7 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
     integer(c_int32_t), intent(inout), contiguous :: numbers(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     integer(c_int32_t), intent(in), contiguous, optional :: previous(:)
     type(rrcb_rank_range), intent(in), contiguous, optional :: ranks_of_parts(:)
     type(rrcb_kept), intent(inout), optional :: kept
@@ -306,8 +310,8 @@ contains
     end if
     num_parts = size(numbers, kind=c_size_t)
     if (present(ranks_of_parts)) num_parts = min(num_parts, size(ranks_of_parts, kind=c_size_t))
-    error = c_remap(self%handle, size(parts, kind=c_size_t), now, previous, ranks_of_parts, &
-                    num_parts, numbers, kept)
+    call settle(c_remap(self%handle, size(parts, kind=c_size_t), now, previous, ranks_of_parts, &
+      num_parts, numbers, kept), error)
   end subroutine
 
   !> Adds up the weights of each part over all ranks. Collective.
@@ -319,9 +323,9 @@ contains
     type(rrcb_points), intent(in) :: points
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
     real(c_double), intent(inout), contiguous :: weights(:)
-    integer, intent(out) :: error
-    error = c_part_weights(self%handle, points, place_of(parts, points%count), &
-                           size(weights, kind=c_size_t), weights)
+    integer, intent(out), optional :: error
+    call settle(c_part_weights(self%handle, points, place_of(parts, points%count), &
+      size(weights, kind=c_size_t), weights), error)
   end subroutine
 
   !> Finds the share of the weight whose rank changes. Collective.
@@ -333,8 +337,8 @@ contains
     type(rrcb_points), intent(in) :: points
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
     real(c_double), intent(inout) :: fraction
-    integer, intent(out) :: error
-    error = c_moved_fraction(self%handle, points, place_of(parts, points%count), fraction)
+    integer, intent(out), optional :: error
+    call settle(c_moved_fraction(self%handle, points, place_of(parts, points%count), fraction), error)
   end subroutine
 
 end module rrcb_balancers

@@ -47,7 +47,7 @@ module rrcb_c_functions
     integer(c_int) function make_of_comm(comm, handle) bind(c)
       import
       integer(c_int), value :: comm
-      type(c_ptr), intent(inout) :: handle
+      type(c_ptr), value :: handle
     end function
     subroutine free(handle) bind(c)
       import
@@ -226,7 +226,7 @@ module rrcb_c_functions
       type(c_ptr), value :: balancer
       type(rrcb_points), intent(in) :: points
       type(c_ghost_options), intent(in) :: options
-      type(c_ptr), intent(inout) :: handle
+      type(c_ptr), value :: handle
     end function
     integer(c_int) function c_ghosts_get_plan(handle, plan) bind(c, name="rrcb_ghosts_get_plan")
       import
@@ -247,7 +247,7 @@ module rrcb_c_functions
       type(c_ptr), value :: balancer, keys
       type(rrcb_points), intent(in) :: points
       integer(c_int), value :: place
-      type(c_ptr), intent(inout) :: handle
+      type(c_ptr), value :: handle
     end function
     integer(c_int) function c_groups_points(handle, points) bind(c, name="rrcb_groups_points")
       import
@@ -286,7 +286,7 @@ module rrcb_c_functions
       import
       integer(c_int), value :: comm, num_columns
       type(c_ptr), intent(in), optional :: controller
-      type(c_ptr), intent(inout) :: handle
+      type(c_ptr), value :: handle
     end function
     integer(c_int) function c_cost_model_step(handle, seconds, num_columns, columns) &
       bind(c, name="rrcb_cost_model_step")

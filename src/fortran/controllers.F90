@@ -51,7 +51,7 @@ contains
   subroutine controller_create_by_type(self, comm, error)
     class(rrcb_controller), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     call self%create(comm%mpi_val, error)
   end subroutine
 
@@ -63,7 +63,7 @@ contains
     class(rrcb_cost_model), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
     integer, intent(in) :: num_columns
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     class(rrcb_controller), intent(in), optional :: controller
     call self%create(comm%mpi_val, num_columns, error, controller)
   end subroutine
@@ -71,10 +71,10 @@ contains
 
   !> Makes a controller. Collective over the communicator.
   subroutine controller_create(self, comm, error)
-    class(rrcb_controller), intent(inout) :: self
+    class(rrcb_controller), intent(inout), target :: self
     integer, intent(in) :: comm
-    integer, intent(out) :: error
-    error = c_controller_create(int(comm, c_int), self%handle)
+    integer, intent(out), optional :: error
+    call settle(c_controller_create(int(comm, c_int), room_for(self%handle)), error)
   end subroutine
 
   !> Frees the controller. Collective.
@@ -90,13 +90,13 @@ contains
   subroutine controller_step(self, load, error, points)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: load
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     real(c_double), intent(in), optional :: points
     integer(c_int) :: due
     if (present(points)) then
-      error = c_controller_step_points(self%handle, load, points, due)
+      call settle(c_controller_step_points(self%handle, load, points, due), error)
     else
-      error = c_controller_step(self%handle, load, due)
+      call settle(c_controller_step(self%handle, load, due), error)
     end if
   end subroutine
 
@@ -115,9 +115,9 @@ contains
   subroutine controller_rebalanced(self, cost, error, report)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: cost
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     type(rrcb_report), intent(in), optional :: report
-    error = c_controller_rebalanced(self%handle, report, cost)
+    call settle(c_controller_rebalanced(self%handle, report, cost), error)
   end subroutine
 
   !> Makes a model. Collective over the communicator.
@@ -125,14 +125,15 @@ contains
   !> @param num_columns the same on every rank
   !> @param controller  carries the sums with its steps: is destroyed later, has recorded none
   subroutine cost_model_create(self, comm, num_columns, error, controller)
-    class(rrcb_cost_model), intent(inout) :: self
+    class(rrcb_cost_model), intent(inout), target :: self
     integer, intent(in) :: comm, num_columns
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     class(rrcb_controller), intent(in), target, optional :: controller
     type(c_ptr), pointer :: steps
     steps => null()
     if (present(controller)) steps => controller%handle
-    error = c_cost_model_create(int(comm, c_int), steps, int(num_columns, c_int), self%handle)
+    call settle(c_cost_model_create(int(comm, c_int), steps, int(num_columns, c_int), &
+      room_for(self%handle)), error)
   end subroutine
 
   !> Frees the model. Collective unless it was made with a controller.
@@ -149,8 +150,8 @@ contains
     class(rrcb_cost_model), intent(inout) :: self
     real(c_double), intent(in) :: seconds
     real(c_double), intent(in), contiguous :: columns(:)
-    integer, intent(out) :: error
-    error = c_cost_model_step(self%handle, seconds, size(columns, kind=c_size_t), columns)
+    integer, intent(out), optional :: error
+    call settle(c_cost_model_step(self%handle, seconds, size(columns, kind=c_size_t), columns), error)
   end subroutine
 
   !> Writes the weights of points. Called on all ranks, without communication.
@@ -160,20 +161,20 @@ contains
     class(rrcb_cost_model), intent(inout) :: self
     real(c_double), intent(in), contiguous :: columns(:, :)
     real(c_double), intent(inout), target, contiguous :: weights(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     type(c_ptr) :: to
     to = c_null_ptr
     if (size(weights) > 0 .and. size(weights) == size(columns, 2)) to = c_loc(weights)
-    error = c_cost_model_weights(self%handle, size(columns, 2, kind=c_size_t), &
-      size(columns, 1, kind=c_size_t), columns, to)
+    call settle(c_cost_model_weights(self%handle, size(columns, 2, kind=c_size_t), &
+      size(columns, 1, kind=c_size_t), columns, to), error)
   end subroutine
 
   !> Writes the cost of a unit of each column. Not collective.
   subroutine cost_model_costs(self, costs, error)
     class(rrcb_cost_model), intent(in) :: self
     real(c_double), intent(inout), contiguous :: costs(:)
-    integer, intent(out) :: error
-    error = c_cost_model_costs(self%handle, size(costs, kind=c_size_t), costs)
+    integer, intent(out), optional :: error
+    call settle(c_cost_model_costs(self%handle, size(costs, kind=c_size_t), costs), error)
   end subroutine
 
   !> Returns whether weights are by the costs; false for a model that was not created. Not collective.

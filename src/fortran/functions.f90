@@ -1,12 +1,13 @@
 !> Functions that need no balancer: texts, measures, and ranks of parts.
 module rrcb_functions
   use, intrinsic :: iso_c_binding
+  use, intrinsic :: iso_fortran_env, only: error_unit
   use rrcb_types
   use rrcb_c_functions
   implicit none
   private
   public :: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, rrcb_ranks_of_part, &
-    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of
+    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of, settle
 
 contains
 
@@ -22,6 +23,18 @@ contains
       text = text//letters(i)
     end do
   end function
+
+  !> Gives the caller the code of a function in C. Without `error` an error ends the program.
+  subroutine settle(code, error)
+    integer(c_int), intent(in) :: code
+    integer, intent(out), optional :: error
+    if (present(error)) then
+      error = code
+    else if (code /= rrcb_ok) then
+      write (error_unit, '(2a)') 'rrcb: ', rrcb_last_error()
+      error stop 1
+    end if
+  end subroutine
 
   !> Returns the version of the library, as "major.minor.patch".
   function rrcb_version() result(text)
@@ -48,8 +61,8 @@ contains
   subroutine rrcb_bounding_box(points, lower, upper, error)
     type(rrcb_points), intent(in) :: points
     real(c_double), intent(inout) :: lower(3), upper(3)
-    integer, intent(out) :: error
-    error = c_bounding_box(points, lower, upper)
+    integer, intent(out), optional :: error
+    call settle(c_bounding_box(points, lower, upper), error)
   end subroutine
 
   !> Finds the ranks of a part.
@@ -61,8 +74,8 @@ contains
     integer(c_int32_t), intent(in) :: part
     integer, intent(in) :: num_parts, num_ranks
     type(rrcb_rank_range), intent(inout) :: ranks
-    integer, intent(out) :: error
-    error = c_ranks_of_part(part, num_parts, num_ranks, ranks)
+    integer, intent(out), optional :: error
+    call settle(c_ranks_of_part(part, num_parts, num_ranks, ranks), error)
   end subroutine
 
   !> Computes heaviest part / mean part.
@@ -72,9 +85,9 @@ contains
   subroutine rrcb_imbalance(part_weights, imbalance, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout) :: imbalance
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
-    error = c_imbalance(size(part_weights, kind=c_size_t), part_weights, address_of(part_sizes), imbalance)
+    call settle(c_imbalance(size(part_weights, kind=c_size_t), part_weights, address_of(part_sizes), imbalance), error)
   end subroutine
 
   !> Computes (ideal - actual) / ideal * 100 of each part.
@@ -84,10 +97,10 @@ contains
   subroutine rrcb_load_unbalance_percent(part_weights, percent, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout), contiguous :: percent(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
-    error = c_load_unbalance_percent(size(part_weights, kind=c_size_t), part_weights, &
-      address_of(part_sizes), percent)
+    call settle(c_load_unbalance_percent(size(part_weights, kind=c_size_t), part_weights, &
+      address_of(part_sizes), percent), error)
   end subroutine
 
   !> Computes the largest absolute value of rrcb_load_unbalance_percent.
@@ -97,10 +110,10 @@ contains
   subroutine rrcb_worst_load_unbalance_percent(part_weights, percent, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout) :: percent
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
-    error = c_worst_load_unbalance_percent(size(part_weights, kind=c_size_t), part_weights, &
-      address_of(part_sizes), percent)
+    call settle(c_worst_load_unbalance_percent(size(part_weights, kind=c_size_t), part_weights, &
+      address_of(part_sizes), percent), error)
   end subroutine
 
 end module rrcb_functions

@@ -3,6 +3,7 @@ module rrcb_ghost_lists
   use, intrinsic :: iso_c_binding
   use rrcb_types
   use rrcb_c_functions
+  use rrcb_functions, only: settle
   use rrcb_balancers
   implicit none
   private
@@ -31,10 +32,10 @@ contains
   !> @param upper          the other end
   !> @param ranks_of_parts the ranks of part p at p + 1; without it as by rrcb_ranks_of_part
   subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts)
-    class(rrcb_ghosts), intent(inout) :: self
+    class(rrcb_ghosts), intent(inout), target :: self
     class(rrcb_balancer), intent(in) :: balancer
     type(rrcb_points), intent(in) :: points
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     real(c_double), intent(in), optional :: radius
     real(c_double), intent(in), target, contiguous, optional :: radii(:)
     real(c_double), intent(in), target, optional :: lower(3), upper(3)
@@ -55,7 +56,7 @@ contains
       options%ranks_of_parts = c_loc(ranks_of_parts)
       options%num_parts = size(ranks_of_parts, kind=c_size_t)
     end if
-    error = c_ghosts_create(balancer%handle, points, options, self%handle)
+    call settle(c_ghosts_create(balancer%handle, points, options, room_for(self%handle)), error)
   end subroutine
 
   !> Frees the ghosts. Not collective.
@@ -69,10 +70,10 @@ contains
   subroutine get_plan(self, plan, error)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_ghost_plan), intent(inout) :: plan
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     type(c_ghost_plan) :: from
     type(c_rank_count), pointer :: send(:), receive(:)
-    error = c_ghosts_get_plan(self%handle, from)
+    call settle(c_ghosts_get_plan(self%handle, from), error)
     call c_f_pointer(from%send, send, [from%num_send_ranks])
     call c_f_pointer(from%receive, receive, [from%num_receive_ranks])
     plan%num_points = from%num_points
@@ -94,13 +95,14 @@ contains
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     integer(c_size_t), intent(in), optional :: limit
     type(rrcb_transfer_report), intent(inout), optional :: report
     type(c_ghost_plan) :: plan
-    error = c_ghosts_get_plan(self%handle, plan)
-    error = c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), &
-                            columns_in_c(columns, plan%num_points, plan%num_ghosts), limit, report)
+    integer(c_int) :: code
+    code = c_ghosts_get_plan(self%handle, plan)
+    call settle(c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), &
+      columns_in_c(columns, plan%num_points, plan%num_ghosts), limit, report), error)
   end subroutine
 
   !> Adds columns of the ghosts, `from`, to those of their points, `to`. Collective.
@@ -110,29 +112,30 @@ contains
   subroutine accumulate(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     integer(c_size_t), intent(in), optional :: limit
     type(rrcb_transfer_report), intent(inout), optional :: report
     type(c_ghost_plan) :: plan
-    error = c_ghosts_get_plan(self%handle, plan)
-    error = c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), &
-                            columns_in_c(columns, plan%num_ghosts, plan%num_points), limit, report)
+    integer(c_int) :: code
+    code = c_ghosts_get_plan(self%handle, plan)
+    call settle(c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), &
+      columns_in_c(columns, plan%num_ghosts, plan%num_points), limit, report), error)
   end subroutine
 
   !> Moves fetched positions to those of the images: positions(dimension, ghosts). Not collective.
   subroutine shift_doubles(self, positions, error)
     class(rrcb_ghosts), intent(in) :: self
     real(c_double), intent(inout), contiguous :: positions(:, :)
-    integer, intent(out) :: error
-    error = c_ghosts_apply_shifts(self%handle, rrcb_double, size(positions, kind=c_size_t), positions)
+    integer, intent(out), optional :: error
+    call settle(c_ghosts_apply_shifts(self%handle, rrcb_double, size(positions, kind=c_size_t), positions), error)
   end subroutine
 
   !> Moves positions of real(4) in the same way.
   subroutine shift_reals(self, positions, error)
     class(rrcb_ghosts), intent(in) :: self
     real(c_float), intent(inout), contiguous :: positions(:, :)
-    integer, intent(out) :: error
-    error = c_ghosts_apply_shifts(self%handle, rrcb_float, size(positions, kind=c_size_t), positions)
+    integer, intent(out), optional :: error
+    call settle(c_ghosts_apply_shifts(self%handle, rrcb_float, size(positions, kind=c_size_t), positions), error)
   end subroutine
 
 end module rrcb_ghost_lists

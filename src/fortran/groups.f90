@@ -3,6 +3,7 @@ module rrcb_group_lists
   use, intrinsic :: iso_c_binding
   use rrcb_types
   use rrcb_c_functions
+  use rrcb_functions, only: settle
   use rrcb_balancers
   implicit none
   private
@@ -27,20 +28,21 @@ contains
   !> @param keys           one for each point; -1 for a point without others
   !> @param at_first_point .true.: a group is at its first point; otherwise at its centre of weight
   subroutine create(self, balancer, points, keys, error, at_first_point)
-    class(rrcb_groups), intent(inout) :: self
+    class(rrcb_groups), intent(inout), target :: self
     class(rrcb_balancer), intent(in) :: balancer
     type(rrcb_points), intent(in) :: points
     integer(c_int64_t), intent(in), target, contiguous :: keys(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     logical, intent(in), optional :: at_first_point
     type(c_ptr) :: address
-    integer(c_int) :: place
+    integer(c_int) :: place, code
     address = c_null_ptr
     if (size(keys) > 0 .and. size(keys, kind=c_size_t) == points%count) address = c_loc(keys)
     place = 0
     if (present(at_first_point)) place = merge(1, 0, at_first_point)
-    self%num_points = points%count
-    error = c_groups_create(balancer%handle, points, address, place, self%handle)
+    code = c_groups_create(balancer%handle, points, address, place, room_for(self%handle))
+    if (code == rrcb_ok) self%num_points = points%count
+    call settle(code, error)
   end subroutine
 
   !> Frees the groups. Not collective.
@@ -54,8 +56,8 @@ contains
   subroutine points_of_groups(self, points, error)
     class(rrcb_groups), intent(in) :: self
     type(rrcb_points), intent(inout) :: points
-    integer, intent(out) :: error
-    error = c_groups_points(self%handle, points)
+    integer, intent(out), optional :: error
+    call settle(c_groups_points(self%handle, points), error)
   end subroutine
 
   !> Fetches columns of the points from those of their groups, such as parts. Collective.
@@ -65,13 +67,14 @@ contains
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_groups), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     integer(c_size_t), intent(in), optional :: limit
     type(rrcb_transfer_report), intent(inout), optional :: report
     type(rrcb_points) :: groups
-    error = c_groups_points(self%handle, groups)
-    error = c_groups_fetch(self%handle, size(columns, kind=c_size_t), &
-                           columns_in_c(columns, groups%count, self%num_points), limit, report)
+    integer(c_int) :: code
+    code = c_groups_points(self%handle, groups)
+    call settle(c_groups_fetch(self%handle, size(columns, kind=c_size_t), &
+      columns_in_c(columns, groups%count, self%num_points), limit, report), error)
   end subroutine
 
   !> Adds up values over the points of each group. Collective.
@@ -81,16 +84,17 @@ contains
     class(rrcb_groups), intent(in) :: self
     real(c_double), intent(in), target, contiguous :: values(:, :)
     real(c_double), intent(inout), target, contiguous :: of_groups(:, :)
-    integer, intent(out) :: error
+    integer, intent(out), optional :: error
     type(rrcb_points) :: groups
     type(c_ptr) :: from, to
-    error = c_groups_points(self%handle, groups)
+    integer(c_int) :: code
+    code = c_groups_points(self%handle, groups)
     from = c_null_ptr
     to = c_null_ptr
     if (size(values) > 0 .and. size(values, 2, c_size_t) >= self%num_points) from = c_loc(values)
     if (size(of_groups) > 0 .and. size(of_groups, kind=c_size_t) >= size(values, 1)*groups%count) &
       to = c_loc(of_groups)
-    error = c_groups_sums(self%handle, size(values, 1, c_size_t), from, to)
+    call settle(c_groups_sums(self%handle, size(values, 1, c_size_t), from, to), error)
   end subroutine
 
 end module rrcb_group_lists

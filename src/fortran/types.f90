@@ -9,6 +9,8 @@ module rrcb_types
     rrcb_mpi_error = 3, rrcb_internal_error = 4
   integer(c_int), parameter, public :: rrcb_float = 3, rrcb_double = 4
   integer(c_int), parameter :: type_byte = 0, type_int32 = 1, type_int64 = 2
+  !> Types of points whose arrays do not fit together, see src/c/points.cpp: they fail on all ranks.
+  integer(c_int), parameter :: wrong_weights = 5, wrong_axis = 6, wrong_shape = 7
 
   !> View of the points of this rank; coordinate a of point i is at axes(a) + (i - 1)*stride bytes.
   !> If your points are derived types, set axes(a) to c_loc(points(1)%x(a)), and `type` to
@@ -108,8 +110,8 @@ module rrcb_types
       vectors_of_reals, vectors_of_doubles, vectors_of_integers, vectors_of_longs, column_of_bytes
   end interface
 
-  public :: rrcb_interleaved_points, rrcb_column_points, address_of, place_of, columns_in_c, &
-    indices_at, numbers_at
+  public :: rrcb_interleaved_points, rrcb_column_points, address_of, place_of, room_for, &
+    columns_in_c, indices_at, numbers_at
 
 contains
 
@@ -122,14 +124,12 @@ contains
     if (size(values) > 0) address = c_loc(values)
   end function
 
-  !> Returns whether an array has another length. Its points then lack coordinates, which fails on
-  !> all ranks.
-  function differs(values, count)
-    real(c_double), pointer, contiguous, intent(in), optional :: values(:)
-    integer(c_size_t), intent(in) :: count
-    logical :: differs
-    differs = .false.
-    if (present(values)) differs = size(values, kind=c_size_t) /= count
+  !> Returns the address for a new handle; null if one is there, which fails on all ranks.
+  function room_for(handle) result(address)
+    type(c_ptr), target, intent(in) :: handle
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (.not. c_associated(handle)) address = c_loc(handle)
   end function
 
   !> Returns the address of an array with `count` entries; otherwise null, which fails on all ranks.
@@ -223,22 +223,34 @@ contains
     points%count = extents(2)
     points%stride = extents(1)*bytes_of(type)
     points%weights = address_of(weights)
-    if (product(extents) == 0 .or. differs(weights, points%count)) return
+    if (extents(1) < 1 .or. extents(1) > 3) call note_fault(wrong_shape, extents(1), points)
+    if (present(weights)) then
+      if (size(weights, kind=c_size_t) /= points%count) &
+        call note_fault(wrong_weights, size(weights, kind=c_size_t), points)
+    end if
+    if (product(extents) == 0) return
     do axis = 0, min(points%dimension, 3) - 1
       points%axes(axis + 1) = transfer(transfer(c_loc(first), 0_c_intptr_t) + axis*bytes_of(type), c_null_ptr)
     end do
   end function
 
-  !> Adds an axis, without its coordinates if their number is another one.
+  !> Makes calls with these points fail, except of a fault before; `extent` does not fit.
+  pure subroutine note_fault(fault, extent, points)
+    integer(c_int), intent(in) :: fault
+    integer(c_size_t), intent(in) :: extent
+    type(rrcb_points), intent(inout) :: points
+    if (points%type >= wrong_weights) return
+    points%type = fault
+    points%stride = extent
+  end subroutine
+
+  !> Adds an axis of as many coordinates.
   subroutine add_axis(count, first, points)
     integer(c_size_t), intent(in) :: count
     type(*), target, intent(in) :: first(*)
     type(rrcb_points), intent(inout) :: points
     points%dimension = points%dimension + 1
-    if (count /= points%count) then
-      points%axes = c_null_ptr  ! refused as missing, if there is any point
-      points%count = max(count, points%count)
-    end if
+    if (count /= points%count) call note_fault(wrong_axis, count, points)
     if (c_associated(points%axes(1))) points%axes(points%dimension) = c_loc(first)
   end subroutine
 

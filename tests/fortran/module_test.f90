@@ -28,7 +28,7 @@ program module_test
   real(c_double), allocatable :: sums(:, :)
   integer(c_int64_t), allocatable, target :: long_numbers(:), moved_long_numbers(:)
   real(c_double), allocatable, target :: images(:, :)
-  real(c_double), target :: sizes(3) = [1, 3, 2]
+  real(c_double), target :: sizes(3) = [1, 3, 2], turned(5, 3) = 0
   real(c_double) :: lower(3), upper(3), columns(2), of_parts(3), value
   integer(c_int32_t) :: part, new_numbers(3)
   type, bind(c) :: particle
@@ -82,7 +82,7 @@ program module_test
   call balancer%parts_touching([40.0_c_double], [60.0_c_double], again, error)
   call expect(error == rrcb_ok .and. size(again) == 2 .and. all(again == [0, 1]), "parts_touching")
 
-  call other%create(MPI_COMM_WORLD, error)
+  call other%create(MPI_COMM_WORLD)
   deallocate (again)
   allocate (again(num_points))
   call other%assign(rrcb_interleaved_points(x), again, error)
@@ -120,7 +120,15 @@ program module_test
   call expect(error == rrcb_invalid_argument, "too few parts")
   call other%rebalance(rrcb_interleaved_points(x, sizes), again, error)
   call expect(error == rrcb_invalid_argument, "weights of other points")
-  call expect(index(rrcb_last_error(), "an array has the wrong length") > 0, "text of a wrong length")
+  call expect_text("rank 0: weights has 3 entries for 300 points; give one for each")
+  call other%rebalance(rrcb_interleaved_points(turned), again, error)
+  call expect_text("coordinates has the shape (5, 3); give (dimension, points)")
+  call other%rebalance(rrcb_column_points(positions, positions(2:)), again, error)
+  call expect_text("rank 0: x, y and z must have one length, not 300 and 299")
+  call other%rebalance(rrcb_interleaved_points(x), again(2:), error)
+  call expect_text("parts is null (in Fortran: or has the wrong length); it must hold 300 entries")
+  call other%create(MPI_COMM_WORLD, error)
+  call expect_text("balancer is null; give the address of a pointer (in Fortran: destroy what was")
   ! Of two machines of two ranks, which are dealt in turns.
   cuts%tree = [rrcb_cut(1, 0, [2.0_c_double, 0.0_c_double, 0.0_c_double]), &
                rrcb_cut(1, 0, [1.0_c_double, 0.0_c_double, 0.0_c_double]), &
@@ -183,6 +191,7 @@ program module_test
   call expect(all(moved_weights == 2) .and. all(moved_short == numbers*0.5), "moved reals")
   call balancer%transfer([rrcb_column(x, moved(:, 2:))], error)
   call expect(error == rrcb_invalid_argument, "transfer to a short array")
+  call expect_text("to of column 0 (the first is 0) is null (in Fortran: or too short); it must hold 1 for")
   allocate (moved_particles(num_points))
   call balancer%transfer([rrcb_column(c_sizeof(moved_particles(1)), c_loc(particles), &
     c_loc(moved_particles))], error)
@@ -228,6 +237,8 @@ program module_test
   end do
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=0*moved_weights)
   call expect(error == rrcb_ok, "ghosts by radii")
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radius=2.0_c_double)
+  call expect_text("ghosts is null; give the address of a pointer (in Fortran: destroy what was")
   call ghosts%destroy()
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error)
   call expect(error == rrcb_invalid_argument, "ghosts without a radius")
@@ -242,6 +253,8 @@ program module_test
   ! Pairs of points, which cuts do not part, though ranks do.
   call groups%create(balancer, rrcb_interleaved_points(moved), int((numbers + 1)/2, c_int64_t), error)
   call expect(error == rrcb_ok, "create groups")
+  call groups%create(balancer, rrcb_interleaved_points(x), long_numbers, error)
+  call expect_text("groups is null; give the address of a pointer (in Fortran: destroy what was")
   call groups%points(points, error)
   call expect(error == rrcb_ok .and. points%count == num_points/2, "points of groups")
   deallocate (again)
@@ -267,9 +280,11 @@ program module_test
   call balancer%release_buffers(error)
   call expect(error == rrcb_ok, "release_buffers")
 
-  call balancer%set("colour", "blue", code)
-  call expect(code == rrcb_invalid_argument, "code of an error")
-  call expect(index(rrcb_last_error(), 'no option "colour"') > 0, "text of an error")
+  call balancer%set("colour", "blue", error)
+  call expect(error == rrcb_invalid_argument, "code of an error")
+  call expect_text('no option "colour"')
+  ! Ends the program if it is asked to, with this text.
+  if (command_argument_count() > 0) call balancer%set("colour", "blue")
   call expect(index(rrcb_build_info(), "version: "//rrcb_version()) == 1, "build_info")
   call balancer%destroy()
   call balancer%balance(rrcb_interleaved_points(x), parts, error)
@@ -281,6 +296,10 @@ program module_test
   call expect(error == rrcb_ok, "create a controller")
   call model%create(MPI_COMM_WORLD, 2, error, controller)
   call expect(error == rrcb_ok, "create a cost model")
+  call model%create(MPI_COMM_WORLD, 2, error)
+  call expect_text("model is null; give the address of a pointer (in Fortran: destroy what was")
+  call controller%create(MPI_COMM_WORLD, error)
+  call expect_text("controller is null; give the address of a pointer (in Fortran: destroy what was")
   call controller%rebalanced(0.5_c_double, error, report)
   call expect(error == rrcb_ok, "rebalanced")
   ! A point costs 2, a cell 5; ranks have different cells.
@@ -330,6 +349,11 @@ contains
       if (is_near(real(k, c_double))) num_ghosts = num_ghosts + 1
     end do
   end function
+
+  subroutine expect_text(text)
+    character(*), intent(in) :: text
+    call expect(error /= rrcb_ok .and. index(rrcb_last_error(), text) > 0, text)
+  end subroutine
 
   subroutine expect(condition, what)
     logical, intent(in) :: condition

@@ -238,7 +238,8 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     expect_error_everywhere(call(2, is_last_rank() ? nullptr : coordinates, parts.data()), invalid,
                             "coordinates is null");
     expect_error_everywhere(call(2, coordinates, is_last_rank() ? nullptr : parts.data()), invalid,
-                            "parts is null");
+                            "it must hold " + std::to_string(num_ranks() == 2 ? 1 : 300 * num_ranks() + 1) +
+                                " entr");
     expect_error_everywhere(call(is_last_rank() ? 4 : 2, coordinates, parts.data()), invalid,
                             "dimension");
     if (is_last_rank()) cloud.coordinates.back() = std::numeric_limits<double>::quiet_NaN();
@@ -283,8 +284,10 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
         return rrcb_transfer(balancer, 1, is_last_rank() ? &there : &right, nullptr, nullptr);
     };
     const int invalid = RRCB_INVALID_ARGUMENT;
-    expect_error_everywhere(move({RRCB_DOUBLE, 1, nullptr, here.data()}), invalid, "from is null");
-    expect_error_everywhere(move({RRCB_DOUBLE, 1, x.data(), nullptr}), invalid, "to is null");
+    expect_error_everywhere(move({RRCB_DOUBLE, 1, nullptr, here.data()}), invalid,
+                            "from of column 0 (the first is 0) is null");
+    const std::string fix = "must hold 2 for each of " + std::to_string(x.size()) + " points";
+    expect_error_everywhere(move({RRCB_DOUBLE, 2, x.data(), nullptr}), invalid, fix);
     expect_error_everywhere(move({static_cast<rrcb_type>(7), 1, x.data(), here.data()}), invalid,
                             "rrcb_type");
     expect_error_everywhere(move({RRCB_DOUBLE, 0, x.data(), here.data()}), invalid,

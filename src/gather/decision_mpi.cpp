@@ -147,6 +147,7 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
     report.details.total_weight = verdict.total_weight;
     report.details.estimated_imbalance = verdict.estimated_imbalance;
     report.imbalance = verdict.measured_imbalance;
+    if (verdict.num_points == 0) report_measured(1, 1, report);
     report.details.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
     report.details.least_imbalance =
         least_imbalance(verdict.heaviest, weight_of(report), num_parts, part_sizes);

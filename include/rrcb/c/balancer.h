@@ -31,12 +31,12 @@ typedef struct rrcb_cuts {
 
 /** Report of the last balance, as rrcb::Report; the same on every rank. */
 typedef struct rrcb_report {
-    double imbalance;           /**< heaviest part / mean part, counted; NaN if not counted */
-    int within_tolerance;       /**< 1: `imbalance` is within the tolerance */
-    int kept;                   /**< 1: nothing moves, the points of rank r are part r */
-    int64_t num_points;         /**< over all ranks */
-    double total_weight;        /**< over all ranks */
-    double least_imbalance;     /**< lower bound of the imbalance of any partition */
+    double imbalance;       /**< heaviest part / mean part; NaN if not counted, 1 without points */
+    int within_tolerance;   /**< 1: `imbalance` is within the tolerance */
+    int kept;               /**< 1: nothing moves, the points of rank r are part r */
+    int64_t num_points;     /**< over all ranks */
+    double total_weight;    /**< over all ranks */
+    double least_imbalance; /**< lower bound of the imbalance of any partition */
     double estimated_imbalance; /**< of the statistical domain */
     int64_t num_records;        /**< cells bisected */
     int rounds;                 /**< of counting, for the refinement */

@@ -73,7 +73,7 @@ def prepare(
         root = comm.bcast(mine, root=0)
         differs = comm.allgather(mine != root).index(True)
         theirs = comm.bcast(mine, root=differs)
-        raise Error(f"give the same on every rank: rank 0 has {root}, rank {differs} has {theirs}")
+        raise Error(f"{root} on rank 0, but {theirs} on rank {differs}: give the same on every rank")
     return made
 
 

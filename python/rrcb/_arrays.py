@@ -35,6 +35,16 @@ def as_array(values: Any) -> Array:
     return np.asarray(values)
 
 
+def numbers_in(values: Any, name: str) -> Array:
+    """Returns values as float64. Raises Error if some are no numbers."""
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        text = repr(values)
+        given = text if len(text) <= 40 else text[:37] + "..."
+        raise c.Error(f"{name} must be numbers, not {given}") from None
+
+
 def axes_of(x: Any) -> list[Array]:
     """Returns an array for each axis of points: (n, d), (n,) or a tuple of columns."""
     if isinstance(x, tuple):
@@ -167,13 +177,12 @@ class Columns:
         ]
 
     def signature(self) -> str:
-        """Returns names, dtypes and trailing shapes, which must be the same on every rank."""
-        return str(
-            [
-                (name, values.dtype.descr, values.shape[1:])
-                for name, values in zip(self.names, self.arrays)
-            ]
-        )
+        """Returns names, dtypes and shapes of rows, which must be the same on every rank."""
+        texts = [
+            f"{name}: {values.dtype}" + (f" {values.shape[1:]}" if values.ndim > 1 else "")
+            for name, values in zip(self.names, self.arrays)
+        ]
+        return ", ".join(texts).removeprefix("data: ") or "no column"
 
     def result(self) -> Any:
         """Returns what has arrived, as the data are."""

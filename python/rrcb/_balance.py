@@ -12,7 +12,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare, together
-from ._arrays import Array, Columns, Points
+from ._arrays import Array, Columns, Points, numbers_in
 from ._cuts import Cuts, cuts_of
 from ._ghosts import Ghosts
 
@@ -97,12 +97,21 @@ class Distribution:
 
     def _require_moved(self, points: Points) -> None:
         """Raises Error for the points from before distribute(), if some have to leave this rank."""
-        same = points.count == len(self.parts) and self.cuts.num_parts == self.comm.Get_size()
-        if same and np.any(self.parts != self.comm.Get_rank()):
+        if points.count == len(self.parts) and self._some_leave():
             found = np.empty_like(self.parts)
             c.call("assign", self._own, points, found)
             if np.array_equal(found, self.parts):
                 raise c.Error("these are the points before distribute(): give those it returned")
+
+    def _some_leave(self) -> bool:
+        """Returns whether a part of the points of this rank belongs to other ranks."""
+        rank, size = self.comm.Get_rank(), self.comm.Get_size()
+        ranks = c.RankRange()
+        for part in np.unique(self.parts):
+            c.call("ranks_of_part", int(part), self.cuts.num_parts, size, ranks)
+            if not ranks.first_rank <= rank < ranks.first_rank + ranks.count:
+                return True
+        return False
 
     def _plan(self) -> int:
         if self._num_points_after is None:
@@ -167,7 +176,7 @@ def balance(
         for name, value in options.items():
             set_option(own, name.replace("__", "."), value)
         if part_sizes is not None:
-            sizes = np.array(part_sizes, dtype=np.float64).ravel()
+            sizes = np.ascontiguousarray(numbers_in(part_sizes, "part_sizes").ravel())
             c.call("set_part_sizes", own, sizes.size, sizes)
         if previous is not None:
             cuts_from(previous).give(own)

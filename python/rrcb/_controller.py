@@ -12,7 +12,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare
-from ._arrays import Array
+from ._arrays import Array, numbers_in
 from ._balance import Balance
 
 
@@ -52,6 +52,17 @@ def values_of(columns: Any) -> Any:
         return np.ravel(columns)
     except ValueError:
         return [float("nan")]
+
+
+def index_of(num_columns: Any) -> int:
+    """Returns a number of columns. Raises Error for what is none."""
+    try:
+        columns = operator.index(num_columns)
+    except TypeError:
+        raise c.Error(f"num_columns must be a whole number, not {num_columns!r}") from None
+    if ctypes.c_int(columns).value != columns:
+        raise c.Error(f"num_columns must be an int32, not {columns}")
+    return columns
 
 
 class Controller(Owner):
@@ -110,9 +121,7 @@ class CostModel(Owner):
         chosen = communicator(comm)
 
         def local() -> tuple[Any, int]:
-            columns = operator.index(num_columns)
-            if ctypes.c_int(columns).value != columns:
-                raise c.Error(f"num_columns must be an int32, not {columns}")
+            columns = index_of(num_columns)
             if controller is None:
                 return None, columns
             if not isinstance(controller, Controller):
@@ -140,7 +149,7 @@ class CostModel(Owner):
 
     def weights(self, columns: Any) -> Array:
         """Returns the weight of each point by its share of the columns, (n, num_columns)."""
-        rows = np.ascontiguousarray(columns, dtype=np.float64)
+        rows = np.ascontiguousarray(numbers_in(columns, "columns"))
         if rows.size and rows.shape[1:] != (self.num_columns,):
             raise c.Error(f"columns must have the shape (n, {self.num_columns}), not {rows.shape}")
         weights = np.empty(len(rows))

@@ -11,7 +11,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator
-from ._arrays import Array, Points
+from ._arrays import Array, Points, numbers_in
 
 CUT = np.dtype([("axis", np.int32), ("divides", np.int32), ("at", np.float64, 3)])
 
@@ -46,9 +46,9 @@ class Cuts:
         """Returns the part of each of (n, d) positions, or of one position."""
         position = np.ndim(points) == (0 if self.dimension == 1 else 1)
         if position and not isinstance(points, tuple):
-            points = np.asarray(points, dtype=np.float64).reshape(1, -1)
+            points = numbers_in(points, "a position").reshape(1, -1)
         elif isinstance(points, tuple) and position:
-            points = np.array([points], dtype=np.float64)
+            points = numbers_in([points], "a position")
         view = Points(points)
         parts = np.empty(view.count, dtype=np.int32)
         c.call("assign", self._handle(), view, parts)

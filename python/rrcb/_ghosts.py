@@ -10,7 +10,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare, together
-from ._arrays import FLOATS, NUMBERS, Array, Columns, Points, axes_of, pointer
+from ._arrays import FLOATS, NUMBERS, Array, Columns, Points, axes_of, numbers_in, pointer
 
 
 class Ghosts:
@@ -126,11 +126,11 @@ def numbers_of(data: Any, rows: int, rows_after: int) -> Columns:
 
 def radius_of(radius: Any, count: int) -> Array:
     """Returns one radius, or one for each point."""
-    radii = np.ascontiguousarray(radius, dtype=np.float64).reshape(np.shape(radius))
+    radii = numbers_in(radius, "radius")
     if radii.ndim > 1 or (radii.ndim == 1 and len(radii) != count):
         raise c.Error(f"radius must be a number or have the shape ({count},), not {radii.shape}")
     # To the library a radius of 0 is none.
-    return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii
+    return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii.copy()
 
 
 def options_of(radii: Array, box: Array | None) -> c.GhostOptions:
@@ -149,7 +149,7 @@ def box_of(period: Any, dimension: int) -> Array | None:
     """Returns the corners of a periodic box, (2, 3), infinite on axes that are not periodic."""
     if period is None:
         return None
-    given = np.asarray(period, dtype=np.float64)
+    given = numbers_in(period, "period")
     if given.ndim == 0:
         given = np.full(dimension, given)
     if given.ndim == 1:

@@ -130,6 +130,12 @@ class RankCount(Structure):
     _fields_ = [("rank", c_int), ("count", c_size_t)]
 
 
+class RankRange(Structure):
+    """rrcb_rank_range."""
+
+    _fields_ = [("first_rank", c_int), ("count", c_int)]
+
+
 class GhostPlan(Structure):
     """rrcb_ghost_plan."""
 
@@ -167,6 +173,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "assign": (c_void_p, POINTER(Points), Address),
     "assign_all": (c_void_p, POINTER(Points), Address),
     "box_of": (c_void_p, c_int32, Address, Address),
+    "ranks_of_part": (c_int32, c_int, c_int, POINTER(RankRange)),
     "make_plan": (c_void_p, c_size_t, Address),
     "get_plan": (c_void_p, POINTER(Plan)),
     "transfer": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),

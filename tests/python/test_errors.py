@@ -48,9 +48,9 @@ def test_raises_the_error_of_one_rank_on_all():
         lambda given: rrcb.assign(x, given, comm),
     ):
         same_error(lambda: call(on_rank(last, 3, balance)), "give a balance or its cuts, not int")
-    for bad in (["a"], np.ones(RANKS + 1)):
+    for bad, text in ((["a"], "part_sizes must be numbers, not ['a']"), (np.ones(RANKS + 1), "")):
         given = on_rank(last, bad, np.ones(RANKS))
-        same_error(lambda: rrcb.balance(x, comm=comm, part_sizes=given), "")
+        same_error(lambda: rrcb.balance(x, comm=comm, part_sizes=given), text)
     for bad, text in ((np.ones(3), "weights must have the shape"), (["a"] * len(x), "numbers"),
                       (-np.ones(len(x)), "")):
         given = on_rank(0, bad, np.ones(len(x)))
@@ -96,9 +96,16 @@ def test_raises_errors_of_columns_on_all():
         for bad in ({"x": x}, {"y": x[:, 0], "x": x.astype("f4")}, {"y": x, "x": x}):
             given = on_rank(last, bad, {"x": x, "y": x[:, 0]})
             same_error(lambda: balance.distribute(given), "same on every rank")
+        given = on_rank(last, x.astype("f4"), x)
+        text = f"float64 (2,) on rank 0, but float32 (2,) on rank {last}: give the same"
+        same_error(lambda: balance.distribute(given), text)
+        given = on_rank(last, {"x": x[:, 0], "y": x}, {"x": x, "y": x})
+        same_error(lambda: balance.distribute(given), f"but x: float64, y: float64 (2,) on rank {last}")
     same_error(lambda: balance.ghosts(here, on_rank(0, -1.0, 0.1)), "")
     same_error(lambda: balance.ghosts(here, on_rank(0, np.ones(len(here) + 1), 0.1)), "radius")
+    same_error(lambda: balance.ghosts(here, on_rank(0, "a", 0.1)), "radius must be numbers, not 'a'")
     same_error(lambda: balance.ghosts(here, 0.1, on_rank(last, [1, 2, 3], 1.0)), "period")
+    same_error(lambda: balance.ghosts(here, 0.1, on_rank(0, "b", 1.0)), "period must be numbers")
     same_error(lambda: balance.ghosts(here + 5.0, 0.1, 1.0), "")
     ghosts = balance.ghosts(here, 0.1)
     ones = np.ones(ghosts.count)
@@ -120,6 +127,11 @@ def test_refuses_ghosts_of_points_that_were_not_moved():
         alone = rrcb.assign(here, balance, comm)
         same_error(lambda: balance.ghosts(on_rank(RANKS - 1, x, here), 0.1), "before distribute()")
         assert alone.ghosts(here, 0.1).count == balance.ghosts(here, 0.1).count
+    for num_parts in (2 * RANKS, max(RANKS - 1, 2)):
+        other = rrcb.balance(x, comm=comm, num_parts=num_parts)
+        other.ghosts(other.distribute(x), 0.1)
+        if RANKS > 1:
+            same_error(lambda: other.ghosts(x, 0.1), "these are the points before distribute()")
     # As many points as before, of which some have crossed a cut.
     rows = np.resize(np.arange(len(here)), len(x))
     assert balance.ghosts(here[rows] * 0.99, 0.1).num_points == len(x)
@@ -140,6 +152,7 @@ def test_names_the_shape_of_no_points():
     for none, dimension in ((np.array([]), 1), ([], 1), (np.empty((0, 2)), 2)):
         balance = rrcb.balance(none, comm=comm)
         assert balance.cuts.dimension == dimension and balance.parts.shape == (0,)
+        assert balance.report.imbalance == 1 and balance.report.within_tolerance
         assert balance.distribute(np.asarray(none)).shape == np.shape(none)
 
 
@@ -199,7 +212,8 @@ def test_raises_errors_of_a_controller_on_all():
         with rrcb.Controller(comm) as controller:
             controller.rebalanced(given, cost)
             same_error(lambda: [controller.step(1.0) for _ in range(3)], "")
-    same_error(lambda: rrcb.CostModel(on_rank(last, "a", 1), comm=comm), "TypeError")
+    given = on_rank(last, "a", 1)
+    same_error(lambda: rrcb.CostModel(given, comm=comm), "num_columns must be a whole number, not 'a'")
     with rrcb.CostModel(2, comm=comm) as model:
         model.step(1.0, on_rank(last, [[1], [1, 2]], [1, 2]))
         same_error(lambda: [model.step(1.0, [1, 2]) for _ in range(3)], "")

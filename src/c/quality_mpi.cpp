@@ -19,7 +19,8 @@ template <class Measure>
 int measured(Measure measure, size_t num_parts, const double* part_weights,
              const double* part_sizes, double* result) {
     return guarded([&] {
-        rrcb::c::require_array(num_parts, part_weights, "part_weights");
+        rrcb::c::require_array(num_parts, part_weights,
+                               "part_weights, or an array of one for each part,");
         require(result, "the result");
         measure(view(part_weights, num_parts), view(part_sizes, num_parts), result);
     });

@@ -19,7 +19,7 @@ void check(int code, const char* call) {
 int to_int(std::int64_t count) {
     if (count < 0 || count > std::numeric_limits<int>::max())
         throw Error(ErrorCode::mpi, "a message of " + std::to_string(count) +
-                                        " items exceeds the range of MPI's counts");
+                                        " items exceeds the range of MPI's counts; use more ranks");
     return static_cast<int>(count);
 }
 

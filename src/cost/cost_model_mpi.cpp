@@ -29,7 +29,7 @@ void check_columns(int num_columns) {
     if (num_columns < 1 || num_columns > most_cost_columns)
         throw Error(ErrorCode::invalid_argument,
                     "a cost model has 1 to " + std::to_string(most_cost_columns) +
-                        " columns, not " + std::to_string(num_columns));
+                        " columns, not " + std::to_string(num_columns) + "; add up some of them");
 }
 
 }  // namespace
@@ -96,9 +96,10 @@ std::vector<double> CostModel::weights(std::span<const double> columns) {
     rule.divide();
     const std::size_t length = rule.num_columns();
     if (columns.size() % length != 0)
-        throw Error(ErrorCode::invalid_argument,
-                    std::to_string(columns.size()) + " numbers are no rows of " +
-                        std::to_string(length) + " columns; give a row for each point");
+        throw Error(ErrorCode::invalid_argument, "columns has " + std::to_string(columns.size()) +
+                                                     " numbers; give a row for each point, of as "
+                                                     "many numbers as the model has columns, " +
+                                                     std::to_string(length));
     std::vector<double> weights(columns.size() / length, 1.0);
     if (!rule.uses_costs()) return weights;
     for (std::size_t i = 0; i < weights.size(); ++i)

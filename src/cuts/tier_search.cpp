@@ -102,7 +102,9 @@ void TierSearch::learn(const Butterfly& asked) {
             known[static_cast<std::int32_t>(named.node)] = named.cut;
         }
     });
-    if (num_answers < tiers_.size()) throw Error(ErrorCode::internal, "cuts have not come");
+    if (num_answers < tiers_.size())
+        throw Error(ErrorCode::internal,
+                    "other ranks sent too few of their cuts; report this with rrcb::build_info()");
     cuts_.nodes.clear();
     cuts_.tree.clear();
     for (const auto& [node, cut] : known) {

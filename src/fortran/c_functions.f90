@@ -74,8 +74,7 @@ module rrcb_c_functions
     integer(c_int) function measure(num_parts, part_weights, part_sizes, result) bind(c)
       import
       integer(c_size_t), value :: num_parts
-      real(c_double), intent(in) :: part_weights(*)
-      type(c_ptr), value :: part_sizes
+      type(c_ptr), value :: part_weights, part_sizes
       real(c_double), intent(inout) :: result
     end function
     integer(c_int) function ask(handle, due) bind(c)
@@ -115,8 +114,7 @@ module rrcb_c_functions
       bind(c, name="rrcb_load_unbalance_percent")
       import
       integer(c_size_t), value :: num_parts
-      real(c_double), intent(in) :: part_weights(*)
-      type(c_ptr), value :: part_sizes
+      type(c_ptr), value :: part_weights, part_sizes
       real(c_double), intent(inout) :: percent(*)
     end function
     integer(c_int) function c_set(handle, option, value) bind(c, name="rrcb_set")

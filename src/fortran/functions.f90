@@ -78,16 +78,29 @@ contains
     call settle(c_ranks_of_part(part, num_parts, num_ranks, ranks), error)
   end subroutine
 
+  !> Returns the address of weights of parts; null, which fails, if there are not as many sizes.
+  function weights_at(part_weights, part_sizes) result(address)
+    real(c_double), intent(in), target, contiguous :: part_weights(:)
+    real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(part_sizes)) then
+      if (size(part_sizes) > 0 .and. size(part_sizes) /= size(part_weights)) return
+    end if
+    if (size(part_weights) > 0) address = c_loc(part_weights)
+  end function
+
   !> Computes heaviest part / mean part.
   !> @param part_weights weight of each part
   !> @param imbalance    gets the ratio
   !> @param part_sizes   relative, one for each part
   subroutine rrcb_imbalance(part_weights, imbalance, error, part_sizes)
-    real(c_double), intent(in), contiguous :: part_weights(:)
+    real(c_double), intent(in), target, contiguous :: part_weights(:)
     real(c_double), intent(inout) :: imbalance
     integer, intent(out), optional :: error
     real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
-    call settle(c_imbalance(size(part_weights, kind=c_size_t), part_weights, address_of(part_sizes), imbalance), error)
+    call settle(c_imbalance(size(part_weights, kind=c_size_t), weights_at(part_weights, part_sizes), &
+      address_of(part_sizes), imbalance), error)
   end subroutine
 
   !> Computes (ideal - actual) / ideal * 100 of each part.
@@ -95,11 +108,14 @@ contains
   !> @param percent      gets one for each part
   !> @param part_sizes   relative, one for each part
   subroutine rrcb_load_unbalance_percent(part_weights, percent, error, part_sizes)
-    real(c_double), intent(in), contiguous :: part_weights(:)
+    real(c_double), intent(in), target, contiguous :: part_weights(:)
     real(c_double), intent(inout), contiguous :: percent(:)
     integer, intent(out), optional :: error
     real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
-    call settle(c_load_unbalance_percent(size(part_weights, kind=c_size_t), part_weights, &
+    type(c_ptr) :: weights
+    weights = weights_at(part_weights, part_sizes)
+    if (size(percent) < size(part_weights)) weights = c_null_ptr
+    call settle(c_load_unbalance_percent(size(part_weights, kind=c_size_t), weights, &
       address_of(part_sizes), percent), error)
   end subroutine
 
@@ -108,11 +124,12 @@ contains
   !> @param percent      gets the value
   !> @param part_sizes   relative, one for each part
   subroutine rrcb_worst_load_unbalance_percent(part_weights, percent, error, part_sizes)
-    real(c_double), intent(in), contiguous :: part_weights(:)
+    real(c_double), intent(in), target, contiguous :: part_weights(:)
     real(c_double), intent(inout) :: percent
     integer, intent(out), optional :: error
     real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
-    call settle(c_worst_load_unbalance_percent(size(part_weights, kind=c_size_t), part_weights, &
+    call settle(c_worst_load_unbalance_percent(size(part_weights, kind=c_size_t), &
+      weights_at(part_weights, part_sizes), &
       address_of(part_sizes), percent), error)
   end subroutine
 

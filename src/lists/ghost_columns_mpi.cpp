@@ -19,7 +19,7 @@ LocalIndex check(const GhostPlan& plan, int num_ranks) {
     check_counts(plan.receive, num_ghosts, num_ranks);
     require(
         std::ranges::all_of(plan.send_indices, [&](LocalIndex i) { return i < plan.num_points; }),
-        "send_indices of the plan must be below num_points");
+        "send_indices of the plan must be below num_points; give the plan as it was made");
     return num_ghosts;
 }
 
@@ -28,7 +28,8 @@ LocalIndex check(const Groups& groups, int num_ranks) {
     const LocalIndex num_elsewhere = check(groups.plan, num_ranks);
     const LocalIndex num_groups = groups.plan.num_points + num_elsewhere;
     require(std::ranges::all_of(groups.of_points, [&](LocalIndex g) { return g < num_groups; }),
-            "of_points of the groups must be below the number of groups");
+            "of_points of the groups must be below the number of groups; give the groups as they "
+            "were made");
     return num_elsewhere;
 }
 

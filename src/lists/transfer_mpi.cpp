@@ -16,10 +16,12 @@ void check_lists(const Plan& plan, int num_ranks) {
     const std::vector<LocalIndex>& exports = plan.export_indices;
     require(exports.size() == plan.export_ranks.size(),
             "the lists of exports of the plan differ in length; give the plan as it was made");
-    require(std::ranges::adjacent_find(exports, std::greater_equal<>()) == exports.end() &&
-                (exports.empty() || exports.back() < plan.num_points),
-            "export_indices of the plan must ascend below num_points");
-    require(std::ranges::is_sorted(plan.import_ranks), "import_ranks of the plan must ascend");
+    require(
+        std::ranges::adjacent_find(exports, std::greater_equal<>()) == exports.end() &&
+            (exports.empty() || exports.back() < plan.num_points),
+        "export_indices of the plan must ascend below num_points; give the plan as it was made");
+    require(std::ranges::is_sorted(plan.import_ranks),
+            "import_ranks of the plan must ascend; give the plan as it was made");
     const auto is_here = [&](int rank) { return rank >= 0 && rank < num_ranks; };
     require(std::ranges::all_of(plan.export_ranks, is_here) &&
                 (plan.import_ranks.empty() ||

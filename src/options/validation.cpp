@@ -212,7 +212,8 @@ void check_grid(const Options& options, int dimension) {
 void check_previous(const Cuts& previous, const Options& options, int dimension) {
     require(previous.dimension == dimension && previous.num_parts == options.num_parts &&
                 previous.shape == options.tree && has_its_cuts(previous),
-            "previous cuts must have the dimension, number of parts and shape of tree asked for");
+            "previous cuts must have the dimension, number of parts and shape of tree asked for; "
+            "call balance without them");
     require(has_legal_cuts(previous), illegal_cut);
 }
 
@@ -273,7 +274,8 @@ void reject_weights(const Points& points) {
     const auto first = std::ranges::find_if(points.weights, is_bad);
     if (first == points.weights.end()) reject("the sum of the weights overflows; scale them down");
     reject("weight of point " + std::to_string(first - points.weights.begin()) +
-           " is negative, NaN or infinite" + tally(std::ranges::count_if(points.weights, is_bad)));
+           " is negative, NaN or infinite" + tally(std::ranges::count_if(points.weights, is_bad)) +
+           "; give 0 or more");
 }
 
 void check_lengths(const Points& points) {

@@ -79,7 +79,9 @@ TEST(Errors, a_coordinate_that_is_infinite) {
 }
 
 TEST(Errors, a_weight_that_is_negative) {
-    expect_error(last_rank() + "weight of point 2 is negative, NaN or infinite (1 such value",
+    expect_error(last_rank() +
+                     "weight of point 2 is negative, NaN or infinite (1 such value on this rank); "
+                     "give 0 or more",
                  [](Share& share, Options&) {
                      if (is_last_rank()) share.weights[2] = -1e-300;
                  });

@@ -219,7 +219,8 @@ TEST_F(CGhosts, measures_are_those_of_cpp) {
         rrcb_load_unbalance_percent(of_parts.size(), of_parts.data(), nullptr, percent.data()),
         RRCB_OK);
     EXPECT_EQ(percent, load_unbalance_percent(of_parts));
-    expect_error(rrcb_imbalance(1, nullptr, nullptr, &number), "part_weights is null");
+    expect_error(rrcb_imbalance(1, nullptr, nullptr, &number),
+                 "part_weights, or an array of one for each part, is null");
 }
 
 TEST_F(CGhosts, look_ups_are_those_of_cpp) {

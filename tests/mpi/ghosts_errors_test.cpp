@@ -108,11 +108,12 @@ TEST(Fetch, by_a_plan_that_does_not_hold_together_is_refused_on_all_ranks) {
         expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": " + text,
                        [&] { fetch(wrong, values, MPI_COMM_WORLD); });
     };
-    expect("send_indices of the plan must be below num_points", [](GhostPlan& wrong) {
-        wrong.num_points = 0;
-        wrong.send = {{0, 1}};
-        wrong.send_indices = {0};
-    });
+    expect("send_indices of the plan must be below num_points; give the plan as it was made",
+           [](GhostPlan& wrong) {
+               wrong.num_points = 0;
+               wrong.send = {{0, 1}};
+               wrong.send_indices = {0};
+           });
     expect("the counts of the plan do not add up",
            [](GhostPlan& wrong) { wrong.send_indices.push_back(0); });
     expect("the plan names rank " + std::to_string(num_ranks()), [](GhostPlan& wrong) {

@@ -183,11 +183,11 @@ const std::vector<Fault>& faults() {
          [](auto& plan, auto&, auto&) { plan.import_ranks[0] = -1; }},
         {"lists of exports of the plan differ in length",
          [](auto& plan, auto&, auto&) { plan.export_ranks.pop_back(); }},
-        {"export_indices of the plan must ascend below num_points",
+        {"export_indices of the plan must ascend below num_points; give the plan as it was made",
          [](auto& plan, auto&, auto&) { plan.export_indices[1] = plan.export_indices[0]; }},
-        {"export_indices of the plan must ascend below num_points",
+        {"export_indices of the plan must ascend below num_points; give the plan as it was made",
          [](auto& plan, auto&, auto&) { plan.export_indices.back() = 7; }},
-        {"import_ranks of the plan must ascend",
+        {"import_ranks of the plan must ascend; give the plan as it was made",
          [](auto& plan, auto&, auto&) {
              plan.import_ranks.insert(plan.import_ranks.begin(), num_ranks());
          }},

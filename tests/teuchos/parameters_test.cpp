@@ -138,7 +138,7 @@ TEST(Parameters, that_cannot_be_read_name_the_file) {
 
 TEST(Parameters, of_an_unknown_name_are_rejected_with_the_names_there_are) {
     expect_error(list_with("RRCB_SEEED", 1),
-                 {"unknown parameter 'RRCB_SEEED'", "RRCB_SEED", "RRCB_DUMP_WHEN"});
+                 {"unknown parameter 'RRCB_SEEED'", "RRCB_DUMP_WHEN", "; did you mean RRCB_SEED?"});
     ParameterList nested;
     nested.sublist("Inner");
     expect_error(nested, {"unknown parameter 'Inner'"});

@@ -237,9 +237,9 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     const auto num_parts = static_cast<std::size_t>(num_ranks());
     expect_error_everywhere(call(2, is_last_rank() ? nullptr : coordinates, parts.data()), invalid,
                             "coordinates is null");
-    expect_error_everywhere(call(2, coordinates, is_last_rank() ? nullptr : parts.data()), invalid,
-                            "it must hold " + std::to_string(num_ranks() == 2 ? 1 : 300 * num_ranks() + 1) +
-                                " entr");
+    expect_error_everywhere(
+        call(2, coordinates, is_last_rank() ? nullptr : parts.data()), invalid,
+        "it must hold " + std::to_string(num_ranks() == 2 ? 1 : 300 * num_ranks() + 1) + " entr");
     expect_error_everywhere(call(is_last_rank() ? 4 : 2, coordinates, parts.data()), invalid,
                             "dimension");
     if (is_last_rank()) cloud.coordinates.back() = std::numeric_limits<double>::quiet_NaN();

@@ -2,12 +2,30 @@
 // skips the test, where MPI lets only one thread at a time in.
 #include "program.hpp"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cstdio>
+#include <cstring>
 #include <thread>
+
+namespace {
+
+std::atomic<int> num_yields = 0;  ///< of the plug-in; those of MPI are not counted
+
+}  // namespace
+
+// In place of the function of the system, for all libraries.
+extern "C" int sched_yield() noexcept {
+    Dl_info info{};
+    const bool is_known = dladdr(__builtin_return_address(0), &info) != 0;
+    if (is_known && std::strstr(info.dli_fname, "librrcb_zoltan") != nullptr) ++num_yields;
+    return static_cast<int>(syscall(SYS_sched_yield));
+}
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -121,6 +139,45 @@ TEST(Threads, find_their_handles_among_those_that_come_and_go) {
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(wrong, 0);
     free_communicators(alone);
+}
+
+/// Looks up in two handles in turns; returns the number of wrong answers.
+int look_up_in_turns(int times) {
+    Cloud one(0, MPI_COMM_SELF), other(1, MPI_COMM_SELF);
+    const std::vector<int> of_one = one.parts(one.zz), of_other = other.parts(other.zz);
+    int wrong = 0;
+    for (int time = 0; time < times; ++time) {
+        for (std::size_t i = 0; i < of_one.size(); ++i) {
+            int rank = -1, part = -1;
+            Zoltan_LB_Point_PP_Assign(one.zz, &one.coordinates[2 * i], &rank, &part);
+            wrong += part == of_one[i] ? 0 : 1;
+            Zoltan_LB_Point_PP_Assign(other.zz, &other.coordinates[2 * i], &rank, &part);
+            wrong += part == of_other[i] ? 0 : 1;
+        }
+    }
+    return wrong;
+}
+
+TEST(Threads, look_up_while_another_makes_handles) {
+    std::atomic<int> wrong = 0;
+    std::vector<std::thread> others;
+    for (int t = 0; t < 2; ++t) others.emplace_back([&] { wrong += look_up_in_turns(2000); });
+    for (int i = 0; i < 40; ++i) {
+        Zoltan_Struct* handle = Zoltan_Create(MPI_COMM_SELF);
+        Zoltan_Destroy(&handle);
+    }
+    for (std::thread& thread : others) thread.join();
+    EXPECT_EQ(wrong, 0);
+}
+
+// Beside busy threads each yield may take milliseconds.
+TEST(Threads, make_handles_of_a_single_rank_without_yielding) {
+    num_yields = 0;
+    for (int i = 0; i < 100; ++i) {
+        Zoltan_Struct* handle = Zoltan_Create(MPI_COMM_SELF);
+        Zoltan_Destroy(&handle);
+    }
+    EXPECT_EQ(num_yields, 0);
 }
 
 // Zoltan gives every copy a communicator of its own.

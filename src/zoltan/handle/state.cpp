@@ -2,37 +2,57 @@
 
 #include "collective/communicator.hpp"
 
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cstdint>
-#include <map>
 #include <mutex>
-#include <shared_mutex>
 #include <utility>
 
 namespace rrcb::zoltan {
 
 namespace {
 
-constexpr std::uint64_t first_version = 1;
-
-struct Table {
-    std::shared_mutex mutex;
-    std::map<const Zoltan_Struct*, State> states;
-    std::atomic<std::uint64_t> version = first_version;  ///< of the set of handles
+/// Place for a handle. Places are never freed, so look-ups need no lock, for which creating a
+/// handle could wait without end.
+struct Place {
+    std::atomic<const Zoltan_Struct*> zz = nullptr;  ///< null: free for another handle
+    std::unique_ptr<State> state{};                  ///< touched by the thread of the handle only
+    Place* next = nullptr;
 };
 
-Table& table() {
-    // Never destroyed: handles that outlive MPI must not free their communicators at exit.
-    static auto& only = *new Table;
-    return only;
+constexpr int num_bits = 10;
+
+/// Lists of places, by a hash of the handle. At exit they stay: handles that outlive MPI must not
+/// free their communicators.
+constinit std::array<std::atomic<Place*>, 1 << num_bits> first_places{};
+constinit std::mutex adding;
+constinit std::atomic<bool> any_made = false;
+
+std::atomic<Place*>& first_place_for(const Zoltan_Struct* zz) {
+    const std::uint64_t mixed = std::bit_cast<std::uintptr_t>(zz) * 0x9e3779b97f4a7c15U;
+    return first_places[mixed >> (64 - num_bits)];
 }
 
-/// Handle that a thread looked up last. Without it, point look-ups would wait for the lock.
-struct LastFound {
-    const Zoltan_Struct* zz = nullptr;
-    State* state = nullptr;
-    std::uint64_t version = 0;
-};
+/// Returns the place of a handle, or a free one for null; null if there is none.
+Place* find_place(const std::atomic<Place*>& first, const Zoltan_Struct* zz) {
+    Place* place = first.load(std::memory_order_acquire);
+    while (place != nullptr && place->zz.load(std::memory_order_acquire) != zz) place = place->next;
+    return place;
+}
+
+/// Takes a place for a handle that has none. Throws std::bad_alloc.
+Place& take_place(const Zoltan_Struct* zz) {
+    std::atomic<Place*>& first = first_place_for(zz);
+    const std::scoped_lock lock(adding);
+    Place* place = find_place(first, nullptr);
+    if (place == nullptr) {
+        place = new Place{.next = first.load()};
+        first.store(place, std::memory_order_release);
+    }
+    place->zz.store(zz, std::memory_order_release);
+    return *place;
+}
 
 }  // namespace
 
@@ -49,27 +69,14 @@ Communicator::~Communicator() {
 }
 
 State* find_state(const Zoltan_Struct* zz) {
-    thread_local LastFound last;
-    Table& all = table();
-    if (last.zz == zz && last.version == all.version.load(std::memory_order_acquire))
-        return last.state;
-    const std::shared_lock lock(all.mutex);
-    const auto found = all.states.find(zz);
-    last = {zz, found == all.states.end() ? nullptr : &found->second, all.version.load()};
-    return last.state;
+    const Place* place = find_place(first_place_for(zz), zz);
+    return place == nullptr ? nullptr : place->state.get();
 }
 
-State& add_state(const Zoltan_Struct* zz, State&& state) {
-    Table& all = table();
-    State* place = nullptr;
-    {
-        const std::unique_lock lock(all.mutex);
-        place = &all.states[zz];
-        ++all.version;
-    }
-    // After the lock is released: other ranks take part in freeing the communicator that was there.
-    *place = std::move(state);
-    return *place;
+void add_state(const Zoltan_Struct* zz, State&& state) {
+    remove_state(zz);
+    take_place(zz).state = std::make_unique<State>(std::move(state));
+    any_made = true;
 }
 
 void copy_contents(State& to, const State& from) {
@@ -81,16 +88,14 @@ void copy_contents(State& to, const State& from) {
 }
 
 void remove_state(const Zoltan_Struct* zz) {
-    Table& all = table();
-    // Freed after the lock is released: other ranks take part in freeing it.
-    decltype(all.states)::node_type removed;
-    const std::unique_lock lock(all.mutex);
-    removed = all.states.extract(zz);
-    if (!removed.empty()) ++all.version;
+    Place* place = find_place(first_place_for(zz), zz);
+    if (place == nullptr) return;
+    const std::unique_ptr<State> removed = std::move(place->state);
+    place->zz.store(nullptr, std::memory_order_release);
 }
 
 bool any_handle_made() {
-    return table().version.load() != first_version;
+    return any_made;
 }
 
 }  // namespace rrcb::zoltan

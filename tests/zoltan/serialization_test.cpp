@@ -78,6 +78,56 @@ TEST(Serialization, works_on_a_communicator_of_another_size) {
     Zoltan_Destroy(&alone);
 }
 
+/// Global ids of the objects that Zoltan_Migrate brings, if every rank sends two to the next one.
+std::vector<ZOLTAN_ID_TYPE> migrate(Zoltan_Struct* zz, int rank, int num_ranks) {
+    ZOLTAN_OBJ_SIZE_FN* size = [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int*) {
+        return 8;
+    };
+    ZOLTAN_PACK_OBJ_FN* pack = [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int, int, char*,
+                                  int*) {};
+    ZOLTAN_UNPACK_OBJ_FN* unpack = [](void* data, int, ZOLTAN_ID_PTR id, int, char*, int*) {
+        static_cast<std::vector<ZOLTAN_ID_TYPE>*>(data)->push_back(*id);
+    };
+    std::vector<ZOLTAN_ID_TYPE> received;
+    Zoltan_Set_Obj_Size_Fn(zz, size, nullptr);
+    Zoltan_Set_Pack_Obj_Fn(zz, pack, nullptr);
+    Zoltan_Set_Unpack_Obj_Fn(zz, unpack, &received);
+    const int next = (rank + 1) % num_ranks;
+    const auto first = static_cast<ZOLTAN_ID_TYPE>(2 * rank);
+    // Longer than two ids of one word: a wrong width reads other numbers, not other memory.
+    std::vector<ZOLTAN_ID_TYPE> ids = {first, first + 1, 900, 901, 902, 903, 904, 905};
+    std::vector<int> ranks(2, next);
+    EXPECT_EQ(Zoltan_Migrate(zz, -1, nullptr, nullptr, nullptr, nullptr, 2, ids.data(), ids.data(),
+                             ranks.data(), ranks.data()),
+              ZOLTAN_OK);
+    return received;
+}
+
+TEST(Serialization, sets_the_widths_of_ids_for_zoltan_migrate) {
+    Program sender, wide;
+    sender.set("LB_METHOD", "RRCB");
+    wide.set("LB_METHOD", "HSFC");
+    const int from = (sender.rank + sender.num_ranks - 1) % sender.num_ranks;
+    std::vector<ZOLTAN_ID_TYPE> expected;
+    if (sender.num_ranks > 1)
+        for (int i = 0; i < 2; ++i) expected.push_back(static_cast<ZOLTAN_ID_TYPE>(2 * from + i));
+    wide.set("NUM_GID_ENTRIES", "3");
+    wide.set("NUM_LID_ENTRIES", "3");
+    std::vector<char> of_zoltan = bytes_of(wide.zz);
+    for (const bool has_zoltans_parameters : {false, true}) {
+        Program receiver;
+        if (has_zoltans_parameters) {
+            Zoltan_Deserialize(receiver.zz, of_zoltan.size(), of_zoltan.data());
+        } else {
+            receiver.set("NUM_GID_ENTRIES", "3");
+            receiver.set("NUM_LID_ENTRIES", "3");
+        }
+        std::vector<char> bytes = bytes_of(sender.zz);
+        ASSERT_EQ(Zoltan_Deserialize(receiver.zz, bytes.size(), bytes.data()), ZOLTAN_OK);
+        EXPECT_EQ(migrate(receiver.zz, sender.rank, sender.num_ranks), expected);
+    }
+}
+
 TEST(Serialization, works_before_the_first_partition) {
     Program program;
     program.set("LB_METHOD", "RRCB");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string_view>
 #include <utility>
 
 using namespace rrcb::zoltan;
@@ -23,6 +24,23 @@ int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& val
     return Zoltan_Set_Param_Vec(zz, name.substr(0, bracket).c_str(), value.c_str(), index);
 }
 
+/// Returns the value by which a parameter is as in a new handle.
+const char* initial_value_of(std::string_view name) {
+    if (name == "LB_METHOD") return "RCB";
+    if (name == "REMAP") return "1";
+    return name == "RETURN_LISTS" ? "ALL" : "DEFAULT";
+}
+
+/// Sets the parameters that a parcel leaves out as in a new handle, also those of the real Zoltan.
+void reset_others(Zoltan_Struct* zz, const State& state, const Parcel& parcel) {
+    auto names = state.parameters.given;
+    // A buffer of Zoltan sets these without the plug-in.
+    names.try_emplace("NUM_GID_ENTRIES");
+    names.try_emplace("NUM_LID_ENTRIES");
+    for (const auto& [name, value] : names)
+        if (!parcel.given.contains(name)) set_again(zz, name, initial_value_of(name));
+}
+
 /// Gives the real Zoltan its parameters, part sizes and cuts. These parameters pass through
 /// the plug-in again, which therefore keeps its own aside.
 int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
@@ -39,6 +57,7 @@ int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
 
 /// Gives a handle all parameters of the one that was packed.
 int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
+    reset_others(zz, state, parcel);
     const bool replace_rcb = state.parameters.replace_rcb;
     state.parameters = Parameters{};
     state.parameters.replace_rcb = replace_rcb;

@@ -6,10 +6,6 @@
 #include <cfloat>
 #include <set>
 
-// Exported by Zoltan and called by its users, but declared in no public header.
-extern "C" int Zoltan_RCB_Box(struct Zoltan_Struct* zz, int part, int* dimension, double* xmin,
-                              double* ymin, double* zmin, double* xmax, double* ymax, double* zmax);
-
 namespace rrcb::zoltan_test {
 namespace {
 

@@ -3,6 +3,7 @@
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <cfloat>
+#include <string>
 
 using namespace rrcb::zoltan;
 
@@ -16,6 +17,22 @@ void write_place(const Place& place, int* proc, int* part) {
 void hand_out_failure(int* values, int* count) {
     if (values != nullptr) *values = -1;
     *count = 0;
+}
+
+/// Returns the state of a handle whose last partition RRCB made; null if the real Zoltan is to
+/// answer. The ranks of parts need no KEEP_CUTS.
+const State* divided_state(const Zoltan_Struct* zz) {
+    const State* state = rrcb_state(zz);
+    return state != nullptr && state->last ? state : nullptr;
+}
+
+/// Returns the lowest rank of a part or, for an object, a rank of its part: this one if possible.
+int rank_of_part(const State& state, int part, ZOLTAN_ID_PTR object) {
+    const PartMap& map = state.last->map();
+    if (!map.one_each && (part < 0 || part >= map.num_parts))
+        throw_fatal("Invalid part number: " + std::to_string(part));
+    if (object == nullptr) return map.ranks_of(part).first_rank;
+    return map.destination(part, *object, state.communicator->rank());
 }
 
 }  // namespace
@@ -38,7 +55,7 @@ RRCB_EXPORT int Zoltan_LB_Point_Assign(Zoltan_Struct* zz, double* coordinates, i
     if (state == nullptr) return forward<&RealZoltan::lb_point_assign>(zz, coordinates, proc);
     write_place({}, proc, nullptr);
     return guarded("Zoltan_LB_Point_Assign", state, [&] {
-        require_one_part_per_rank(*state, "Zoltan_LB_Point_PP_Assign");
+        require_one_part_per_rank(last_of(*state).map(), "Zoltan_LB_Point_PP_Assign");
         write_place(place_of(*state, coordinates), proc, nullptr);
         return ZOLTAN_OK;
     });
@@ -71,7 +88,7 @@ RRCB_EXPORT int Zoltan_LB_Box_Assign(Zoltan_Struct* zz, double xmin, double ymin
     }
     hand_out_failure(procs, num_procs);
     return guarded("Zoltan_LB_Box_Assign", state, [&] {
-        require_one_part_per_rank(*state, "Zoltan_LB_Box_PP_Assign");
+        require_one_part_per_rank(last_of(*state).map(), "Zoltan_LB_Box_PP_Assign");
         find_touched(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}},
                      {procs, num_procs, nullptr, nullptr});
         return ZOLTAN_OK;
@@ -96,4 +113,49 @@ RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, doub
         *xmax = region.upper[0], *ymax = region.upper[1], *zmax = region.upper[2];
         return ZOLTAN_OK;
     });
+}
+
+RRCB_EXPORT int Zoltan_LB_Part_To_Proc(Zoltan_Struct* zz, int part, ZOLTAN_ID_PTR global_id) {
+    const State* state = divided_state(zz);
+    if (state == nullptr) return forward<&RealZoltan::lb_part_to_proc>(zz, part, global_id);
+    int rank = -1;
+    guarded("Zoltan_LB_Part_To_Proc", state, [&] {
+        rank = rank_of_part(*state, part, global_id);
+        return ZOLTAN_OK;
+    });
+    return rank;
+}
+
+RRCB_EXPORT int Zoltan_LB_Proc_To_Part(Zoltan_Struct* zz, int rank, int* num_parts,
+                                       int* first_part) {
+    const State* state = divided_state(zz);
+    if (state == nullptr)
+        return forward<&RealZoltan::lb_proc_to_part>(zz, rank, num_parts, first_part);
+    *num_parts = 0;
+    *first_part = -1;
+    return guarded("Zoltan_LB_Proc_To_Part", state, [&] {
+        const PartMap& map = state->last->map();
+        if (rank < 0 || rank >= map.num_ranks) throw_fatal("Input proc is out of range.");
+        const auto [first, end] = map.parts_on(rank);
+        *num_parts = end - first;
+        *first_part = first_part_of(map, rank);
+        return ZOLTAN_OK;
+    });
+}
+
+RRCB_EXPORT int Zoltan_Help_Migrate(Zoltan_Struct* zz, int num_import,
+                                    ZOLTAN_ID_PTR import_global_ids, ZOLTAN_ID_PTR import_local_ids,
+                                    int* import_procs, int num_export,
+                                    ZOLTAN_ID_PTR export_global_ids, ZOLTAN_ID_PTR export_local_ids,
+                                    int* export_procs) {
+    if (const State* state = divided_state(zz)) {
+        const int code = guarded("Zoltan_Help_Migrate", state, [&] {
+            require_one_part_per_rank(state->last->map(), "Zoltan_Migrate");
+            return ZOLTAN_OK;
+        });
+        if (code != ZOLTAN_OK) return code;
+    }
+    return forward<&RealZoltan::help_migrate>(zz, num_import, import_global_ids, import_local_ids,
+                                              import_procs, num_export, export_global_ids,
+                                              export_local_ids, export_procs);
 }

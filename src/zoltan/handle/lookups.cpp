@@ -74,8 +74,8 @@ TreeNode tree_node_of(const State& state, int node) {
     return last.tree_node(node);
 }
 
-void require_one_part_per_rank(const State& state, const char* alternative) {
-    if (last_of(state).map().one_each) return;
+void require_one_part_per_rank(const PartMap& map, const char* alternative) {
+    if (map.one_each) return;
     throw_fatal(
         std::string("Non-uniform distribution of parts over processors is specified; use ") +
         alternative);

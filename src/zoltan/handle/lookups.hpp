@@ -36,7 +36,7 @@ Box region_of(const State& state, int part);
 /// Returns a node of the tree of cuts. Throws ZoltanError for an unknown one.
 TreeNode tree_node_of(const State& state, int node);
 
-/// Throws ZoltanError unless part p is on rank p: look-ups without parts need that.
-void require_one_part_per_rank(const State& state, const char* alternative);
+/// Throws ZoltanError unless part p is on rank p: calls without parts need that.
+void require_one_part_per_rank(const PartMap& map, const char* alternative);
 
 }  // namespace rrcb::zoltan

@@ -10,10 +10,9 @@
 
 // Declared in no public header of Zoltan, but exported by it and called by its users.
 extern "C" {
-int Zoltan_RCB_Box(struct Zoltan_Struct* zz, int part, int* dimension, double* xmin, double* ymin,
-                   double* zmin, double* xmax, double* ymax, double* zmax);
+int Zoltan_LB_Part_To_Proc(struct Zoltan_Struct* zz, int part, ZOLTAN_ID_PTR global_id);
+int Zoltan_LB_Proc_To_Part(struct Zoltan_Struct* zz, int rank, int* num_parts, int* first_part);
 void Zoltan_Register_Fort_Malloc(void (*allocate)(), void (*free)(), void (*set_struct)());
-int Zoltan_get_global_id_type(char** name);
 }
 
 namespace rrcb::zoltan {

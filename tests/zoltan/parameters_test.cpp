@@ -76,8 +76,10 @@ TEST(Parameters, of_rrcb_reach_the_balancer) {
     program.set("LB_METHOD", "RRCB");
     program.set("RRCB_REFINE", "NONE");
     const auto defaults = program.partition().exports.parts;
-    EXPECT_TRUE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "2"), defaults));
-    EXPECT_FALSE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "NONSENSE"), defaults));
+    const auto coarse = parts_with(program, "RRCB_SUPPORT_MESH", "2");
+    EXPECT_TRUE(differ(coarse, defaults));
+    EXPECT_FALSE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "NONSENSE"), coarse));
+    EXPECT_FALSE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "DEFAULT"), defaults));
     const auto at_root = parts_with(program, "RRCB_DOMAIN", "POINTS");
     EXPECT_TRUE(differ(at_root, defaults));
     EXPECT_TRUE(differ(parts_with(program, "RRCB_CUT_RULE", "MIDPOINT"), at_root));

@@ -1,5 +1,6 @@
 #include "program.hpp"
 #include "regions.hpp"
+#include "same_lists.hpp"
 
 #include <gtest/gtest.h>
 #include <zoltan_partition_tree.h>
@@ -125,6 +126,45 @@ TEST(Serialization, sets_the_widths_of_ids_for_zoltan_migrate) {
         std::vector<char> bytes = bytes_of(sender.zz);
         ASSERT_EQ(Zoltan_Deserialize(receiver.zz, bytes.size(), bytes.data()), ZOLTAN_OK);
         EXPECT_EQ(migrate(receiver.zz, sender.rank, sender.num_ranks), expected);
+    }
+}
+
+using Settings = std::vector<std::pair<const char*, const char*>>;
+
+// A refused value, a later name of the same parameter and a value for all weights after one for
+// the first.
+TEST(Serialization, gives_the_parameters_that_are_in_force) {
+    const std::vector<Settings> cases = {
+        {{"RRCB_REFINE", "NONE"}, {"RRCB_SUPPORT_MESH", "2"}, {"RRCB_SUPPORT_MESH", "COARSE"}},
+        {{"RRCB_REFINE", "NONE"}, {"RRCB_REFINE", "PERHAPS"}},
+        {{"RETURN_LISTS", "EXPORT"}, {"RETURN_LISTS", "NO_SUCH_LIST"}},
+        {{"KEEP_CUTS", "1"}, {"KEEP_CUTS", "PERHAPS"}},
+        {{"NUM_GLOBAL_PARTS", "3"}, {"NUM_GLOBAL_PARTITIONS", "5"}},
+        {{"IMBALANCE_TOL[0]", "1.5"}, {"IMBALANCE_TOL", "1.0001"}}};
+    for (const Settings& settings : cases) {
+        SCOPED_TRACE(settings.back().first);
+        Program program;
+        scatter_points(program, 400);
+        for (double& x : program.coordinates) x *= x;
+        program.set("LB_METHOD", "RRCB");
+        for (const auto& [name, value] : settings) {
+            const std::string text(name);
+            const auto bracket = text.find('[');
+            Zoltan_Set_Param_Vec(program.zz, text.substr(0, bracket).c_str(), value,
+                                 bracket == text.npos ? -1 : 0);
+        }
+        std::vector<char> bytes = bytes_of(program.zz);
+        Program received, copied;
+        EXPECT_EQ(Zoltan_Deserialize(received.zz, bytes.size(), bytes.data()), ZOLTAN_OK);
+        EXPECT_EQ(Zoltan_Copy_To(copied.zz, program.zz), ZOLTAN_OK);
+        const Outcome expected = program.partition();
+        for (Zoltan_Struct* handle : {received.zz, copied.zz}) {
+            program.register_callbacks(handle);
+            const Outcome outcome = program.partition(handle);
+            expect_same(outcome.imports, expected.imports);
+            expect_same(outcome.exports, expected.exports);
+            EXPECT_EQ(region_of(handle, 0).code, region_of(program.zz, 0).code);
+        }
     }
 }
 

@@ -31,8 +31,14 @@ int switch_to_rrcb(State& state, SwitchZoltan switch_zoltan) {
 int reject_value(const State& state, const std::string& name, const std::string& value) {
     print_warning(
         state.communicator->rank(), "Zoltan_Set_Param",
-        "Invalid value `" + value + "' for parameter `" + name + "'; default value will be used.");
+        "Invalid value `" + value + "' for parameter `" + name + "'; the previous value is kept.");
     return ZOLTAN_WARN;
+}
+
+/// Returns whether Zoltan_Set_Param with this code has set the parameter. Zoltan warns of an
+/// unknown word for RETURN_LISTS, but sets the default.
+bool is_taken(const std::string& name, int code) {
+    return code == ZOLTAN_OK || name == "RETURN_LISTS";
 }
 
 /// Sets a parameter of the plug-in, or one of Zoltan by `forward_value`.
@@ -44,22 +50,16 @@ int set_parameter(State& state, const std::string& name, const char* raw_value,
         return switch_to_rrcb(state, [&] { return forward_value("RCB"); });
     const Setting setting = set_own(state.parameters, name, raw_value);
     if (setting == Setting::accepted) return ZOLTAN_OK;
-    if (setting == Setting::defaulted) return reject_value(state, name, value);
+    if (setting == Setting::refused) return reject_value(state, name, value);
     const int code = forward_value(raw_value);
-    // An unknown word for RETURN_LISTS is warned about, but sets the default.
-    const bool taken = code == ZOLTAN_OK || name == "RETURN_LISTS";
-    if (taken) note_common(state.parameters, name, value);
+    if (is_taken(name, code)) note_common(state.parameters, name, value);
     if (state.deserialized) state.parameters.rrcb = false;
     return code;
 }
 
-/// Notes a changed parameter: the next partition may differ from the last one.
-void note_change(State& state, const std::string& name, int code, const char* raw_value) {
-    if (code == ZOLTAN_OK) {
-        const auto [entry, is_new] = state.parameters.given.try_emplace(name, raw_value);
-        if (!is_new && entry->second == raw_value) return;
-        entry->second = raw_value;
-    }
+/// Notes a parameter that was set: if it changed, the next partition may differ from the last one.
+void note_change(State& state, const std::string& name, const char* raw_value) {
+    if (!state.parameters.given.note(name, raw_value)) return;
     // These two decide which results are returned, not the parts.
     if (name != "RETURN_LISTS" && name != "KEEP_CUTS") state.kept.reset();
     if (chooses_axes(name)) state.axes_changed = true;
@@ -75,7 +75,7 @@ int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value
         std::string name = clean(raw_name);
         const int code = set_parameter(*state, name, raw_value, forward_value);
         if (index >= 0) name += '[' + std::to_string(index) + ']';
-        note_change(*state, name, code, raw_value);
+        if (is_taken(name, code)) note_change(*state, name, raw_value);
         if (!state->parameters.rrcb) {
             state->last.reset();
             state->zoltan_has_cuts = false;

@@ -33,12 +33,12 @@ const char* initial_value_of(std::string_view name) {
 
 /// Sets the parameters that a parcel leaves out as in a new handle, also those of the real Zoltan.
 void reset_others(Zoltan_Struct* zz, const State& state, const Parcel& parcel) {
-    auto names = state.parameters.given;
+    GivenParameters others = state.parameters.given;
     // A buffer of Zoltan sets these without the plug-in.
-    names.try_emplace("NUM_GID_ENTRIES");
-    names.try_emplace("NUM_LID_ENTRIES");
-    for (const auto& [name, value] : names)
-        if (!parcel.given.contains(name)) set_again(zz, name, initial_value_of(name));
+    others.note("NUM_GID_ENTRIES", "");
+    others.note("NUM_LID_ENTRIES", "");
+    for (const auto& [name, value] : others)
+        if (parcel.given.find(name) == nullptr) set_again(zz, name, initial_value_of(name));
 }
 
 /// Gives the real Zoltan its parameters, part sizes and cuts. These parameters pass through

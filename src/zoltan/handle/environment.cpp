@@ -54,7 +54,7 @@ void read_environment(State& state) {
         if (!set(state.parameters, name, value)) {
             warn_once(state, name, value);
         } else if (belongs_to_calls(name)) {
-            state.parameters.given[program_name_of(name)] = value;
+            state.parameters.given.note(program_name_of(name), value);
         }
     }
 }

@@ -45,6 +45,20 @@ void note_tolerance(Options& options, std::string_view text) {
 
 }  // namespace
 
+bool GivenParameters::note(const std::string& name, const std::string& value) {
+    const std::string* previous = find(name);
+    const bool is_changed = previous == nullptr || *previous != value;
+    std::erase_if(entries_, [&](const auto& entry) { return entry.first == name; });
+    entries_.emplace_back(name, value);
+    return is_changed;
+}
+
+const std::string* GivenParameters::find(std::string_view name) const {
+    for (const auto& [key, value] : entries_)
+        if (key == name) return &value;
+    return nullptr;
+}
+
 bool reuses_cuts(const Parameters& parameters) {
     return parameters.reuse_cuts == not_set ? parameters.replace_rcb : parameters.reuse_cuts != 0;
 }
@@ -99,15 +113,15 @@ Setting set_own(Parameters& parameters, std::string_view name, const char* value
     if (option == nullptr && row == nullptr) return Setting::unknown;
     const std::string cleaned = clean(value);
     const std::string_view upper = without_trailing_blanks(cleaned);
-    const bool is_default = upper == "DEFAULT";
-    const bool keeps_case = name == dump_folder_name;
-    const bool is_read =
-        !is_default && (option != nullptr ? read_option(*option, upper, parameters.options)
-                                          : row->read(parameters, keeps_case ? value : upper));
-    if (is_read) return Setting::accepted;
+    if (upper != "DEFAULT") {
+        const std::string_view text = name == dump_folder_name ? std::string_view(value) : upper;
+        const bool is_read = option != nullptr ? read_option(*option, upper, parameters.options)
+                                               : row->read(parameters, text);
+        return is_read ? Setting::accepted : Setting::refused;
+    }
     if (option != nullptr) copy_option(*option, default_options(), parameters.options);
     if (row != nullptr) row->reset(parameters);
-    return is_default ? Setting::accepted : Setting::defaulted;
+    return Setting::accepted;
 }
 
 bool set_tolerance(Parameters& parameters, std::string_view value) {

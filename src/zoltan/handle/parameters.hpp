@@ -6,14 +6,15 @@
 #include <rrcb/paper.hpp>
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -29,6 +30,24 @@ inline constexpr int not_set = std::numeric_limits<int>::min();
 
 /// Returns the options of a new handle: coincident points are divided, as by RCB.
 Options default_options();
+
+/// Names and values of parameters, in the order in which they were set last: set again in this
+/// order they have the same effect.
+class GivenParameters {
+  public:
+    /// Notes a parameter that was set. Returns whether its value changed.
+    bool note(const std::string& name, const std::string& value);
+
+    /// Returns the value of a parameter, null if it was not set.
+    const std::string* find(std::string_view name) const;
+
+    auto begin() const { return entries_.begin(); }
+    auto end() const { return entries_.end(); }
+    std::size_t size() const { return entries_.size(); }
+
+  private:
+    std::vector<std::pair<std::string, std::string>> entries_;
+};
 
 /// Parameters of a handle that concern the plug-in. The defaults are Zoltan's.
 struct Parameters {
@@ -62,7 +81,7 @@ struct Parameters {
 
     std::string dump_folder;   ///< of the dumped inputs of calls; empty: no dumps
     bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
-    std::map<std::string, std::string> given;  ///< all that was set, as it was set
+    GivenParameters given;     ///< all that was set, as it was set
 };
 
 /// Returns whether RCB_REUSE holds. By default it does if RRCB replaces RCB: a balanced
@@ -184,9 +203,9 @@ inline constexpr ParameterRow parameter_table[] = {
 };
 
 enum class Setting {
-    accepted,   ///< stored
-    defaulted,  ///< illegal value; the default was stored
-    unknown     ///< not one of RRCB's own parameters
+    accepted,  ///< stored
+    refused,   ///< illegal value; the previous one is kept
+    unknown    ///< not one of RRCB's own parameters
 };
 
 /// Sets a parameter of RRCB's own (RRCB_...). The name is in upper case, the value as it was given.

@@ -39,8 +39,8 @@ constexpr std::array left_methods = {
 }  // namespace
 
 std::string method_of(const State& state) {
-    const auto given = state.parameters.given.find("LB_METHOD");
-    return given == state.parameters.given.end() ? "RCB" : clean(given->second.c_str());
+    const std::string* given = state.parameters.given.find("LB_METHOD");
+    return given == nullptr ? "RCB" : clean(given->c_str());
 }
 
 InsideZoltan::InsideZoltan(const State* outer) noexcept

@@ -215,7 +215,7 @@ Parcel deserialize(std::span<const char> bytes) {
     Parcel parcel;
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
         const std::string name = reader.text();
-        parcel.given[name] = reader.text();
+        parcel.given.note(name, reader.text());
     }
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
         const auto part = reader.value<int>();

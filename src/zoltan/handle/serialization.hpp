@@ -2,10 +2,8 @@
 
 #include "zoltan/handle/state.hpp"
 
-#include <map>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -13,7 +11,7 @@ namespace rrcb::zoltan {
 /// Contents of a serialized handle: all parameters that the program has set, and the kept cuts,
 /// which may be Zoltan's. As in Zoltan neither communicator nor callbacks.
 struct Parcel {
-    std::map<std::string, std::string> given;  ///< see Parameters::given
+    GivenParameters given;  ///< see Parameters
     std::vector<PartSize> part_sizes;
     std::optional<LastPartition> last;
     std::vector<char> of_zoltan;  ///< buffer of the real Zoltan; empty: it has no cuts

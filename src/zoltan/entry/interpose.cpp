@@ -148,11 +148,21 @@ int answer(const Request& request, const CallerNumbers& numbers, const CallerLis
     return code;
 }
 
+/// Names the default method, which Zoltan_Serialize of Zoltan 13.2 needs, but Zoltan_Create leaves
+/// uninitialized. At DEBUG_LEVEL 1, the default, Zoltan would print the name.
+void name_method(Zoltan_Struct* zz) {
+    constexpr int no_index = -1;
+    forward<&RealZoltan::set_param_vec>(zz, "DEBUG_LEVEL", "0", no_index);
+    forward<&RealZoltan::set_param_vec>(zz, "LB_METHOD", "RCB", no_index);
+    forward<&RealZoltan::set_param_vec>(zz, "DEBUG_LEVEL", "1", no_index);
+}
+
 }  // namespace
 
 RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
+    name_method(zz);
     // A handle without a state is Zoltan's own. Zoltan refuses LB_METHOD=RRCB for it, which informs
     // the program.
     bool is_everywhere = true;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 namespace rrcb::zoltan_test {
@@ -157,20 +158,44 @@ TEST(Parameters, out_of_range_fall_back_to_the_default_as_in_zoltan) {
 }
 
 TEST(Parameters, that_differ_between_ranks_are_fatal_everywhere) {
-    for (const char* name : {"NUM_LID_ENTRIES", "OBJ_WEIGHT_DIM", "RETURN_LISTS"}) {
+    for (const char* name : {"NUM_LID_ENTRIES", "OBJ_WEIGHT_DIM", "IMBALANCE_TOL"}) {
         SCOPED_TRACE(name);
         Program program;
         if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
         scatter_points(program, 100);
         program.set("LB_METHOD", "RRCB");
-        if (program.rank == 0) {
-            program.set(name, std::string(name) == "RETURN_LISTS" ? "PARTS" : "0");
-        } else {
-            program.set(name, std::string(name) == "RETURN_LISTS" ? "ALL" : "1");
-        }
+        program.set(name, program.rank == 0 ? "2" : "1");
         const Outcome outcome = program.partition();
         EXPECT_EQ(outcome.code, ZOLTAN_FATAL);
         EXPECT_EQ(outcome.exports.count, 0);
+    }
+}
+
+/// Whether each list was asked for, and whether the exports are all objects.
+std::array<bool, 3> shape_of(const Program& program, const Outcome& outcome) {
+    EXPECT_EQ(outcome.code, ZOLTAN_OK);
+    EXPECT_EQ(outcome.changes, 1);
+    return {outcome.imports.count >= 0, outcome.exports.count >= 0,
+            outcome.exports.count == program.size()};
+}
+
+TEST(Parameters, for_lists_may_differ_between_ranks_as_in_zoltan) {
+    constexpr std::array words = {"ALL", "PARTS", "EXPORT", "IMPORT", "NONE"};
+    for (const char* first : words) {
+        for (const char* others : words) {
+            SCOPED_TRACE(std::string(first) + ", " + others);
+            std::array<std::array<bool, 3>, 2> shapes{};
+            for (const bool ours : {false, true}) {
+                Program program;
+                if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
+                scatter_points(program, 100);
+                program.set("LB_METHOD", ours ? "RRCB" : "RCB");
+                program.set("RETURN_LISTS", program.rank == 0 ? first : others);
+                shapes[ours ? 1 : 0] = shape_of(program, program.partition());
+                EXPECT_EQ(shape_of(program, program.partition()), shapes[ours ? 1 : 0]);
+            }
+            EXPECT_EQ(shapes[0], shapes[1]);
+        }
     }
 }
 

@@ -294,6 +294,11 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     Placed placed;
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects, placed);
     const Outcome outcome = vote(local, state);
+    if (outcome.lists_differ) {
+        // The memory for the lists was chosen before the vote.
+        state.parameters.return_lists = outcome.return_lists;
+        return partition(zz, state, function, one_part_per_rank, to, result);
+    }
     Call call{zz, state, function, to, outcome};
     state.zoltan_has_cuts = false;
     if (!outcome.failed() && outcome.differing == nullptr && forwards(state.parameters))

@@ -51,6 +51,8 @@ struct Ballot {
     int severity = 0;
     int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
     int num_global_parts = -1;
+    int return_lists = 0;
+    int complement_of_return_lists = 0;
     Votes votes{};
     int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
     int dump_always = 0;
@@ -66,6 +68,8 @@ Ballot ballot_of(const LocalStatus& local, const State& state) {
         ballot.failing_rank_from_last = state.communicator->size() - state.communicator->rank();
     }
     ballot.num_global_parts = asked_global_parts(state);
+    ballot.return_lists = static_cast<int>(parameters.return_lists);
+    ballot.complement_of_return_lists = ~ballot.return_lists;
     ballot.votes = {.any_local_parts = parameters.num_local_parts >= 0,
                     .any_part_sizes = !state.part_sizes.empty(),
                     .any_fortran = is_fortran_used(),
@@ -99,6 +103,8 @@ Outcome vote(const LocalStatus& local, const State& state) {
     outcome.code = codes[ballot.severity];
     outcome.failing_rank = state.communicator->size() - ballot.failing_rank_from_last;
     outcome.num_global_parts = ballot.num_global_parts;
+    outcome.return_lists = static_cast<ReturnLists>(ballot.return_lists);
+    outcome.lists_differ = ballot.return_lists != ~ballot.complement_of_return_lists;
     if (ballot.dumping_rank_from_last > 0)
         outcome.dump.rank = state.communicator->size() - ballot.dumping_rank_from_last;
     outcome.dump.always = ballot.dump_always != 0;

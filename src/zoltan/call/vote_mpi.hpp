@@ -37,9 +37,11 @@ struct Votes {
 
 /// The result of a vote, the same on every rank.
 struct Outcome : Votes {
-    int code = ZOLTAN_OK;       ///< the worst of all ranks
-    int failing_rank = 0;       ///< lowest rank that failed; prints the error
-    int num_global_parts = -1;  ///< largest of all ranks, -1: set on no rank
+    int code = ZOLTAN_OK;                          ///< the worst of all ranks
+    int failing_rank = 0;                          ///< lowest rank that failed; prints the error
+    int num_global_parts = -1;                     ///< largest of all ranks, -1: set on no rank
+    ReturnLists return_lists = ReturnLists::none;  ///< largest of all ranks
+    bool lists_differ = false;                     ///< some rank asks for others
     DumpWish dump;
     const char* differing = nullptr;  ///< name of a parameter that differs between ranks
 

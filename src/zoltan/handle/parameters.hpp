@@ -19,8 +19,9 @@
 
 namespace rrcb::zoltan {
 
-/// Lists that a partitioning call returns (RETURN_LISTS).
-enum class ReturnLists { none, imports, exports, all, parts, candidates };
+/// Lists that a partitioning call returns (RETURN_LISTS). The largest of all ranks holds, as in
+/// Zoltan.
+enum class ReturnLists { none, imports, exports, parts, all, candidates };
 
 /// NUM_GLOBAL_PARTS if it is set to its default or to no legal number.
 inline constexpr int one_per_rank = 0;
@@ -180,7 +181,7 @@ inline constexpr ParameterRow parameter_table[] = {
     flag<&Parameters::remap>("REMAP"),
     must_agree<&Parameters::reuse_cuts, read_integer<>, is_on<reuses_cuts>>("RCB_REUSE"),
     flag<&Parameters::average_cuts>("AVERAGE_CUTS"),
-    must_agree<&Parameters::return_lists, read_return_lists>("RETURN_LISTS"),
+    may_differ<&Parameters::return_lists, read_return_lists>("RETURN_LISTS"),
     flag<&Parameters::lock_directions>("RCB_LOCK_DIRECTIONS"),
     must_agree<&Parameters::set_directions, read_integer<>>("RCB_SET_DIRECTIONS"),
     flag<&Parameters::rectilinear_blocks>("RCB_RECTILINEAR_BLOCKS"),

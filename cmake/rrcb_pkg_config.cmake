@@ -48,6 +48,7 @@ endfunction()
 
 if(RRCB_ZOLTAN)
   rrcb_header_folders(folders Zoltan::zoltan)
+  list(REMOVE_ITEM folders "" ${CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES})
   rrcb_link_files(files Zoltan::zoltan)
   rrcb_short_names(files ${files})
   rrcb_flags(RRCB_PC_ZOLTAN_FLAGS -I ${folders})

@@ -7,7 +7,7 @@ add_library(tribits::Scotch::scotch UNKNOWN IMPORTED)
 set_target_properties(tribits::Scotch::scotch PROPERTIES IMPORTED_LOCATION /missing/libscotch.so)
 add_library(Scotch::all_libs INTERFACE IMPORTED)
 set_target_properties(
-  Scotch::all_libs PROPERTIES INTERFACE_INCLUDE_DIRECTORIES /missing/scotch
+  Scotch::all_libs PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "/missing/scotch;/usr/include"
                               INTERFACE_LINK_LIBRARIES tribits::Scotch::scotch)
 add_library(Zoltan::trilinos_zoltan SHARED IMPORTED)
 set_target_properties(

@@ -318,7 +318,7 @@ namespace {
 
 Balance balance_over(MPI_Comm comm, const Points& points, const Options& options,
                      const Cuts* previous, std::vector<Part> memory = {}) {
-    Participant self{mpi::duplicate_of(comm)};
+    Participant self = mpi::enter(comm, previous != nullptr ? CallName::rebalance : CallName::balance);
     return balance(points, options, previous, true, self, std::move(memory));
 }
 

@@ -77,6 +77,7 @@ class Controller {
   private:
     friend class CostModel;
     struct State;
+    explicit Controller(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 

@@ -33,6 +33,7 @@ void balance(const rrcb_points* given, const Cuts* previous, int32_t* parts, rrc
 
 }  // namespace rrcb::c
 
+using rrcb::CallName;
 using rrcb::Participant;
 using rrcb::c::guarded;
 using rrcb::c::guarded_together;
@@ -40,7 +41,8 @@ using rrcb::c::require_cuts;
 
 int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer) {
     return guarded([&] {
-        auto made = rrcb::c::make_handle(comm, balancer);
+        Participant self = rrcb::mpi::enter(comm, CallName::create);
+        auto made = rrcb::c::make_handle(self, balancer);
         made->comm = comm;
         *balancer = made.release();
     });
@@ -51,26 +53,26 @@ int rrcb_create_fortran(int comm, rrcb_balancer** balancer) {
 }
 
 int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded_together(balancer, [&](auto& own, Participant& self) {
+    return guarded_together(CallName::balance, balancer, [&](auto& own, Participant& self) {
         rrcb::c::balance(points, nullptr, parts, own, self);
     });
 }
 
 int rrcb_rebalance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded_together(balancer, [&](auto& own, Participant& self) {
+    return guarded_together(CallName::rebalance, balancer, [&](auto& own, Participant& self) {
         rrcb::c::balance(points, &own.cuts, parts, own, self);
     });
 }
 
 int rrcb_gather_cuts(rrcb_balancer* balancer) {
-    return guarded_together(balancer, [&](auto& own, Participant& self) {
+    return guarded_together(CallName::gather_cuts, balancer, [&](auto& own, Participant& self) {
         self.attempt([&] { require_cuts(own); });
         own.cuts = rrcb::gather_cuts(own.cuts, self);
     });
 }
 
 int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded_together(balancer, [&](const auto& own, Participant& self) {
+    return guarded_together(CallName::assign_all, balancer, [&](const auto& own, Participant& self) {
         rrcb::Points positions;
         self.attempt([&] {
             require_cuts(own);

@@ -25,6 +25,8 @@ struct rrcb_cost_model {
 
 namespace {
 
+using rrcb::CallName;
+using rrcb::Participant;
 using rrcb::c::guarded;
 using rrcb::c::view;
 
@@ -36,8 +38,9 @@ void store(bool is_due, int* due) {
 int make_model(MPI_Comm comm, rrcb_controller* const* controller, int num_columns,
                rrcb_cost_model** model) {
     return guarded([&] {
+        Participant self = rrcb::mpi::enter(comm, CallName::cost_model);
         auto made = rrcb::c::make_handle(
-            comm, model, {{"whether a controller is given", controller != nullptr}}, [&] {
+            self, model, {{"whether a controller is given", controller != nullptr}}, [&] {
                 if (controller != nullptr) rrcb::c::require(*controller, "controller");
             });
         if (controller == nullptr)
@@ -59,7 +62,8 @@ void check_columns(const rrcb_cost_model& own, std::size_t num_columns) {
 
 int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller) {
     return guarded([&] {
-        auto made = rrcb::c::make_handle(comm, controller);
+        Participant self = rrcb::mpi::enter(comm, CallName::controller);
+        auto made = rrcb::c::make_handle(self, controller);
         made->controller.emplace(comm);
         *controller = made.release();
     });

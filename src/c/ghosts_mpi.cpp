@@ -49,7 +49,7 @@ const rrcb_rank_count* counts_at(const std::vector<RankCount>& counts) {
 
 void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
                  const rrcb_ghost_options* given_options, rrcb_ghosts** ghosts, Participant& self) {
-    auto made = make_handle(own.comm, ghosts);
+    auto made = make_handle(self, ghosts);
     Points points;
     KeptOptions kept;
     self.attempt([&] {
@@ -112,13 +112,14 @@ void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
 
 }  // namespace rrcb::c
 
+using rrcb::CallName;
 using rrcb::Participant;
 using rrcb::c::guarded;
 using rrcb::c::guarded_together;
 
 int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
                        const rrcb_ghost_options* options, rrcb_ghosts** ghosts) {
-    return guarded_together(balancer, [&](const auto& own, Participant& self) {
+    return guarded_together(CallName::ghosts, balancer, [&](const auto& own, Participant& self) {
         rrcb::c::make_ghosts(own, points, options, ghosts, self);
     });
 }
@@ -145,7 +146,7 @@ int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {
 
 int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_column* columns,
                       const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
-    return guarded_together(ghosts, [&](const auto& own, Participant& self) {
+    return guarded_together(CallName::fetch, ghosts, [&](const auto& own, Participant& self) {
         const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
         call.move_by(own.plan, own.plan.num_points, rrcb::total(own.plan.receive), self);
     });
@@ -154,7 +155,7 @@ int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_
 int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
                            const rrcb_column* columns, const rrcb_transfer_limits* limits,
                            rrcb_transfer_report* report) {
-    return guarded_together(ghosts, [&](const auto& own, Participant& self) {
+    return guarded_together(CallName::accumulate, ghosts, [&](const auto& own, Participant& self) {
         std::span<const rrcb_column> given;
         self.attempt([&] { given = rrcb::c::given_columns(columns, num_columns); });
         rrcb::TransferReport made;

@@ -12,13 +12,14 @@ struct rrcb_groups {
 
 namespace {
 
+using rrcb::CallName;
 using rrcb::Participant;
 using rrcb::c::guarded;
 using rrcb::c::guarded_together;
 
 void make_groups(const rrcb_balancer& own, const rrcb_points* given, const uint64_t* keys,
                  int place, rrcb_groups** groups, Participant& self) {
-    auto made = rrcb::c::make_handle(own.comm, groups);
+    auto made = rrcb::c::make_handle(self, groups);
     rrcb::Points points;
     self.attempt([&] {
         points = rrcb::c::points_of(given);
@@ -35,7 +36,7 @@ void make_groups(const rrcb_balancer& own, const rrcb_points* given, const uint6
 
 int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
                        const uint64_t* keys, int place, rrcb_groups** groups) {
-    return guarded_together(balancer, [&](const auto& own, Participant& self) {
+    return guarded_together(CallName::groups, balancer, [&](const auto& own, Participant& self) {
         make_groups(own, points, keys, place, groups, self);
     });
 }
@@ -55,15 +56,16 @@ int rrcb_groups_points(const rrcb_groups* groups, rrcb_points* points) {
 
 int rrcb_groups_fetch(const rrcb_groups* groups, size_t num_columns, const rrcb_column* columns,
                       const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
-    return guarded_together(groups, [&](const auto& own, Participant& self) {
-        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
-        call.move_by(own.groups, own.groups.weights.size(), own.groups.of_points.size(), self);
-    });
+    return guarded_together(
+        CallName::fetch_from_groups, groups, [&](const auto& own, Participant& self) {
+            const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+            call.move_by(own.groups, own.groups.weights.size(), own.groups.of_points.size(), self);
+        });
 }
 
 int rrcb_groups_sums(const rrcb_groups* groups, size_t components, const double* values,
                      double* sums) {
-    return guarded_together(groups, [&](const auto& own, Participant& self) {
+    return guarded_together(CallName::sums, groups, [&](const auto& own, Participant& self) {
         const rrcb::Groups& from = own.groups;
         const std::size_t length = from.of_points.size() * components;
         self.attempt([&] {

@@ -12,14 +12,13 @@
 
 namespace rrcb::c {
 
-/// Makes a handle and stores it in the caller's pointer `*where`. Collective over `comm`: throws
-/// the same Error on every rank if `where` is null on one, memory runs out, `check` throws, or one
-/// of `arguments` differs between ranks.
+/// Makes a handle and stores it in the caller's pointer `*where`. Collective: throws the same Error
+/// on every rank if `where` is null on one, memory runs out, `check` throws, or one of `arguments`
+/// differs between ranks.
 template <class Handle, class Check = void (*)()>
 std::unique_ptr<Handle> make_handle(
-    MPI_Comm comm, Handle** where, std::initializer_list<Shared> arguments = {},
+    Participant& self, Handle** where, std::initializer_list<Shared> arguments = {},
     Check&& check = [] {}) {
-    Participant self{mpi::duplicate_of(comm)};
     std::unique_ptr<Handle> made;
     self.attempt([&] {
         if (where == nullptr)
@@ -35,9 +34,9 @@ std::unique_ptr<Handle> make_handle(
 
 /// Runs the body of a collective function of a handle; no exception leaves it.
 template <class Handle, class Body>
-int guarded_together(Handle* handle, Body&& body) noexcept {
+int guarded_together(CallName call, Handle* handle, Body&& body) noexcept {
     return guarded(handle, [&](auto& own) {
-        Participant self{mpi::duplicate_of(own.comm)};
+        Participant self = mpi::enter(own.comm, call);
         body(own, self);
     });
 }

@@ -22,6 +22,7 @@ std::vector<RankRange> ranks_of_parts(const rrcb_rank_range* given, int num_part
 
 }  // namespace rrcb::c
 
+using rrcb::CallName;
 using rrcb::Participant;
 using rrcb::c::guarded;
 using rrcb::c::guarded_together;
@@ -36,7 +37,7 @@ int rrcb_ranks_of_part(int32_t part, int num_parts, int num_ranks, rrcb_rank_ran
 }
 
 int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) {
-    return guarded_together(balancer, [&](auto& own, Participant& self) {
+    return guarded_together(CallName::plan, balancer, [&](auto& own, Participant& self) {
         self.attempt([&] {
             rrcb::c::require_cuts(own);
             require_array(count, parts, "parts");
@@ -47,7 +48,7 @@ int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) 
 
 int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column* columns,
                   const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
-    return guarded_together(balancer, [&](auto& own, Participant& self) {
+    return guarded_together(CallName::transfer, balancer, [&](auto& own, Participant& self) {
         self.attempt([&] { rrcb::c::require_plan(own); });
         const rrcb::Plan none;
         const rrcb::Plan& plan = own.plan ? *own.plan : none;
@@ -59,7 +60,7 @@ int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column
 int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts, const int32_t* previous,
                const rrcb_rank_range* ranks_of_parts, size_t num_parts, int32_t* numbers,
                rrcb_kept* kept) {
-    return guarded_together(balancer, [&](auto& own, Participant& self) {
+    return guarded_together(CallName::remap, balancer, [&](auto& own, Participant& self) {
         std::vector<rrcb::RankRange> ranks;
         self.attempt([&] {
             rrcb::c::require_parts(own, num_parts);

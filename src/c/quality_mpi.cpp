@@ -7,6 +7,7 @@
 
 namespace {
 
+using rrcb::CallName;
 using rrcb::Part;
 using rrcb::Participant;
 using rrcb::Points;
@@ -28,9 +29,10 @@ int measured(Measure measure, size_t num_parts, const double* part_weights,
 
 /// Writes a measure of the parts of points over all ranks: `num_parts` results, or 1. Collective.
 template <class Measure>
-int measured_together(Measure measure, const rrcb_balancer* balancer, const rrcb_points* points,
-                      const int32_t* parts, std::optional<size_t> num_parts, double* result) {
-    return rrcb::c::guarded_together(balancer, [&](const auto& own, Participant& self) {
+int measured_together(CallName call, Measure measure, const rrcb_balancer* balancer,
+                      const rrcb_points* points, const int32_t* parts,
+                      std::optional<size_t> num_parts, double* result) {
+    return rrcb::c::guarded_together(call, balancer, [&](const auto& own, Participant& self) {
         Points measured;
         self.attempt([&] {
             rrcb::c::require_cuts(own);
@@ -71,6 +73,7 @@ int rrcb_worst_load_unbalance_percent(size_t num_parts, const double* part_weigh
 int rrcb_part_weights(const rrcb_balancer* balancer, const rrcb_points* points,
                       const int32_t* parts, size_t num_parts, double* part_weights) {
     return measured_together(
+        CallName::part_weights,
         [](const Points& of, auto each, int of_cuts, Participant& self, double* to) {
             std::ranges::copy(rrcb::part_weights(of, each, of_cuts, self), to);
         },
@@ -80,6 +83,7 @@ int rrcb_part_weights(const rrcb_balancer* balancer, const rrcb_points* points,
 int rrcb_moved_fraction(const rrcb_balancer* balancer, const rrcb_points* points,
                         const int32_t* parts, double* fraction) {
     return measured_together(
+        CallName::moved_fraction,
         [](const Points& of, auto each, int num_parts, Participant& self, double* to) {
             *to = rrcb::moved_fraction(of, each, num_parts, self);
         },

@@ -1,6 +1,8 @@
 #include "collective/agreement_mpi.hpp"
 
 #include "collective/communicator.hpp"
+#include "collective/meeting_mpi.hpp"
+#include "collective/merge_tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +27,8 @@ template <class MakeText>
 }
 
 /// Returns the order in which failures are reported: first those that no other one caused.
-std::uint64_t order_of(const Participant& self, std::uint64_t num_ranks) {
+std::uint64_t order_of(const Participant& self) {
+    const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
     if (!self.failed()) return 2 * num_ranks;
     const auto rank = static_cast<std::uint64_t>(mpi::rank_of(self.comm));
     return self.failure.may_follow ? num_ranks + rank : rank;
@@ -40,11 +43,31 @@ Ends ends_of(const Shared& argument) {
     return argument.is_needed ? Ends{argument.value, ~argument.value} : not_needed;
 }
 
+/// The order of this rank's failure, and the ends of its arguments.
+using Words = std::array<std::uint64_t, 1 + 2 * most_shared>;
+
 /// Collective.
 void find_smallest(std::span<std::uint64_t> values, MPI_Comm comm) {
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()),
                              MPI_UINT64_T, MPI_MIN, comm),
                "MPI_Allreduce");
+}
+
+/// As find_smallest(), in the meeting of a call. The first value is the order of the failure, to
+/// which a message may add one. Collective.
+void meet(std::span<std::uint64_t> values, Participant& self) {
+    const int rank = mpi::rank_of(self.comm);
+    const MergeTree tree{mpi::size_of(self.comm)};
+    tree.for_each_child(rank, [&](int child) {
+        Words theirs;
+        theirs.fill(not_needed[0]);
+        receive(std::as_writable_bytes(std::span(theirs).first(values.size())), child,
+                mpi::agreement_tag, self);
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] = std::min(values[k], theirs[k]);
+    });
+    values[0] = std::min(values[0], order_of(self));
+    if (rank != root) send(std::as_bytes(values), tree.parent(rank), mpi::agreement_tag, self);
+    broadcast_and_meet(std::as_writable_bytes(values), self);
 }
 
 }  // namespace
@@ -59,30 +82,36 @@ std::string difference(std::string_view name, std::string_view fix, int rank, in
            " and rank " + std::to_string(std::max(rank, other)) + "; " + std::string(fix);
 }
 
-void agree(const Participant& self) {
+void agree(Participant& self) {
     agree(self, {});
 }
 
-void agree(const Participant& self, std::initializer_list<Shared> arguments) {
+void agree(Participant& self, std::initializer_list<Shared> arguments) {
     std::array<Shared, most_shared> compared;
     std::ranges::copy(arguments, compared.begin());
     agree(self, std::span(compared).first(arguments.size()));
 }
 
-void agree(const Participant& self, std::span<Shared> arguments) {
+void agree(Participant& self, std::span<Shared> arguments) {
     const std::size_t differing = find_difference(self, arguments);
     if (differing < arguments.size()) refuse(arguments[differing], self);
 }
 
-std::size_t find_difference(const Participant& self, std::span<Shared> arguments) {
+std::size_t find_difference(Participant& self, std::span<Shared> arguments) {
     const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
-    std::array<std::uint64_t, 1 + 2 * most_shared> smallest;
-    smallest[0] = order_of(self, num_ranks);
+    Words smallest;
+    smallest[0] = order_of(self);
     std::size_t length = 1;
     for (const Shared& argument : arguments)
         for (const std::uint64_t end : ends_of(argument)) smallest[length++] = end;
-    find_smallest(std::span(smallest).first(length), self.comm);
+    const std::span<std::uint64_t> values = std::span(smallest).first(length);
+    if (self.is_meeting()) {
+        meet(values, self);
+    } else {
+        find_smallest(values, self.comm);
+    }
     if (smallest[0] < 2 * num_ranks) fail_together(static_cast<int>(smallest[0] % num_ranks), self);
+    self.throw_alone();  // a message failed that no other rank could hear of
     for (std::size_t k = 0; k < arguments.size(); ++k) {
         const Ends ends{smallest[1 + 2 * k], smallest[2 + 2 * k]};
         if (ends != not_needed && ends[0] != ~ends[1]) return k;
@@ -91,7 +120,7 @@ std::size_t find_difference(const Participant& self, std::span<Shared> arguments
     return arguments.size();
 }
 
-void refuse(const Shared& argument, const Participant& self) {
+void refuse(const Shared& argument, Participant& self) {
     // Names the lowest ranks with the least and the greatest value.
     const Ends here = ends_of(argument);
     Ends ends = here;
@@ -106,7 +135,7 @@ void refuse(const Shared& argument, const Participant& self) {
     });
 }
 
-void fail_together(int failing_rank, const Participant& self) {
+void fail_together(int failing_rank, Participant& self) {
     if (failing_rank == no_rank) return;
     if (failing_rank == some_rank) return agree(self);
     Failure theirs = self.failure;

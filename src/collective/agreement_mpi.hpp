@@ -20,8 +20,9 @@ inline constexpr int root = 0;
 /// Throws the same Error on every rank if any rank has failed since the last agreement.
 ///
 /// The Error is that of the lowest rank whose failure no other one caused, or else of the lowest
-/// failing rank. Collective: one reduction.
-void agree(const Participant& self);
+/// failing rank. Collective: one reduction; if it is the meeting of the call, up the MergeTree and
+/// by a broadcast, R - 1 messages each.
+void agree(Participant& self);
 
 /// Argument that must be the same on every rank, except on those that need none.
 struct Shared {
@@ -39,23 +40,23 @@ std::string difference(std::string_view name, std::string_view fix, int rank, in
 
 /// Agrees, and throws also if one of `arguments` differs between the ranks.
 ///
-/// Collective: one reduction. All ranks name the same arguments, twelve at most. The messages that
+/// Collective as agree(). All ranks name the same arguments, twelve at most. The messages that
 /// follow may depend on them.
-void agree(const Participant& self, std::initializer_list<Shared> arguments);
+void agree(Participant& self, std::initializer_list<Shared> arguments);
 
 /// As above. Gives ranks that need no argument the value of the others, or 0.
-void agree(const Participant& self, std::span<Shared> arguments);
+void agree(Participant& self, std::span<Shared> arguments);
 
 /// As agree(), but returns the number of the first of `arguments` that differs, or their number.
-std::size_t find_difference(const Participant& self, std::span<Shared> arguments);
+std::size_t find_difference(Participant& self, std::span<Shared> arguments);
 
 /// Throws on every rank the Error of an argument that differs between ranks. Collective.
-[[noreturn]] void refuse(const Shared& argument, const Participant& self);
+[[noreturn]] void refuse(const Shared& argument, Participant& self);
 
 /// Throws on every rank the failure of `failing_rank`; does nothing for no_rank.
 ///
 /// Collective if it throws: one broadcast, and agree() before it for some_rank. All ranks pass the
 /// same number.
-void fail_together(int failing_rank, const Participant& self);
+void fail_together(int failing_rank, Participant& self);
 
 }  // namespace rrcb

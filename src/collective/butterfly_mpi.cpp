@@ -1,7 +1,7 @@
 #include "collective/butterfly_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
-#include "collective/communicator.hpp"
+#include "collective/meeting_mpi.hpp"
 
 #include <algorithm>
 
@@ -34,8 +34,8 @@ Flags failed_flags(const Butterfly& butterfly, const Participant& self) {
 }
 
 void begin_to_send(std::span<const double> piece, int to, MPI_Request& request, Participant& self) {
-    self.check(MPI_Isend(piece.data(), static_cast<int>(piece.size()), MPI_DOUBLE, to,
-                         mpi::butterfly_tag, self.comm, &request),
+    self.check(MPI_Isend(piece.data(), static_cast<int>(piece.size_bytes()), MPI_BYTE, to,
+                         self.tag(mpi::butterfly_tag), self.comm, &request),
                "MPI_Isend");
 }
 
@@ -60,6 +60,7 @@ void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction
     const int failing = failing_rank(butterfly.flags(), butterfly.num_ranks());
     // The other ranks learn of it on the way back.
     if (butterfly.is_central() && direction == Butterfly::to_owners) return self.hear_of(failing);
+    note_met(self);
     fail_together(failing, self);
 }
 
@@ -83,7 +84,7 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
         MPI_Request request = MPI_REQUEST_NULL;
         if (k < num_sent) begin_to_send(piece_of(sent, k, piece_.size()), link.rank, request, self);
         if (k < num_received) num_received = receive(k, link.rank, self);
-        self.check(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
+        wait(request, "MPI_Wait", self);
     }
     if (!link.receives) return;
     butterfly.hear(head_);
@@ -93,9 +94,7 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
 /// Receives a piece of a message, even without memory to keep it; returns the number of pieces.
 std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant& self) {
     std::fill_n(piece_.begin(), head_.size(), 0.0);
-    self.check(MPI_Recv(piece_.data(), static_cast<int>(piece_.size()), MPI_DOUBLE, from,
-                        mpi::butterfly_tag, self.comm, MPI_STATUS_IGNORE),
-               "MPI_Recv");
+    rrcb::receive(std::as_writable_bytes(piece_), from, mpi::butterfly_tag, self);
     if (number == 0) {
         std::copy_n(piece_.begin(), head_.size(), head_.begin());
         arrived_.clear();

@@ -16,7 +16,23 @@ namespace rrcb::mpi {
 /// Exchange receives from any rank. A butterfly announces its records, and no rank leaves the
 /// butterfly before all have entered it. So no rank sends in an Exchange before all have entered
 /// it, and have received all messages of the one before.
-enum Tag : int { contribution_tag = 1, points_tag, exchange_tag, stream_tag, butterfly_tag };
+///
+/// In the meeting at the beginning of a call, the tags also contain the call: see CallLog::tag().
+enum Tag : int {
+    contribution_tag = 1,
+    points_tag,
+    exchange_tag,
+    stream_tag,
+    butterfly_tag,
+    agreement_tag,
+    roll_call_tag,
+    report_tag,
+    verdict_tag
+};
+
+/// Greatest tag that every MPI allows, for a roll call on the caller's communicator. It is used
+/// only when the caller is about to get an error.
+inline constexpr int roll_call_tag_of_user = 32767;
 
 /// Throws Error with the text of an MPI error code that is not MPI_SUCCESS.
 void check(int code, const char* call);

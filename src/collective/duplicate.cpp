@@ -3,21 +3,25 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "collective/watch_mpi.hpp"
 
 #include <rrcb/error.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace rrcb::mpi {
 
 namespace {
 
-/// Freed with the communicator that it is kept with.
+/// Freed with the communicator that it is kept with, unless messages on it are left pending.
 struct Duplicate {
     MPI_Comm comm = MPI_COMM_NULL;
+    std::shared_ptr<CallLog> log = std::make_shared<CallLog>();
 
     ~Duplicate() {
-        if (comm != MPI_COMM_NULL) MPI_Comm_free(&comm);
+        log->comm = MPI_COMM_NULL;
+        if (comm != MPI_COMM_NULL && log->end == CallLog::End::none) MPI_Comm_free(&comm);
     }
 };
 
@@ -29,25 +33,51 @@ void refuse_two_groups(MPI_Comm user) {
                     "an intercommunicator has two groups; merge them by MPI_Intercomm_merge");
 }
 
-}  // namespace
-
-const MPI_Comm* find_duplicate(MPI_Comm user) {
-    const Duplicate* found = Attribute<Duplicate>::find(user);
-    return found != nullptr ? &found->comm : nullptr;
+/// Returns what is kept with `user`, or null. Makes way for another duplicate if ranks made
+/// different calls with this one. Throws Error if some made none.
+Duplicate* find(MPI_Comm user) {
+    Duplicate* found = Attribute<Duplicate>::find(user);
+    if (found == nullptr || found->log->end == CallLog::End::none) return found;
+    if (found->log->end == CallLog::End::missing) throw_end(found->log->end, found->log->why);
+    Attribute<Duplicate>::forget(user);
+    return nullptr;
 }
 
-MPI_Comm duplicate_of(MPI_Comm user) {
-    if (user == MPI_COMM_NULL)
-        throw Error(ErrorCode::invalid_argument,
-                    "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
-    if (const MPI_Comm* found = find_duplicate(user)) return *found;
+/// Duplicates a communicator. Throws Error if some ranks do not take part.
+void duplicate(MPI_Comm user, CallName call, MPI_Comm& comm, Participant& self) {
+    if (agree_limit().count() == 0) return self.check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup");
+    // MPI writes to it for as long as the call is pending.
+    auto made = std::make_unique<MPI_Comm>(MPI_COMM_NULL);
+    MPI_Request request = MPI_REQUEST_NULL;
+    self.check(MPI_Comm_idup(user, made.get(), &request), "MPI_Comm_idup");
+    Deadline deadline(user, roll_call_tag_of_user, agree_limit(), false);
+    for (int is_done = 0; is_done == 0; pause(deadline.waited())) {
+        const int code = MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+        self.check(code, "MPI_Test");
+        if (code != MPI_SUCCESS) break;
+        if (is_done != 0 || !deadline.is_missed()) continue;
+        made.release();
+        auto kept = std::make_unique<Duplicate>();
+        CallLog& log = *kept->log;
+        log.end = CallLog::End::missing;
+        log.why = text_of_absence(deadline, call) + "; this communicator cannot be used further";
+        Attribute<Duplicate>::keep(std::move(kept), user);
+        throw_end(log.end, log.why);
+    }
+    comm = *made;
+}
+
+/// Makes the duplicate, and keeps it. Collective.
+Duplicate& make(MPI_Comm user, CallName call) {
     refuse_two_groups(user);
     MPI_Comm comm = MPI_COMM_NULL;
+    Duplicate* kept = nullptr;
     Participant self{user};
-    self.check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup");
+    duplicate(user, call, comm, self);
     self.attempt([&] {
         check(MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-        Attribute<Duplicate>::keep(std::make_unique<Duplicate>(), user)->comm = comm;
+        kept = Attribute<Duplicate>::keep(std::make_unique<Duplicate>(), user);
+        kept->comm = kept->log->comm = comm;
     });
     try {
         agree(self);
@@ -59,7 +89,32 @@ MPI_Comm duplicate_of(MPI_Comm user) {
         }
         throw;
     }
-    return comm;
+    return *kept;
+}
+
+Duplicate& find_or_make(MPI_Comm user, CallName call) {
+    if (user == MPI_COMM_NULL)
+        throw Error(ErrorCode::invalid_argument,
+                    "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
+    Duplicate* found = find(user);
+    return found != nullptr ? *found : make(user, call);
+}
+
+}  // namespace
+
+const MPI_Comm* find_duplicate(MPI_Comm user) {
+    const Duplicate* found = Attribute<Duplicate>::find(user);
+    return found != nullptr && found->log->end == CallLog::End::none ? &found->comm : nullptr;
+}
+
+MPI_Comm duplicate_of(MPI_Comm user) {
+    return find_or_make(user, CallName::none).comm;
+}
+
+Participant enter(MPI_Comm user, CallName call) {
+    const Duplicate& kept = find_or_make(user, call);
+    kept.log->begin(call);
+    return {kept.comm, kept.log};
 }
 
 }  // namespace rrcb::mpi

@@ -1,8 +1,17 @@
 #pragma once
 
+#include "collective/participant.hpp"
+
 #include <mpi.h>
 
 namespace rrcb::mpi {
+
+/// Begins a collective call with a communicator of the caller's, on its duplicate.
+///
+/// Collective as duplicate_of(). If ranks begin different calls, the meeting of the call throws
+/// Error. After RRCB_AGREE_SECONDS without some ranks, this call throws Error, or the meeting does,
+/// and so does each later call.
+Participant enter(MPI_Comm user, CallName call);
 
 /// Returns the duplicate kept with `user`, only for the library's messages; errors on it return.
 /// Freed with `user`.

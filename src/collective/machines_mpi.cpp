@@ -51,6 +51,8 @@ MachineHere machine_here(Participant& self) {
 
 Machines machines_of(Participant& self) {
     if (const Machines* known = find(self.comm)) return *known;
+    // MPI makes a communicator only if all ranks ask for it.
+    if (self.is_meeting()) agree(self);
     const MachineHere here = machine_here(self);
     // Of the first machine: its ranks, and the distance between the two lowest.
     std::array first{here.num_ranks, here.lowest[1] - here.lowest[0]};

@@ -14,9 +14,9 @@ struct Machines {
 /// dealt in turn.
 ///
 /// Collective over `self.comm`, a duplicate of the library's own, when called for the first time
-/// with it: a communicator is made and freed, with a broadcast on it, and a broadcast and a
-/// reduction over all ranks. Throws the same Error on every rank if one of them has failed; then
-/// nothing is kept.
+/// with it: the ranks agree if they have not met, a communicator is made and freed, with a
+/// broadcast on it, and a broadcast and a reduction over all ranks. Throws the same Error on every
+/// rank if one of them has failed; then nothing is kept.
 Machines machines_of(Participant& self);
 
 }  // namespace rrcb::mpi

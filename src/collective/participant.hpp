@@ -1,10 +1,13 @@
 #pragma once
 
 #include "arithmetic/non_stop.hpp"
+#include "collective/call_log.hpp"
 #include "collective/communicator.hpp"
 #include "collective/failure.hpp"
 
 #include <mpi.h>
+
+#include <memory>
 
 namespace rrcb {
 
@@ -20,9 +23,16 @@ namespace rrcb {
 /// failing_rank() in place of its decision. Then all ranks fail_together().
 struct Participant {
     MPI_Comm comm;
-    Failure failure{};            ///< first one on this rank
-    int failing_there = no_rank;  ///< failing rank that a message named
+    std::shared_ptr<CallLog> log{};  ///< null if no ranks may differ in their calls
+    Failure failure{};               ///< first one on this rank
+    int failing_there = no_rank;     ///< failing rank that a message named
     NonStop arithmetic{};
+
+    /// Returns true until this rank knows that all ranks are in the same call.
+    bool is_meeting() const { return log && log->is_meeting; }
+
+    /// Returns the tag of messages between two ranks, which during the meeting contains the call.
+    int tag(mpi::Tag kind) const { return is_meeting() ? log->tag(kind) : kind; }
 
     bool failed() const { return failure.failed; }
     bool can_go_on() const { return !failed() && failing_there == no_rank; }

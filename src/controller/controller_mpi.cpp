@@ -2,11 +2,14 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/meeting_mpi.hpp"
+#include "collective/watch_mpi.hpp"
 #include "controller/controller_state_mpi.hpp"
 
 #include <rrcb/error.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace rrcb {
 
@@ -33,12 +36,28 @@ void Controller::State::open(MPI_Comm comm) {
     rank_ = mpi::rank_of(comm_);
     num_ranks_ = mpi::size_of(comm_);
     message_ = std::make_unique<StepMessage>(0);
-    reduction_.emplace([](MPI_Op* made) { return MPI_Op_create(join_messages, 1, made); },
-                       "MPI_Op_create");
+    reduction_ = std::make_unique<mpi::Owned<MPI_Op, MPI_Op_free>>(
+        [](MPI_Op* made) { return MPI_Op_create(join_messages, 1, made); }, "MPI_Op_create");
     mpi::check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, close, &key_, nullptr),
                "MPI_Comm_create_keyval");
     mpi::check(MPI_Comm_set_attr(MPI_COMM_SELF, key_, this), "MPI_Comm_set_attr");
     closes_itself_ = true;
+}
+
+void Controller::State::check_usable() const {
+    if (log_->end != CallLog::End::none)
+        mpi::throw_end(log_->end, log_->why + " (make another controller)");
+}
+
+void Controller::State::begin_step(CallName call) {
+    check_usable();
+    log_->add(call);
+}
+
+Participant Controller::State::enter(CallName call) {
+    check_usable();
+    log_->begin(call);
+    return {comm_, log_};
 }
 
 void Controller::State::check_free() const {
@@ -55,6 +74,13 @@ int Controller::State::close(MPI_Comm, int, void* state, void*) {
 
 void Controller::State::close() {
     if (comm_ == MPI_COMM_NULL) return;
+    if (log_->end != CallLog::End::none) {
+        // The reduction may stay pending, and then needs all of these.
+        reduction_.release();
+        message_.release();
+        comm_ = MPI_COMM_NULL;
+        return;
+    }
     MPI_Wait(&request_, MPI_STATUS_IGNORE);
     reduction_.reset();
     message_.reset();
@@ -139,32 +165,38 @@ void Controller::State::start(const RankLoad& load, std::span<const double> carr
 void Controller::State::finish() {
     is_due = false;
     if (!has_started_) return;
-    mpi::check(MPI_Wait(&request_, MPI_STATUS_IGNORE), "MPI_Wait");
+    mpi::check(wait_watched(request_, *log_), "MPI_Wait");
     take(*reinterpret_cast<const StepRecord*>(message_->all.data()));
 }
 
-Controller::Controller(MPI_Comm comm) {
-    Participant self{mpi::duplicate_of(comm)};
+std::unique_ptr<Controller::State> Controller::State::make(MPI_Comm comm, CallName call) {
+    Participant self = mpi::enter(comm, call);
+    agree(self);
+    std::unique_ptr<State> state;
     MPI_Comm own = MPI_COMM_NULL;
     self.check(MPI_Comm_dup(self.comm, &own), "MPI_Comm_dup");
     self.attempt([&] {
-        state_ = std::make_unique<State>();
-        state_->open(own);
+        state = std::make_unique<State>(self.log);
+        state->open(own);
     });
     try {
         agree(self);
     } catch (...) {
-        if (!state_ && own != MPI_COMM_NULL) MPI_Comm_free(&own);
+        if (!state && own != MPI_COMM_NULL) MPI_Comm_free(&own);
         throw;
     }
+    return state;
 }
 
+Controller::Controller(MPI_Comm comm) : Controller(State::make(comm, CallName::controller)) {}
+Controller::Controller(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Controller::~Controller() = default;
 Controller::Controller(Controller&&) noexcept = default;
 Controller& Controller::operator=(Controller&&) noexcept = default;
 
 bool Controller::step(double load) {
     const NonStop arithmetic;
+    state_->begin_step(CallName::controller_step);
     state_->finish();
     state_->start({load, load});
     return state_->is_due;
@@ -172,6 +204,7 @@ bool Controller::step(double load) {
 
 bool Controller::step(double load, double points) {
     const NonStop arithmetic;
+    state_->begin_step(CallName::controller_step);
     state_->finish();
     const bool is_legal = is_amount(load) && is_amount(points);
     state_->start({load, is_legal ? state_->point_cost.smoothed(load, points) : -1});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "collective/handles.hpp"
+#include "collective/participant.hpp"
 #include "controller/point_cost.hpp"
 #include "controller/rebalance_rule.hpp"
 #include "controller/step_record.hpp"
@@ -9,8 +10,8 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -46,13 +47,21 @@ struct StepMessage {
 /// start() and finish() reduce on a communicator of their own, together with the sums of a cost
 /// model.
 struct Controller::State {
-    State() = default;
+    /// Makes the state of a controller in a call with `comm`, which other ranks make too.
+    /// Collective.
+    static std::unique_ptr<State> make(MPI_Comm comm, CallName call);
+
+    explicit State(std::shared_ptr<CallLog> log) : log_(std::move(log)) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State();
 
     /// Takes ownership of the communicator, even if it throws.
     void open(MPI_Comm comm);
+    /// Notes a step. Throws Error if ranks have made different calls, or were missing.
+    void begin_step(CallName call);
+    /// Begins a collective call on the communicator of the reductions, as mpi::enter().
+    Participant enter(CallName call);
     /// Throws Error if a reduction has started, or carries sums.
     void check_free() const;
     /// Adds the sums that this message has room for to each reduction, joined by join_carried().
@@ -84,17 +93,19 @@ struct Controller::State {
     bool is_due = false;  ///< on every rank
 
   private:
+    void check_usable() const;
     static int close(MPI_Comm, int, void* state, void*);
     void close();
     void follow(const StepRecord& all);
 
+    std::shared_ptr<CallLog> log_;  ///< of the calls with the caller's communicator
     MPI_Comm comm_ = MPI_COMM_NULL;
     int rank_ = 0;
     int num_ranks_ = 1;
     int key_ = MPI_KEYVAL_INVALID;  ///< attribute of MPI_COMM_SELF: its deletion closes this
     bool closes_itself_ = false;    ///< the attribute is set
     std::unique_ptr<StepMessage> message_;
-    std::optional<mpi::Owned<MPI_Op, MPI_Op_free>> reduction_;
+    std::unique_ptr<mpi::Owned<MPI_Op, MPI_Op_free>> reduction_;
     MPI_Request request_ = MPI_REQUEST_NULL;
     bool has_started_ = false;
 

@@ -41,14 +41,14 @@ struct CostModel::State {
 };
 
 CostModel::CostModel(MPI_Comm comm, int num_columns) {
-    Controller own(comm);
+    Controller own(Controller::State::make(comm, CallName::cost_model));
     *this = CostModel(own, num_columns);
     state_->own = std::move(own);
 }
 
 CostModel::CostModel(Controller& controller, int num_columns) {
     Controller::State& reducer = *controller.state_;
-    Participant self{reducer.comm()};
+    Participant self = reducer.enter(CallName::cost_model);
     std::unique_ptr<StepMessage> message;
     self.attempt([&] {
         check_columns(num_columns);
@@ -67,6 +67,7 @@ CostModel& CostModel::operator=(CostModel&&) noexcept = default;
 void CostModel::step(double seconds, std::span<const double> columns) {
     const NonStop arithmetic;
     auto& [reducer, rule, own] = *state_;
+    reducer.begin_step(CallName::cost_model_step);
     reducer.finish();
     if (reducer.has_started()) {
         const bool used_costs = rule.uses_costs();

@@ -58,7 +58,7 @@ Cuts gather_cuts(const Cuts& cuts, Participant& self) {
 }
 
 Cuts gather_cuts(const Cuts& cuts, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::gather_cuts);
     return gather_cuts(cuts, self);
 }
 
@@ -83,7 +83,7 @@ std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant
 }
 
 std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::assign_all);
     return assign_all(cuts, points, self);
 }
 

@@ -4,6 +4,7 @@
 #include "bisection/bisection.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
+#include "collective/meeting_mpi.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "options/rejection.hpp"
@@ -100,9 +101,9 @@ void unpack(Decision& decision) {
     });
 }
 
-void broadcast_head(Head& head, Verdict& verdict, const Participant& self) {
+void broadcast_head(Head& head, Verdict& verdict, Participant& self) {
     std::memcpy(head.data(), &verdict, sizeof verdict);
-    mpi::broadcast(head, root, self.comm);
+    broadcast_and_meet(head, self);
     std::memcpy(&verdict, head.data(), sizeof verdict);
     fail_together(verdict.failing_rank, self);
 }
@@ -219,7 +220,7 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
     weigh_kept(all, options, decision);
 }
 
-void broadcast(Decision& decision, const Participant& self) {
+void broadcast(Decision& decision, Participant& self) {
     Head head{};
     const std::span<std::byte> space = std::span(head).subspan(sizeof(Verdict));
     const auto in_head = [&] {

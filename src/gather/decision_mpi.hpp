@@ -81,7 +81,7 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
 ///
 /// One message for a few dozen cuts, two for more: the first has a fixed length, because the other
 /// ranks do not know how many are coming.
-void broadcast(Decision& decision, const Participant& self);
+void broadcast(Decision& decision, Participant& self);
 
 /// Decides on rank 0, and sends every rank the decision, or throws the error of one rank on all.
 /// Collective.

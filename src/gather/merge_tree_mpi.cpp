@@ -1,7 +1,7 @@
 #include "gather/merge_tree_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
-#include "collective/communicator.hpp"
+#include "collective/meeting_mpi.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,17 +26,6 @@ struct FirstMessage {
     }
 };
 static_assert(std::is_trivially_copyable_v<Summary>);
-
-void send(std::span<const std::byte> bytes, int to, mpi::Tag tag, Participant& self) {
-    self.check(MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, self.comm),
-               "MPI_Send");
-}
-
-void receive(std::span<std::byte> bytes, int from, mpi::Tag tag, Participant& self) {
-    self.check(MPI_Recv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, from, tag,
-                        self.comm, MPI_STATUS_IGNORE),
-               "MPI_Recv");
-}
 
 void send_records(std::span<const double> records, int to, mpi::Tag tag, Participant& self) {
     for (std::size_t at = 0; at < records.size(); at += most_doubles)

@@ -131,26 +131,26 @@ std::vector<double> sums(const Groups& groups, std::span<const double> values,
 
 void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::fetch);
     rrcb::move(plan, columns, limits, report, self);
 }
 
 void detail::move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                        std::span<const ByteColumn> of_points, const TransferLimits& limits,
                        TransferReport* report, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::accumulate);
     rrcb::move_back(plan, of_ghosts, of_points, limits, report, self);
 }
 
 void detail::move(const Groups& groups, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::fetch_from_groups);
     rrcb::move(groups, columns, limits, report, self);
 }
 
 std::vector<double> sums(const Groups& groups, std::span<const double> values, MPI_Comm user,
                          std::size_t components) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::sums);
     return sums(groups, values, components, self);
 }
 

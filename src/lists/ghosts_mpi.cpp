@@ -277,7 +277,7 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                  MPI_Comm comm) {
-    Participant self{mpi::duplicate_of(comm)};
+    Participant self = mpi::enter(comm, CallName::ghosts);
     return ghosts(cuts, points, options, self);
 }
 

@@ -245,7 +245,7 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
 
 Groups groups(const Points& points, std::span<const std::uint64_t> keys, MPI_Comm comm,
               GroupPlace place) {
-    Participant self{mpi::duplicate_of(comm)};
+    Participant self = mpi::enter(comm, CallName::groups);
     return groups(points, keys, place, self);
 }
 

@@ -116,7 +116,7 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
 }
 
 Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::plan);
     return plan(parts, num_parts, self);
 }
 

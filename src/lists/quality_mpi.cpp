@@ -32,7 +32,7 @@ std::vector<double> weights_here(const Points& points, std::span<const Part> par
 }
 
 /// Throws on all ranks if one has failed, or their arguments differ. Collective.
-void agree_on(const Points& points, int num_parts, const Participant& self) {
+void agree_on(const Points& points, int num_parts, Participant& self) {
     agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}, weights_given(points)});
 }
 
@@ -56,7 +56,7 @@ std::vector<double> part_weights(const Points& points, std::span<const Part> par
 
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::part_weights);
     return part_weights(points, parts, num_parts, self);
 }
 
@@ -84,7 +84,7 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
 
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::moved_fraction);
     return moved_fraction(points, parts, num_parts, self);
 }
 

@@ -278,13 +278,13 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
 
 Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts, MPI_Comm user,
             const TreeShape& shape) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::remap);
     return remap(parts, std::nullopt, ranks_of_parts, shape, self);
 }
 
 Remap remap(std::span<const Part> parts, std::span<const Part> previous,
             std::span<const RankRange> ranks_of_parts, MPI_Comm user, const TreeShape& shape) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::remap);
     return remap(parts, PreviousParts(previous), ranks_of_parts, shape, self);
 }
 

@@ -60,7 +60,7 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
 
 void detail::move(const Plan& plan, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::transfer);
     rrcb::move(plan, columns, limits, report, self);
 }
 

@@ -44,7 +44,7 @@ void check(const PaperOptions& options, int dimension) {
 }
 
 /// Throws on all ranks if one has failed, or if their options differ. Collective.
-void agree_on(const PaperOptions& options, const Points& points, const Participant& self) {
+void agree_on(const PaperOptions& options, const Points& points, Participant& self) {
     agree(self, {{"dimension", static_cast<std::uint64_t>(points.dimension)},
                  weights_given(points),
                  {"num_parts", static_cast<std::uint64_t>(options.num_parts)},
@@ -119,7 +119,7 @@ void broadcast(Verdict& verdict, std::vector<Cut>& tree, StageObserver* observer
 }  // namespace
 
 Balance balance_as_in_paper(const Points& points, const PaperOptions& options, MPI_Comm comm) {
-    Participant self{mpi::duplicate_of(comm)};
+    Participant self = mpi::enter(comm, CallName::balance_as_in_paper);
     return balance_as_in_paper(points, options, self);
 }
 

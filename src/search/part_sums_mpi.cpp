@@ -9,7 +9,7 @@
 
 namespace rrcb {
 
-double PartSums::add_up(std::span<const double> part_sizes, const Participant& self) {
+double PartSums::add_up(std::span<const double> part_sizes, Participant& self) {
     const std::size_t num_parts = part_sizes.size();
     here_.back() = self.failed() ? 1 : 0;
     mpi::check(MPI_Reduce(here_.data(), sums_.data(), mpi::to_int(std::ssize(here_)), MPI_DOUBLE,

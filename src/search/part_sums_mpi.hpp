@@ -25,7 +25,7 @@ class PartSums {
     ///
     /// Collective: a reduction and a broadcast, which carry failures as well; throws if a rank has
     /// failed. `part_sizes` has one entry per part.
-    double add_up(std::span<const double> part_sizes, const Participant& self);
+    double add_up(std::span<const double> part_sizes, Participant& self);
 
     /// Sets weights and sums that were counted elsewhere.
     void set(std::span<const double> here, std::span<const double> sums);

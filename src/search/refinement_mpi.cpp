@@ -125,7 +125,7 @@ bool Refinement::correct(const Points& points, std::span<Part> parts, Participan
 }
 
 /// Adds up the weights of the parts over all ranks. Collective; throws if one failed.
-void Refinement::measure(const Participant& self) {
+void Refinement::measure(Participant& self) {
     refined_.imbalance = sums_.add_up(options_.part_sizes, self);
     tree_.rule.counted_weight = sum_of(sums_.sums());
 }

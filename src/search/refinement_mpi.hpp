@@ -97,7 +97,7 @@ class Refinement {
     void search(const Bin& bin, std::span<Part> parts, Participant& self);
     void search_once(const Bin& bin, std::span<Part> parts, Participant& self);
     void search_for_better(const Bin& bin, std::span<Part> parts, Participant& self);
-    void measure(const Participant& self);
+    void measure(Participant& self);
 
     const Options& options_;
     PartSums& sums_;

@@ -1,19 +1,17 @@
 #pragma once
 
+#include "collective/deadline_mpi.hpp"
 #include "collective/participant.hpp"
 
 #include <mpi.h>
-
-#include <chrono>
-#include <vector>
 
 namespace rrcb::zoltan {
 
 /// Waits for all ranks of a communicator, of which some may lack the plug-in, up to a time limit.
 ///
-/// The limit is RRCB_AGREE_SECONDS, 20 by default; 0 means none. Its last quarter serves to find
-/// out which ranks are missing. The clock starts with the object: make it when every rank is known
-/// to be in the call, so that a late rank is not taken for one without the plug-in.
+/// The limit is RRCB_AGREE_SECONDS, 20 by default; 0 means none. The clock starts with the object:
+/// make it when every rank is known to be in the call, so that a late rank is not taken for one
+/// without the plug-in.
 class RollCall {
   public:
     explicit RollCall(MPI_Comm comm);
@@ -26,20 +24,10 @@ class RollCall {
     bool complete(MPI_Request request, Participant& self);
 
   private:
-    using Clock = std::chrono::steady_clock;
-
-    /// Tests the request until it is complete, the time is over, or `is_enough()`.
-    template <typename Enough>
-    bool test_until(Clock::time_point end, MPI_Request& request, Participant& self, Enough enough);
-    bool call_ranks(MPI_Request& request, Participant& self);
-    bool receive_call();
     void report();
 
     MPI_Comm comm_;
-    Clock::time_point start_;
-    std::chrono::duration<double> limit_;
-    std::vector<char> present_;  ///< a flag for each rank
-    std::size_t num_present_ = 0;
+    Deadline deadline_;
 };
 
 }  // namespace rrcb::zoltan

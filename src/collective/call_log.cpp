@@ -1,0 +1,51 @@
+#include "collective/call_log.hpp"
+
+#include <algorithm>
+
+namespace rrcb {
+
+std::string_view name_of(CallName call) {
+    constexpr std::array names{
+        "no function", "balance",        "rebalance",      "balance_as_in_paper",
+        "plan",        "remap",          "transfer",       "ghosts",
+        "fetch",       "accumulate",     "groups",         "fetch of groups",
+        "sums",        "part_weights",   "moved_fraction", "gather_cuts",
+        "assign_all",  "rrcb_create",    "Controller",     "Controller::step",
+        "CostModel",   "CostModel::step"};
+    static_assert(names.size() == static_cast<std::size_t>(CallName::cost_model_step) + 1 &&
+                  names.size() <= most_call_names);
+    return names.at(static_cast<std::size_t>(call));
+}
+
+std::optional<CallDifference> find_difference(std::span<const CallRecord> known) {
+    const auto [least, most] = std::ranges::minmax(known, {}, &CallRecord::number);
+    std::uint32_t k = most.number() - std::min(most.number(), CallRecord::num_kept);
+    for (; k < least.number(); ++k) {
+        const CallName first = known[0].call(k);
+        const auto other = std::ranges::find_if(
+            known, [&](const CallRecord& one) { return one.call(k) != first; });
+        if (other != known.end())
+            return CallDifference{{0, static_cast<int>(other - known.begin())},
+                                  {first, other->call(k)}};
+    }
+    return std::nullopt;
+}
+
+std::string text_of(const CallDifference& difference) {
+    std::string text;
+    for (std::size_t k = 0; k < 2; ++k) {
+        text += "rank " + std::to_string(difference.ranks[k]) + " calls ";
+        text += name_of(difference.calls[k]);
+        text += k == 0 ? ", " : "; every rank must make the same calls in the same order";
+    }
+    return text;
+}
+
+int CallLog::tag(int kind) const {
+    // Below 32,768, which every MPI allows. Ranks are never so many calls apart as to mix them up.
+    constexpr int most_kinds = 16;
+    const auto number = static_cast<int>(mine.number() % (2 * CallRecord::num_kept));
+    return kind + most_kinds * (static_cast<int>(mine.latest()) + most_call_names * number);
+}
+
+}  // namespace rrcb

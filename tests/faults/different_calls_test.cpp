@@ -1,0 +1,219 @@
+// A rank that makes another call than the others: every rank gets an error that names both calls,
+// and the next call is right.
+#include "collective/watch_mpi.hpp"
+#include "ranks.hpp"
+#include "same_error.hpp"
+
+#include <rrcb/cost.hpp>
+#include <rrcb/paper.hpp>
+#include <rrcb/rrcb.h>
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+const MPI_Comm world = MPI_COMM_WORLD;
+
+/// Points of a rank, and all that calls with them need.
+struct Input {
+    std::vector<double> coordinates;
+    Points points;
+    Balance balanced;
+    Plan lists;
+    GhostPlan near;
+    Groups clusters;
+    std::vector<RankRange> ranks;
+    std::vector<std::uint64_t> keys;
+    std::vector<double> of_ghosts;
+    std::optional<Controller> controller;
+    std::optional<CostModel> model;
+
+    Input() {
+        for (int i = 0; i < 40; ++i)
+            for (const double step : {0.618, 0.755}) {
+                const double x = step * (40 * rank() + i);
+                coordinates.push_back(x - static_cast<int>(x));
+            }
+        points = interleaved_points(coordinates, 2);
+        for (int r = 0; r < num_ranks(); ++r) ranks.push_back({r, 1});
+        for (std::uint64_t i = 0; i < 40; ++i) keys.push_back(i / 2);
+        balanced = balance(points, {}, world);
+        lists = plan(balanced, world);
+        near = ghosts(balanced.cuts, points, {.radius = 0.1}, world);
+        clusters = groups(points, keys, world);
+        of_ghosts.resize(total_of(near.receive));
+    }
+
+    static std::size_t total_of(const std::vector<RankCount>& counts) {
+        std::size_t total = 0;
+        for (const RankCount& one : counts) total += one.count;
+        return total;
+    }
+
+    /// Makes the controller and the model anew: they are over if calls differ.
+    void make_controllers() {
+        model.reset();
+        controller.reset();
+        controller.emplace(world);
+        model.emplace(world, 1);
+    }
+};
+
+struct NamedCall {
+    std::string name;
+    std::function<void(Input&)> make;
+};
+
+/// Every collective function. Steps wait for those before, so two of them wait for all ranks.
+std::vector<NamedCall> all_calls() {
+    return {
+        {"balance", [](Input& in) { balance(in.points, {}, world); }},
+        {"rebalance", [](Input& in) { rebalance(in.points, {}, in.balanced.cuts, world); }},
+        {"balance_as_in_paper", [](Input& in) { balance_as_in_paper(in.points, {}, world); }},
+        {"plan", [](Input& in) { plan(in.balanced, world); }},
+        {"remap", [](Input& in) { remap(in.balanced.parts, in.ranks, world); }},
+        {"transfer", [](Input& in) { transfer(in.lists, column(in.coordinates, 2), world); }},
+        {"ghosts", [](Input& in) { ghosts(in.balanced.cuts, in.points, {.radius = 0.1}, world); }},
+        {"fetch", [](Input& in) { fetch(in.near, column(in.coordinates, 2), world); }},
+        {"accumulate",
+         [](Input& in) {
+             std::vector<double> sums(in.points.count);
+             accumulate(in.near, column(in.of_ghosts), column(sums), world);
+         }},
+        {"groups", [](Input& in) { groups(in.points, in.keys, world); }},
+        {"fetch of groups",
+         [](Input& in) { fetch(in.clusters, column(in.clusters.weights), world); }},
+        {"sums",
+         [](Input& in) { sums(in.clusters, std::vector<double>(in.points.count, 1.0), world); }},
+        {"part_weights", [](Input& in) { part_weights(in.points, in.balanced, world); }},
+        {"moved_fraction", [](Input& in) { moved_fraction(in.points, in.balanced, world); }},
+        {"gather_cuts", [](Input& in) { gather_cuts(in.balanced.cuts, world); }},
+        {"assign_all", [](Input& in) { assign_all(in.balanced.cuts, in.points, world); }},
+        {"Controller::step",
+         [](Input& in) {
+             for (int k = 0; k < 3; ++k) in.controller->step(1);
+         }},
+        {"CostModel::step",
+         [](Input& in) {
+             const double count = 1;
+             for (int k = 0; k < 3; ++k) in.model->step(1, {&count, 1});
+         }},
+        {"Controller", [](Input&) { Controller{world}; }},
+        {"CostModel",
+         [](Input&) {
+             CostModel{world, 1};
+         }},
+        {"rrcb_create",
+         [](Input&) {
+             rrcb_balancer* made = nullptr;
+             if (rrcb_create(world, &made) != RRCB_OK)
+                 throw Error(ErrorCode::invalid_argument, rrcb_last_error());
+             rrcb_destroy(made);
+         }},
+    };
+}
+
+/// One rank makes another call than all others.
+void expect_difference(const NamedCall& others, const NamedCall& odd, int odd_rank, Input& in) {
+    SCOPED_TRACE(odd.name + " on rank " + std::to_string(odd_rank) + ", else " + others.name);
+    const std::string of_root = odd_rank == 0 ? odd.name : others.name;
+    const std::string of_next = odd_rank == 0 ? others.name : odd.name;
+    test::expect_same_error([&] { (rank() == odd_rank ? odd : others).make(in); },
+                            "rank 0 calls " + of_root + ", rank 1 calls " + of_next +
+                                "; every rank must make the same calls in the same order");
+}
+
+class DifferentCalls : public testing::Test {
+  protected:
+    DifferentCalls() { mpi::patience = std::chrono::milliseconds(5); }
+    ~DifferentCalls() override { mpi::patience = before_; }
+
+    std::chrono::milliseconds before_ = mpi::patience;
+};
+
+TEST_F(DifferentCalls, get_an_error_on_every_rank_that_names_them_and_the_next_call_is_right) {
+    if (num_ranks() == 1) return;
+    const std::vector<NamedCall> calls = all_calls();
+    Input in;
+    for (const NamedCall& others : calls)
+        for (const NamedCall& odd : calls)
+            for (const int odd_rank : {1, 0}) {
+                if (odd.name == others.name) continue;
+                in.make_controllers();
+                expect_difference(others, odd, odd_rank, in);
+                ASSERT_FALSE(HasFatalFailure() || HasNonfatalFailure()) << others.name << odd.name;
+                EXPECT_EQ(balance(in.points, {}, world).parts, in.balanced.parts);
+            }
+}
+
+TEST_F(DifferentCalls, end_the_controllers_that_were_made_before) {
+    if (num_ranks() == 1) return;
+    Input in;
+    in.make_controllers();
+    for (int k = 0; k < 3; ++k) in.controller->step(1);
+    EXPECT_THROW(rank() == 1 ? (void)plan(in.balanced, world)
+                             : (void)part_weights(in.points, in.balanced, world),
+                 Error);
+    const auto step = [&] { in.controller->step(1); };
+    test::expect_same_error(step, "rank 1 calls plan");
+    test::expect_same_error(step, "make another controller");
+    EXPECT_EQ(balance(in.points, {}, world).parts, in.balanced.parts);
+}
+
+TEST_F(DifferentCalls, are_found_although_a_step_was_left_out_before) {
+    if (num_ranks() == 1) return;
+    Input in;
+    in.make_controllers();
+    test::expect_same_error(
+        [&] {
+            if (rank() != 1) in.controller->step(1);
+            balance(in.points, {}, world);
+        },
+        "rank 0 calls Controller::step, rank 1 calls balance");
+}
+
+TEST_F(DifferentCalls, are_not_suspected_of_ranks_that_are_late) {
+    Input in;
+    for (int late = 0; late < num_ranks(); ++late) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
+        EXPECT_EQ(plan(in.balanced, world).import_parts, in.lists.import_parts);
+        std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
+        EXPECT_EQ(balance(in.points, {}, world).parts, in.balanced.parts);
+        std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
+        EXPECT_EQ(assign_all(in.balanced.cuts, in.points, world), in.balanced.parts);
+    }
+}
+
+TEST_F(DifferentCalls, give_a_c_program_the_code_and_the_text) {
+    if (num_ranks() == 1) return;
+    Input in;
+    const rrcb_points points =
+        rrcb_interleaved_points(RRCB_DOUBLE, 2, in.points.count, in.coordinates.data(), nullptr);
+    std::vector<std::int32_t> parts(in.points.count);
+    rrcb_balancer* balancer = nullptr;
+    ASSERT_EQ(rrcb_create(world, &balancer), RRCB_OK);
+    EXPECT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
+    const int code = rank() == 1 ? rrcb_make_plan(balancer, parts.size(), parts.data())
+                                 : rrcb_balance(balancer, &points, parts.data());
+    EXPECT_EQ(code, RRCB_INVALID_ARGUMENT);
+    EXPECT_STREQ(rrcb_last_error(),
+                 "rank 0 calls balance, rank 1 calls plan; every rank must make the same calls in "
+                 "the same order");
+    EXPECT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
+    EXPECT_EQ(parts, in.balanced.parts);
+    rrcb_destroy(balancer);
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -38,7 +38,7 @@ void refuse_two_groups(MPI_Comm user) {
 Duplicate* find(MPI_Comm user) {
     Duplicate* found = Attribute<Duplicate>::find(user);
     if (found == nullptr || found->log->end == CallLog::End::none) return found;
-    if (found->log->end == CallLog::End::missing) throw_end(found->log->end, found->log->why);
+    if (found->log->end == CallLog::End::missing) throw_end(found->log->why);
     Attribute<Duplicate>::forget(user);
     return nullptr;
 }
@@ -62,7 +62,7 @@ void duplicate(MPI_Comm user, CallName call, MPI_Comm& comm, Participant& self) 
         log.end = CallLog::End::missing;
         log.why = text_of_absence(deadline, call) + "; this communicator cannot be used further";
         Attribute<Duplicate>::keep(std::move(kept), user);
-        throw_end(log.end, log.why);
+        throw_end(log.why);
     }
     comm = *made;
 }

@@ -59,8 +59,8 @@ void take_reports(CallLog& log) {
     }
 }
 
-void throw_end(CallLog::End end, const std::string& why) {
-    throw Error(end == CallLog::End::missing ? ErrorCode::mpi : ErrorCode::invalid_argument, why);
+void throw_end(const std::string& why) {
+    throw Error(ErrorCode::mpi, why);
 }
 
 Watch::Watch(CallLog& log)
@@ -100,7 +100,7 @@ void Watch::end(CallLog::End how, std::string&& why) {
     log_.end = how;
     log_.is_meeting = false;
     log_.why = std::move(why);
-    throw_end(how, log_.why);
+    throw_end(log_.why);
 }
 
 }  // namespace rrcb::mpi

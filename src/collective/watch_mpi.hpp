@@ -46,6 +46,6 @@ std::string text_of_absence(const Deadline& deadline, CallName call);
 void take_reports(CallLog& log);
 
 /// Throws the Error by which an earlier call ended the use of a communicator.
-[[noreturn]] void throw_end(CallLog::End end, const std::string& why);
+[[noreturn]] void throw_end(const std::string& why);
 
 }  // namespace rrcb::mpi

@@ -46,7 +46,7 @@ void Controller::State::open(MPI_Comm comm) {
 
 void Controller::State::check_usable() const {
     if (log_->end != CallLog::End::none)
-        mpi::throw_end(log_->end, log_->why + " (make another controller)");
+        mpi::throw_end(log_->why + " (make another controller)");
 }
 
 void Controller::State::begin_step(CallName call) {

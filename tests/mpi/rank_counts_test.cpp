@@ -79,7 +79,7 @@ TEST(RankCounts, of_a_rank_that_failed_before_are_not_awaited) {
 }
 
 TEST(RankCounts, that_contradict_a_plan_are_told_of_where_nothing_else_failed) {
-    const auto expect = [](const Participant& self, const std::string& text) {
+    const auto expect = [](Participant& self, const std::string& text) {
         try {
             agree(self);
             ADD_FAILURE() << "nothing was thrown";

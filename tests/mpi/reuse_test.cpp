@@ -176,7 +176,7 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
                 else
                     call(cuts);
             },
-            "previous differs between rank");
+            "rank 0 calls rebalance, rank " + std::to_string(num_ranks() - 1) + " calls balance;");
     }
     expect_error(
         [&] {

@@ -1,0 +1,109 @@
+// A rank that leaves out a call, under RRCB_AGREE_SECONDS=1: the waiting ranks get an error that
+// names it.
+#include "ranks.hpp"
+
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+const std::vector<double> coordinates{0.1, 0.2, 0.3, 0.4};
+const Points points = interleaved_points(coordinates, 2);
+const std::vector<Part> parts{0, 0};
+
+struct NamedCall {
+    std::string name;
+    std::function<void(MPI_Comm)> make;
+};
+
+/// The calls begin with messages of different kinds.
+const std::vector<NamedCall> calls{
+    {"balance", [](MPI_Comm comm) { balance(points, {}, comm); }},
+    {"plan", [](MPI_Comm comm) { plan(parts, num_ranks(), comm); }},
+    {"part_weights", [](MPI_Comm comm) { part_weights(points, parts, num_ranks(), comm); }},
+};
+
+std::string error_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::mpi);
+        return error.what();
+    }
+    return "";
+}
+
+void expect_missing(int missing, const NamedCall& call, MPI_Comm comm) {
+    SCOPED_TRACE("without " + call.name + " on rank " + std::to_string(missing));
+    if (rank() != missing) {
+        const std::string text = error_of([&] { call.make(comm); });
+        EXPECT_EQ(text, "no call of " + call.name + " on ranks " + std::to_string(missing) +
+                            " of " + std::to_string(num_ranks()) +
+                            " within 1 s (RRCB_AGREE_SECONDS); every rank must make the same calls "
+                            "in the same order; this communicator cannot be used further");
+        EXPECT_EQ(error_of([&] { plan(parts, num_ranks(), comm); }), text);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+}
+
+// The communicators stay: messages on them are pending.
+MPI_Comm fresh() {
+    MPI_Comm comm = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_WORLD, &comm);
+    return comm;
+}
+
+TEST(MissingCalls, are_named_on_the_ranks_that_wait_for_them) {
+    if (num_ranks() == 1) return;
+    for (const NamedCall& call : calls)
+        for (const int missing : {0, 1}) {
+            MPI_Comm comm = fresh();
+            balance(points, {}, comm);
+            expect_missing(missing, call, comm);
+        }
+}
+
+TEST(MissingCalls, are_named_by_the_first_call_with_a_communicator) {
+    if (num_ranks() == 1) return;
+    expect_missing(1, calls[1], fresh());
+}
+
+TEST(MissingCalls, of_a_step_are_named_by_the_steps_that_follow) {
+    if (num_ranks() == 1) return;
+    Controller controller(MPI_COMM_WORLD);
+    controller.step(1);
+    // Rank 1 makes them too late. It would otherwise wait at the end of the controller.
+    if (rank() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    const std::string text = error_of([&] {
+        for (int k = 0; k < 3; ++k) controller.step(1);
+    });
+    if (rank() != 1) {
+        EXPECT_EQ(text.find("no call of Controller::step on ranks 1 of "), 0u) << text;
+    }
+    EXPECT_NE(text, "");
+    MPI_Barrier(MPI_COMM_WORLD);
+}
+
+TEST(MissingCalls, that_are_late_but_in_time_are_waited_for) {
+    const MPI_Comm comm = fresh();
+    for (const NamedCall& call : calls)
+        for (int late = 0; late < num_ranks(); ++late) {
+            MPI_Barrier(MPI_COMM_WORLD);
+            std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 800 : 0));
+            EXPECT_EQ(error_of([&] { call.make(comm); }), "");
+        }
+}
+
+}  // namespace
+}  // namespace rrcb

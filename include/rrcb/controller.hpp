@@ -44,7 +44,8 @@ class Controller {
     /// `load` is finite and not negative, in the unit of the costs of rebalanced(). Throws Error on
     /// every rank alike, one call later, if a rank gave an illegal number or reported another
     /// number of rebalances. Every later call then throws it, too: make a new controller. An MPI
-    /// error is thrown on the rank on which it occurs.
+    /// error is thrown on the rank on which it occurs. Call it in the same order as other functions
+    /// with the communicator of the constructor.
     RRCB_API bool step(double load);
 
     /// Records a step and smooths the load; returns due(). Prefer it for measured loads.

@@ -11,7 +11,7 @@ namespace rrcb {
 enum class ErrorCode {
     invalid_argument,  ///< the caller's mistake: points, weights or options
     out_of_memory,     ///< an allocation failed on some rank
-    mpi,               ///< an MPI call returned an error, or ranks did not make the same call
+    mpi,               ///< an MPI call returned an error, or ranks called differently
     internal           ///< a callback threw, or an invariant does not hold
 };
 

@@ -25,7 +25,7 @@ typedef enum rrcb_code {
     RRCB_OK = 0,               /**< success */
     RRCB_INVALID_ARGUMENT = 1, /**< the caller's mistake: points, weights or options */
     RRCB_OUT_OF_MEMORY = 2,    /**< an allocation failed on some rank */
-    RRCB_MPI_ERROR = 3,        /**< an MPI call returned an error */
+    RRCB_MPI_ERROR = 3,        /**< an MPI call returned an error, or ranks called differently */
     RRCB_INTERNAL_ERROR = 4    /**< an invariant does not hold */
 } rrcb_code;
 

@@ -5,13 +5,17 @@
 namespace rrcb {
 
 std::string_view name_of(CallName call) {
-    constexpr std::array names{
-        "no function", "balance",        "rebalance",      "balance_as_in_paper",
-        "plan",        "remap",          "transfer",       "ghosts",
-        "fetch",       "accumulate",     "groups",         "fetch of groups",
-        "sums",        "part_weights",   "moved_fraction", "gather_cuts",
-        "assign_all",  "rrcb_create",    "Controller",     "Controller::step",
-        "CostModel",   "CostModel::step"};
+    constexpr std::array names{"no function",    "balance",
+                               "rebalance",      "balance_as_in_paper",
+                               "plan",           "remap",
+                               "transfer",       "ghosts",
+                               "fetch",          "accumulate",
+                               "groups",         "fetch of groups",
+                               "sums",           "part_weights",
+                               "moved_fraction", "gather_cuts",
+                               "assign_all",     "rrcb_create (Python: balance, assign)",
+                               "Controller",     "Controller::step",
+                               "CostModel",      "CostModel::step"};
     static_assert(names.size() == static_cast<std::size_t>(CallName::cost_model_step) + 1 &&
                   names.size() <= most_call_names);
     return names.at(static_cast<std::size_t>(call));
@@ -32,13 +36,10 @@ std::optional<CallDifference> find_difference(std::span<const CallRecord> known)
 }
 
 std::string text_of(const CallDifference& difference) {
-    std::string text;
-    for (std::size_t k = 0; k < 2; ++k) {
-        text += "rank " + std::to_string(difference.ranks[k]) + " calls ";
-        text += name_of(difference.calls[k]);
-        text += k == 0 ? ", " : "; every rank must make the same calls in the same order";
-    }
-    return text;
+    const auto& [ranks, calls] = difference;
+    return "rank " + std::to_string(ranks[0]) + " calls " + std::string(name_of(calls[0])) +
+           ", rank " + std::to_string(ranks[1]) + " calls " + std::string(name_of(calls[1])) +
+           "; every rank must make the same calls in the same order";
 }
 
 int CallLog::tag(int kind) const {

@@ -89,7 +89,7 @@ std::string Deadline::absent() const {
         text += std::to_string(first);
         if (i > first) text += '-' + std::to_string(i);
     }
-    return "ranks " + text + " of " + std::to_string(present_.size());
+    return text + " of " + std::to_string(present_.size());
 }
 
 }  // namespace rrcb

@@ -37,7 +37,7 @@ class Deadline {
     /// Returns a flag for each rank, after a roll call.
     const std::vector<char>& present() const { return present_; }
 
-    /// Returns "ranks 0, 2-5 of 8": those that take no part.
+    /// Returns "0, 2-5 of 8": the ranks that take no part.
     std::string absent() const;
 
     /// Sends the message of the roll call to a rank.

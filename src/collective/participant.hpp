@@ -18,6 +18,9 @@ namespace rrcb {
 /// 2. From then on the rank skips its local steps, and sends as many messages, without data.
 /// 3. All ranks meet in agree(), which throws the error of the lowest failing rank on all of them.
 ///
+/// The first messages of a call, its meeting, reach no rank in another call. Ranks that wait for
+/// them watch for that, see mpi::Watch: broadcast, agree() or a butterfly end the meeting.
+///
 /// Messages to the root can carry the failure and save that reduction: each rank sends its
 /// failing_rank(), or failed(), with its data. The root then decides nothing, and sends
 /// failing_rank() in place of its decision. Then all ranks fail_together().

@@ -43,8 +43,8 @@ std::chrono::duration<double> agree_limit() {
 }
 
 std::string text_of_absence(const Deadline& deadline, CallName call) {
-    return "no call of " + std::string(name_of(call)) + " on " + deadline.absent() + " within " +
-           std::to_string(std::lround(deadline.limit().count())) +
+    return "no call of " + std::string(name_of(call)) + " on ranks " + deadline.absent() +
+           " within " + std::to_string(std::lround(deadline.limit().count())) +
            " s (RRCB_AGREE_SECONDS); every rank must make the same calls in the same order";
 }
 

@@ -114,7 +114,7 @@ std::vector<NamedCall> all_calls() {
          [](Input&) {
              CostModel{world, 1};
          }},
-        {"rrcb_create",
+        {"rrcb_create (Python: balance, assign)",
          [](Input&) {
              rrcb_balancer* made = nullptr;
              if (rrcb_create(world, &made) != RRCB_OK)

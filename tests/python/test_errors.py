@@ -13,6 +13,25 @@ from runner import Skip, comm, on_rank, same_error
 from test_rrcb import RANKS, check_balance, cloud
 
 
+def test_names_the_calls_of_ranks_that_differ():
+    if RANKS == 1:
+        raise Skip("a single rank")
+    x = cloud(2)
+    balance = rrcb.balance(x, comm=comm)
+    controller = rrcb.Controller(comm)
+
+    def different():
+        if comm.rank == 1:
+            rrcb.assign(x, balance, comm)
+        else:
+            balance.ghosts(x, 0.1)
+
+    same_error(different, "rank 0 calls ghosts, rank 1 calls rrcb_create (Python: balance, assign);")
+    same_error(lambda: controller.step(1), "make another controller")
+    controller.free()
+    assert rrcb.balance(x, comm=comm).report == balance.report
+
+
 def test_raises_the_error_of_one_rank_on_all():
     last = RANKS - 1
     x = cloud(2)
@@ -40,7 +59,7 @@ def test_raises_the_error_of_one_rank_on_all():
         different = on_rank(last, 1.2, 1.1)
         same_error(lambda: rrcb.balance(x, comm=comm, tolerance=different), "tolerance")
         earlier = on_rank(last, balance, None)
-        same_error(lambda: rrcb.balance(x, comm=comm, previous=earlier), "previous")
+        same_error(lambda: rrcb.balance(x, comm=comm, previous=earlier), "rank 0 calls balance")
         alone = rrcb.balance(x, comm=MPI.COMM_SELF, num_parts=RANKS)
         same_error(lambda: rrcb.balance(x, comm=comm, previous=alone), "previous differs")
     for call in (

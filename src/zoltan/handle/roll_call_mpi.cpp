@@ -47,7 +47,8 @@ void RollCall::report() {
             MPI_Iprobe(lowest, mpi::roll_call_tag_of_user, comm_, &is_there, MPI_STATUS_IGNORE);
         return;
     }
-    const std::string text = "no RRCB on " + deadline_.absent() + ", which did not answer within " +
+    const std::string text = "no RRCB on ranks " + deadline_.absent() +
+                             ", which did not answer within " +
                              std::to_string(std::lround(deadline_.limit().count())) +
                              " s (RRCB_AGREE_SECONDS); load or link it on all ranks";
     print_error(rank, "Zoltan_Create", text);

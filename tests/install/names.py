@@ -33,7 +33,7 @@ ONLY_CPP = {
     "TreeShape": "for those who descend themselves",
     "Points": "shorthands for members of a struct",
     "RankRange": "a shorthand for members of a struct",
-    "AxisOrder": "rrcb_set reads it from a text",
+    "AxisOrder": "axes.order is for C++ only",
     "Error": "rrcb_code and rrcb_last_error",
     "name_of": "stages are observed to develop the library",
     "StageObserver": "stages are observed to develop the library",

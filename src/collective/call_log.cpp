@@ -21,7 +21,7 @@ std::string_view name_of(CallName call) {
     return names.at(static_cast<std::size_t>(call));
 }
 
-std::optional<CallDifference> find_difference(std::span<const CallRecord> known) {
+std::optional<CallDifference> find_different_calls(std::span<const CallRecord> known) {
     const auto [least, most] = std::ranges::minmax(known, {}, &CallRecord::number);
     std::uint32_t k = most.number() - std::min(most.number(), CallRecord::num_kept);
     for (; k < least.number(); ++k) {

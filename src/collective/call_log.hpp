@@ -70,7 +70,7 @@ struct CallDifference {
 
 /// Returns the first difference between the calls of all ranks: those of rank 0 and of the lowest
 /// rank with another call. Returns nullopt if calls of some rank are not known yet.
-std::optional<CallDifference> find_difference(std::span<const CallRecord> known);
+std::optional<CallDifference> find_different_calls(std::span<const CallRecord> known);
 
 std::string text_of(const CallDifference& difference);
 

@@ -27,7 +27,7 @@ std::optional<double> agree_seconds() {
 }
 
 void pause(std::chrono::duration<double> waited) {
-    if (waited < 10ms) {
+    if (waited < short_wait) {
         std::this_thread::yield();
     } else {
         std::this_thread::sleep_for(100us);

@@ -13,6 +13,9 @@ namespace rrcb {
 /// it is not set.
 std::optional<double> agree_seconds();
 
+/// After so long a wait a rank sleeps between two looks.
+inline constexpr std::chrono::milliseconds short_wait{10};
+
 /// Gives up the processor between two looks at a message that a rank has waited for so long.
 void pause(std::chrono::duration<double> waited);
 

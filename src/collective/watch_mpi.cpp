@@ -67,13 +67,16 @@ Watch::Watch(CallLog& log)
     : log_(log), deadline_(log.comm, log.tag(roll_call_tag), agree_limit(), true) {}
 
 void Watch::look() {
+    const auto waited = deadline_.waited();
+    // Until then MPI gives up the processor as its user wants.
+    if (waited < short_wait) return;
     // The communicator of the calls was freed: only a controller goes on without it.
-    if (log_.comm == MPI_COMM_NULL) return pause(deadline_.waited());
-    if (deadline_.waited() >= patience) compare();
+    if (log_.comm == MPI_COMM_NULL) return pause(waited);
+    if (waited >= patience) compare();
     if (deadline_.is_missed())
         end(CallLog::End::missing, text_of_absence(deadline_, log_.mine.latest()) +
                                        "; this communicator cannot be used further");
-    pause(deadline_.waited());
+    pause(waited);
 }
 
 void Watch::compare() {
@@ -88,7 +91,7 @@ void Watch::compare() {
     const Failure lacks_memory = attempt([&] { take_reports(log_); });
     if (lacks_memory.failed || log_.known.empty()) return;
     log_.known[root] = log_.mine;
-    const auto difference = find_difference(log_.known);
+    const auto difference = find_different_calls(log_.known);
     if (!difference) return;
     log_.verdict = *difference;
     for (int rank = root + 1; rank < size_of(log_.comm); ++rank)

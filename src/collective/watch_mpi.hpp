@@ -22,7 +22,7 @@ class Watch {
     /// The log outlives it.
     explicit Watch(CallLog& log);
 
-    /// Looks once, then gives up the processor.
+    /// Looks once, then gives up the processor; does nothing in a short wait.
     ///
     /// Throws Error if calls differ, or if ranks are missing after RRCB_AGREE_SECONDS.
     void look();

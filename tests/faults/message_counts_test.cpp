@@ -3,17 +3,13 @@
 #include "mpi_layer.hpp"
 #include "ranks.hpp"
 
-#include <rrcb/cost.hpp>
-#include <rrcb/paper.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
+#include <bit>
 #include <functional>
-#include <iostream>
-#include <string>
 #include <vector>
 
 namespace rrcb {
@@ -37,41 +33,37 @@ Counts counts_of(const std::function<void()>& call) {
     return counts;
 }
 
-TEST(MessageCounts, table) {
-    const std::vector<double> x{0.1 + rank(), 0.2, 0.3 + rank(), 0.4, 0.7 * rank(), 0.1};
-    const Points points = interleaved_points(x, 2);
-    std::vector<std::uint64_t> keys{1, 2, 3};
-    const Balance made = balance(points, {}, world);
-    const Plan lists = plan(made, world);
-    const GhostPlan near = ghosts(made.cuts, points, {.radius = 0.1}, world);
-    const Groups clusters = groups(points, keys, world);
-    std::vector<RankRange> ranks;
-    for (int r = 0; r < num_ranks(); ++r) ranks.push_back({r, 1});
-    const auto print = [&](const char* name, const std::function<void()>& call) {
-        const Counts counts = counts_of(call);
-        if (rank() == 0)
-            std::cout << name << ' ' << num_ranks() << ' ' << counts[0] / num_ranks() << ' '
-                      << counts[1] / 2 << '\n';
-    };
-    print("balance", [&] { balance(points, {}, world); });
-    print("rebalance", [&] { rebalance(points, {}, made.cuts, world); });
-    print("balance_as_in_paper", [&] { balance_as_in_paper(points, {}, world); });
-    print("plan", [&] { plan(made, world); });
-    print("remap", [&] { remap(made.parts, ranks, world); });
-    print("transfer", [&] { transfer(lists, column(x, 2), world); });
-    print("ghosts", [&] { ghosts(made.cuts, points, {.radius = 0.1}, world); });
-    print("fetch", [&] { fetch(near, column(x, 2), world); });
-    print("groups", [&] { groups(points, keys, world); });
-    print("fetch of groups", [&] { fetch(clusters, column(clusters.weights), world); });
-    print("sums", [&] { sums(clusters, std::vector<double>(3, 1.0), world); });
-    print("part_weights", [&] { part_weights(points, made, world); });
-    print("moved_fraction", [&] { moved_fraction(points, made, world); });
-    print("gather_cuts", [&] { gather_cuts(made.cuts, world); });
-    print("assign_all", [&] { assign_all(made.cuts, points, world); });
-    print("Controller", [&] { Controller{world}; });
-    print("CostModel", [&] { CostModel{world, 1}; });
-    Controller controller(world);
-    print("Controller::step", [&] { controller.step(1); });
+/// Calls with the collective calls that each takes besides its meeting, which is an agreement along
+/// the tree of ranks: a message from each rank except rank 0, and a broadcast.
+class MessageCounts : public testing::Test {
+  protected:
+    std::vector<double> x{0.1 + rank(), 0.2, 0.3 + rank(), 0.4, 0.7 * rank(), 0.1};
+    Points points = interleaved_points(x, 2);
+    Balance made = balance(points, {}, world);
+
+    void expect_agreement(long num_collectives, const std::function<void()>& call) {
+        const auto [collectives, messages] = counts_of(call);
+        EXPECT_EQ(collectives, num_ranks() * (1 + num_collectives));
+        EXPECT_EQ(messages, 2 * (num_ranks() - 1));
+    }
+};
+
+TEST_F(MessageCounts, of_a_meeting_that_agrees_are_those_of_a_reduction) {
+    expect_agreement(1, [&] { part_weights(points, made, world); });
+    expect_agreement(1, [&] { moved_fraction(points, made, world); });
+    expect_agreement(0, [&] { gather_cuts(made.cuts, world); });
+    expect_agreement(0, [&] { assign_all(made.cuts, points, world); });
+    expect_agreement(0, [&] { rebalance(points, {}, made.cuts, world); });
+    expect_agreement(2, [&] { Controller{world}; });
+}
+
+TEST_F(MessageCounts, of_a_butterfly_that_meets_are_its_own_and_one_agreement_follows) {
+    const std::vector<Part> parts(points.count, rank());
+    const auto [collectives, messages] = counts_of([&] { plan(parts, num_ranks(), world); });
+    EXPECT_EQ(collectives, num_ranks());
+    // On powers of two each rank sends to one of the other half in each halving.
+    const long num_steps = std::bit_width(static_cast<unsigned>(num_ranks())) - 1;
+    EXPECT_EQ(messages, 2 * num_steps * num_ranks());
 }
 
 }  // namespace

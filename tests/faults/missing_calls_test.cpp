@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <thread>
@@ -89,20 +90,23 @@ TEST(MissingCalls, of_a_step_are_named_by_the_steps_that_follow) {
         for (int k = 0; k < 3; ++k) controller.step(1);
     });
     if (rank() != 1) {
-        EXPECT_EQ(text.find("no call of Controller::step on ranks 1 of "), 0u) << text;
+        // Rank 1 does not forward messages of earlier steps either, so others may be late as well.
+        EXPECT_EQ(text.find("no call of Controller::step on ranks "), 0u) << text;
     }
     EXPECT_NE(text, "");
     MPI_Barrier(MPI_COMM_WORLD);
 }
 
-TEST(MissingCalls, that_are_late_but_in_time_are_waited_for) {
+// Late calls come after the roll call has begun, which is after 3 of 4 s.
+TEST(LateCalls, are_waited_for_up_to_the_limit) {
+    if (std::getenv("RRCB_AGREE_SECONDS") != std::string("4")) GTEST_SKIP() << "needs 4 s";
     const MPI_Comm comm = fresh();
-    for (const NamedCall& call : calls)
-        for (int late = 0; late < num_ranks(); ++late) {
-            MPI_Barrier(MPI_COMM_WORLD);
-            std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 800 : 0));
-            EXPECT_EQ(error_of([&] { call.make(comm); }), "");
-        }
+    balance(points, {}, comm);
+    for (int late = 0; late < num_ranks(); ++late) {
+        MPI_Barrier(MPI_COMM_WORLD);
+        std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 3200 : 0));
+        EXPECT_EQ(error_of([&] { calls[static_cast<std::size_t>(late) % 3].make(comm); }), "");
+    }
 }
 
 }  // namespace

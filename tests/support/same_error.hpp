@@ -10,17 +10,18 @@
 
 namespace rrcb::test {
 
-/// Expects that `call` throws the same invalid argument on every rank, with `expected` in its text.
-/// Collective.
+/// Expects that `call` throws the same Error with a code on every rank, with `expected` in its
+/// text. Collective.
 template <class Call>
-void expect_same_error(Call&& call, const std::string& expected) {
+void expect_same_error(Call&& call, const std::string& expected,
+                       ErrorCode code = ErrorCode::invalid_argument) {
     std::array<char, 512> text{};
     try {
         call();
         ADD_FAILURE() << "expected: " << expected;
     } catch (const Error& error) {
         std::string(error.what()).copy(text.data(), text.size() - 1);
-        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+        EXPECT_EQ(error.code(), code);
         EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
     }
     std::array<char, 512> of_root = text;

@@ -146,6 +146,8 @@ TEST(Machines, are_not_looked_at_if_that_is_switched_off) {
     EXPECT_EQ(program.set("RRCB_MACHINES", "off"), ZOLTAN_OK);
     EXPECT_FALSE(program.keeps_machines_apart());
     EXPECT_EQ(program.set("RRCB_MACHINES", "SOMETIMES"), ZOLTAN_WARN);
+    EXPECT_FALSE(program.keeps_machines_apart());
+    EXPECT_EQ(program.set("RRCB_MACHINES", "DEFAULT"), ZOLTAN_OK);
     EXPECT_TRUE(program.keeps_machines_apart());
 }
 

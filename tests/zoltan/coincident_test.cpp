@@ -44,6 +44,7 @@ TEST(Coincident, objects_stay_together_where_that_is_asked_for) {
     for (int i = 0; i < 100; ++i) program.add({3, 4});
     EXPECT_EQ(program.set("RRCB_COINCIDENT", "together"), ZOLTAN_OK);
     EXPECT_EQ(counts_with(program, "RRCB"), (std::vector<int>{0, 0, 0, 100 * program.num_ranks}));
+    EXPECT_EQ(program.set("RRCB_COINCIDENT", "DEFAULT"), ZOLTAN_OK);
     EXPECT_EQ(program.set("RRCB_COINCIDENT", "APART"), ZOLTAN_WARN);
     EXPECT_EQ(counts_with(program, "RRCB"), std::vector<int>(num_parts, 25 * program.num_ranks));
 }

@@ -88,6 +88,8 @@ TEST(Limits, without_room_are_fatal_on_all_ranks_and_the_next_call_works) {
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
     EXPECT_EQ(program.set("RRCB_MIN_WIDTH", "0 1"), ZOLTAN_WARN);
     EXPECT_EQ(program.set("RRCB_GRID", "0 0.1 0"), ZOLTAN_WARN);
+    EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
+    EXPECT_EQ(program.set("RRCB_MIN_WIDTH", "DEFAULT"), ZOLTAN_OK);
     EXPECT_EQ(program.partition().code, ZOLTAN_OK);
 }
 

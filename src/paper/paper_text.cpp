@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 
 namespace rrcb {
 
@@ -20,9 +19,9 @@ bool read_number(Number& number, std::string_view text) {
     return true;
 }
 
-bool read_positive(double& number, std::string_view text, double most) {
+bool read_above(const Range<double>& range, double& number, std::string_view text) {
     double value = 0;
-    if (!read_number(value, text) || !(value > 0 && value <= most)) return false;
+    if (!read_number(value, text) || !(value > range.least && value <= range.most)) return false;
     number = value;
     return true;
 }
@@ -48,11 +47,11 @@ bool read_domain(std::optional<PaperDomain>& domain, std::string_view text) {
 }
 
 bool read_sigma_multiplier(double& multiplier, std::string_view text) {
-    return read_positive(multiplier, text, std::numeric_limits<double>::max());
+    return read_above(sigma_range, multiplier, text);
 }
 
 bool read_sample_fraction(double& fraction, std::string_view text) {
-    return read_positive(fraction, text, 1);
+    return read_above(fraction_range, fraction, text);
 }
 
 bool read_seed(std::uint64_t& seed, std::string_view text) {

@@ -2,27 +2,50 @@
 
 #include "options/option_table.hpp"
 
-#include <iterator>
+#include <limits>
 
-// The words of the paper's enumerations, in order of their values, for the checks, the plug-in, the
-// comparisons and Teuchos' list. C++17, as the header of Teuchos' validators is not valid C++20.
+// Parameters that only the plug-in has, with the defaults of PaperOptions, for the plug-in, the
+// checks, the comparisons and Teuchos' list. C++17, as the header of Teuchos' validators is not
+// valid C++20.
 
 namespace rrcb {
 
+/// Words of a choice that no options hold, and its default.
+template <int initial, std::size_t num_words>
+constexpr Choice unstored_choice(const Word (&words)[num_words]) {
+    return {words, num_words, [](const Options&) { return initial; }, nullptr};
+}
+
 inline constexpr Word words_of_cut_rule[] = {
     {"WEIGHTED", 0, "the weight below is its parts' share"},
-    {"MIDPOINT", 1, "the extent below is its parts' share"},
-};
-inline constexpr Choice cut_rule_words{words_of_cut_rule, std::size(words_of_cut_rule), nullptr,
-                                       nullptr};
+    {"MIDPOINT", 1, "the extent below is its parts' share"}};
+inline constexpr Choice cut_rule_words = unstored_choice<0>(words_of_cut_rule);
 
-inline constexpr Word words_of_domain[] = {
-    {"SAMPLED", 0, "the paper's RRCB"},
-    {"POINTS", 1, "the paper's RCB"},
-};
-inline constexpr Choice domain_words{words_of_domain, std::size(words_of_domain), nullptr, nullptr};
+/// Values of RRCB_DOMAIN. The first is no PaperOptions::domain.
+inline constexpr Word words_of_method[] = {{"ANALYTIC", -1, "RRCB's own method"},
+                                           {"SAMPLED", 0, "the paper's RRCB"},
+                                           {"POINTS", 1, "the paper's RCB"}};
+inline constexpr Word own_domain = words_of_method[0];
+inline constexpr Choice domain_words{words_of_method + 1, 2, nullptr, nullptr};
 
-/// RRCB_DOMAIN for RRCB's own method, in addition to the words of PaperOptions::domain.
-inline constexpr Word own_domain{"ANALYTIC", -1, "RRCB's own method"};
+inline constexpr Word words_of_dump_when[] = {{"FAILURE", 0, "when a call fails"},
+                                              {"ALWAYS", 1, "at every call"}};
+
+inline constexpr Range<double> sigma_range{
+    {[](const Options&) { return 1.5; }, nullptr}, 0, std::numeric_limits<double>::max(), true};
+inline constexpr Range<double> fraction_range{
+    {[](const Options&) { return 1.0; }, nullptr}, 0, 1, true};
+
+/// All of them except RRCB_SEED, of 64 bits, and RRCB_DUMP, a path. No options hold their values.
+inline constexpr Option plug_in_table[] = {
+    {"", "RRCB_DOMAIN", "Plug-in only: the method", unstored_choice<-1>(words_of_method)},
+    {"", "RRCB_CUT_RULE", "Plug-in only, SAMPLED and POINTS: position of cuts", cut_rule_words},
+    {"", "RRCB_SIGMA_MULTIPLIER",
+     "Plug-in only, SAMPLED: half-width of a cell's sampling box in standard deviations",
+     sigma_range},
+    {"", "RRCB_SAMPLE_FRACTION", "Plug-in only, SAMPLED: points drawn per real point",
+     fraction_range},
+    {"", "RRCB_DUMP_WHEN", "Plug-in only: when to write to RRCB_DUMP",
+     unstored_choice<0>(words_of_dump_when)}};
 
 }  // namespace rrcb

@@ -96,37 +96,13 @@ struct Getter {
     }
 };
 
-// Repeats the defaults of PaperOptions, whose header is C++20.
-void add_parameters_of_paper(ParameterList& list) {
-    static const std::vector<Word> domains = [] {
-        std::vector<Word> words{own_domain};
-        words.insert(words.end(), domain_words.begin(), domain_words.end());
-        return words;
-    }();
-    const double least = std::numeric_limits<double>::denorm_min();
-    const Choice methods{domains.data(), domains.size(), nullptr, nullptr};
-    add_choice(list, "RRCB_DOMAIN", methods, own_domain.word,
-               "Plug-in only: the method: " + words_of(methods) + ".");
-    add_choice(
-        list, "RRCB_CUT_RULE", cut_rule_words, cut_rule_words.words->word,
-        "Plug-in only, SAMPLED and POINTS: position of cuts: " + words_of(cut_rule_words) + ".");
-    add_number(list, "RRCB_SIGMA_MULTIPLIER", 1.5, {least, largest},
-               "Plug-in only, SAMPLED: half-width of a cell's sampling box in standard deviations: "
-               "a number above 0.");
-    add_number(list, "RRCB_SAMPLE_FRACTION", 1.0, {least, 1.0},
-               "Plug-in only, SAMPLED: points drawn per real point: a number above 0, at most 1.");
+void add_parameters_of_plug_in(ParameterList& list) {
+    for (const Option& option : plug_in_table) visit_kind(option, Adder{list, option});
     // Teuchos has no unsigned 64-bit number.
     add_number(list, "RRCB_SEED", 1LL, {0LL, std::numeric_limits<long long>::max()},
                "Plug-in only, SAMPLED: seed of the points: a whole number, 0 or more.");
-}
-
-void add_parameters_of_plug_in(ParameterList& list) {
-    static constexpr Word words[] = {{"FAILURE", 0, "when a call fails"},
-                                     {"ALWAYS", 1, "at every call"}};
     list.set("RRCB_DUMP", std::string(),
              "Plug-in only: folder to write the input of calls to: a string; empty: none.");
-    add_choice(list, "RRCB_DUMP_WHEN", {words, std::size(words), nullptr, nullptr}, "FAILURE",
-               "Plug-in only: when to write to RRCB_DUMP: FAILURE or ALWAYS.");
 }
 
 std::string text_of(const ParameterEntry& entry) {
@@ -225,7 +201,6 @@ Teuchos::RCP<const ParameterList> valid_parameters() {
         const auto list = Teuchos::parameterList("RRCB");
         for (const Option& option : option_table)
             if (is_listed(option)) visit_kind(option, Adder{*list, option});
-        add_parameters_of_paper(*list);
         add_parameters_of_plug_in(*list);
         return list;
     }();

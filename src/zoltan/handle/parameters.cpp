@@ -2,6 +2,7 @@
 
 #include "arithmetic/non_stop.hpp"
 #include "options/option_table.hpp"
+#include "paper/paper_words.hpp"
 
 #include <rrcb/points.hpp>
 
@@ -94,8 +95,9 @@ bool read_folder(std::string& folder, std::string_view text) {
 }
 
 bool read_dump_when(bool& always, std::string_view text) {
-    if (text != "FAILURE" && text != "ALWAYS") return false;
-    always = text == "ALWAYS";
+    const auto* word = std::ranges::find(words_of_dump_when, text, &Word::word);
+    if (word == std::end(words_of_dump_when)) return false;
+    always = word->value != 0;
     return true;
 }
 

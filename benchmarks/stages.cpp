@@ -1,6 +1,6 @@
-#include "cells/sorted_points.hpp"
 #include "clouds.hpp"
-#include "cuts/direct_assignment.hpp"
+#include "passes/assignment.hpp"
+#include "passes/sorted_points.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/method/moments.hpp>

@@ -6,7 +6,6 @@
 #include "collective/duplicate.hpp"
 #include "collective/machines_mpi.hpp"
 #include "cuts/cut_limits.hpp"
-#include "cuts/direct_assignment.hpp"
 #include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
@@ -15,6 +14,7 @@
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 #include "options/stage_scope.hpp"
+#include "passes/assignment.hpp"
 #include "settlement_mpi.hpp"
 
 #include <algorithm>
@@ -318,7 +318,8 @@ namespace {
 
 Balance balance_over(MPI_Comm comm, const Points& points, const Options& options,
                      const Cuts* previous, std::vector<Part> memory = {}) {
-    Participant self = mpi::enter(comm, previous != nullptr ? CallName::rebalance : CallName::balance);
+    Participant self =
+        mpi::enter(comm, previous != nullptr ? CallName::rebalance : CallName::balance);
     return balance(points, options, previous, true, self, std::move(memory));
 }
 

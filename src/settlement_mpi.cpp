@@ -3,11 +3,11 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/cuts_mpi.hpp"
-#include "cuts/direct_assignment.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/stage_scope.hpp"
+#include "passes/assignment.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -2,6 +2,7 @@
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
 #include "cuts/cuts_mpi.hpp"
+#include "lists/assign_all_mpi.hpp"
 #include "search/workspace_mpi.hpp"
 
 #include <algorithm>
@@ -72,13 +73,14 @@ int rrcb_gather_cuts(rrcb_balancer* balancer) {
 }
 
 int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded_together(CallName::assign_all, balancer, [&](const auto& own, Participant& self) {
-        rrcb::Points positions;
-        self.attempt([&] {
-            require_cuts(own);
-            positions = rrcb::c::points_of(points);
-            rrcb::c::require_array(positions.count, parts, "parts");
+    return guarded_together(
+        CallName::assign_all, balancer, [&](const auto& own, Participant& self) {
+            rrcb::Points positions;
+            self.attempt([&] {
+                require_cuts(own);
+                positions = rrcb::c::points_of(points);
+                rrcb::c::require_array(positions.count, parts, "parts");
+            });
+            std::ranges::copy(rrcb::assign_all(own.cuts, positions, self), parts);
         });
-        std::ranges::copy(rrcb::assign_all(own.cuts, positions, self), parts);
-    });
 }

@@ -3,16 +3,12 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "cuts/direct_assignment.hpp"
 #include "cuts/owned_cuts.hpp"
-#include "cuts/tier_search_mpi.hpp"
-#include "options/rejection.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace rrcb {
@@ -60,31 +56,6 @@ Cuts gather_cuts(const Cuts& cuts, Participant& self) {
 Cuts gather_cuts(const Cuts& cuts, MPI_Comm user) {
     Participant self = mpi::enter(user, CallName::gather_cuts);
     return gather_cuts(cuts, self);
-}
-
-std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self) {
-    std::vector<Part> parts;
-    std::optional<SearchBuffers<PathSearch>> buffers;
-    std::uint64_t bits_of_cuts = 0;
-    self.attempt([&] {
-        check_positions(points, cuts);
-        bits_of_cuts = bits_of(cuts);
-        parts.resize(points.count);
-        if (!assign_known(cuts, points, parts)) reject_coordinates(points);
-        if (!is_whole(cuts)) buffers.emplace(PathSearch(cuts, points, parts), self.comm);
-    });
-    agree(self, {{"the dimension of the cuts", static_cast<std::uint64_t>(cuts.dimension)},
-                 {"the number of parts", static_cast<std::uint64_t>(cuts.num_parts)},
-                 {"whether the tree is whole", is_whole(cuts) ? 1u : 0u},
-                 {"the tree of cuts", bits_of_cuts}});
-    if (buffers) search_together(*buffers, self);
-    number_parts(cuts, parts);
-    return parts;
-}
-
-std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm user) {
-    Participant self = mpi::enter(user, CallName::assign_all);
-    return assign_all(cuts, points, self);
 }
 
 }  // namespace rrcb

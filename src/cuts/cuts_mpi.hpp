@@ -13,9 +13,8 @@ namespace rrcb {
 /// Collective over `comm`; `self` holds errors back.
 void join_cuts(std::span<Cut> tree, MPI_Comm comm, Participant& self);
 
-/// As the public functions, over a duplicated communicator. An earlier failure on one rank is
-/// thrown on all.
+/// As the public function, over a duplicated communicator. An earlier failure on one rank is thrown
+/// on all.
 Cuts gather_cuts(const Cuts& cuts, Participant& self);
-std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self);
 
 }  // namespace rrcb

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "cells/binned_points.hpp"
 #include "collective/failure.hpp"
-#include "cuts/direct_assignment.hpp"
 #include "options/request.hpp"
+#include "passes/assignment.hpp"
+#include "passes/binned_points.hpp"
 #include "passes/summary.hpp"
 
 #include <rrcb/method/statistical_domain.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cuts/direct_assignment.hpp"
 #include "cuts/tier_search_mpi.hpp"
+#include "passes/assignment.hpp"
 
 #include <rrcb/balance.hpp>
 

@@ -2,8 +2,8 @@
 
 #include "arithmetic/position_order.hpp"
 #include "arithmetic/running_sums.hpp"
-#include "cells/box.hpp"
 #include "options/validation.hpp"
+#include "passes/box.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cells/sorted_points.hpp"
 #include "cuts/tree.hpp"
+#include "passes/sorted_points.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/method/bisection.hpp>

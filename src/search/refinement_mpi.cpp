@@ -4,8 +4,8 @@
 #include "bisection/bisection.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/direct_assignment.hpp"
 #include "options/call_kind.hpp"
+#include "passes/assignment.hpp"
 
 #include <rrcb/quality.hpp>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "cells/sorted_points.hpp"
 #include "collective/butterfly_mpi.hpp"
 #include "collective/participant.hpp"
 #include "cuts/cut_limits.hpp"
+#include "passes/sorted_points.hpp"
 #include "search/correction_mpi.hpp"
 #include "search/part_sums_mpi.hpp"
 #include "search/tree_search.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cells/sorted_points.hpp"
 #include "collective/butterfly.hpp"
 #include "cuts/cut_limits.hpp"
+#include "passes/sorted_points.hpp"
 #include "search/fragments.hpp"
 #include "search/local_search.hpp"
 #include "search/part_sums_mpi.hpp"

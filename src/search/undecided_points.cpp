@@ -2,9 +2,9 @@
 
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/running_sums.hpp"
-#include "cells/point_layout.hpp"
-#include "cuts/direct_assignment.hpp"
 #include "cuts/tree.hpp"
+#include "passes/assignment.hpp"
+#include "passes/point_layout.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cells/sorted_points.hpp"
+#include "passes/sorted_points.hpp"
 #include "search/undecided_points.hpp"
 
 #include <mpi.h>

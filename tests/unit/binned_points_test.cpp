@@ -1,6 +1,6 @@
 #include "../support/clouds.hpp"
-#include "cells/cell_finder.hpp"
-#include "cells/sorted_points.hpp"
+#include "passes/cell_finder.hpp"
+#include "passes/sorted_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // Parts of points and what they hold, in one pass, beside the look-up of every point.
-#include "cuts/direct_assignment.hpp"
-
 #include "../support/clouds.hpp"
+#include "passes/assignment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Cells that a search leaves out until it needs them, against a search of all points.
 #include "../support/clouds.hpp"
-#include "cells/sorted_points.hpp"
 #include "collective/butterfly.hpp"
+#include "passes/sorted_points.hpp"
 #include "search/tree_search.hpp"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #include "../support/partial_cuts.hpp"
 
 #include "../support/clouds.hpp"
-#include "cuts/direct_assignment.hpp"
 #include "cuts/packed_tree.hpp"
+#include "passes/assignment.hpp"
 
 #include <rrcb/error.hpp>
 

@@ -1,5 +1,5 @@
 #include "../support/clouds.hpp"
-#include "cells/sorted_points.hpp"
+#include "passes/sorted_points.hpp"
 
 #include <rrcb/eigen.hpp>
 #include <rrcb/error.hpp>

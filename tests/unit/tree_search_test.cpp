@@ -3,8 +3,8 @@
 
 #include "../support/clouds.hpp"
 #include "../support/virtual_owners.hpp"
-#include "cells/binned_points.hpp"
 #include "cuts/cut_limits.hpp"
+#include "passes/binned_points.hpp"
 
 #include <rrcb/plan.hpp>
 

@@ -3,8 +3,8 @@
 #include "arithmetic/mix.hpp"
 #include "arithmetic/non_stop.hpp"
 #include "arithmetic/vector_clones.hpp"
-#include "cells/point_layout.hpp"
 #include "collective/communicator.hpp"
+#include "passes/point_layout.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "arithmetic/running_sums.hpp"
-#include "cells/binned_points.hpp"
-#include "cells/cell_finder.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
+#include "passes/binned_points.hpp"
+#include "passes/cell_finder.hpp"
 
 #include <rrcb/method/moments.hpp>
 

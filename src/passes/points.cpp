@@ -1,8 +1,8 @@
 #include "arithmetic/non_stop.hpp"
 #include "arithmetic/vector_clones.hpp"
-#include "cells/box.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
+#include "passes/box.hpp"
 
 #include <algorithm>
 #include <cstring>

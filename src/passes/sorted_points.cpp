@@ -1,6 +1,6 @@
-#include "cells/sorted_points.hpp"
+#include "passes/sorted_points.hpp"
 
-#include "cells/cell_finder.hpp"
+#include "passes/cell_finder.hpp"
 
 #include <rrcb/cuts.hpp>
 

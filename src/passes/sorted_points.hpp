@@ -1,7 +1,7 @@
 #pragma once
 
 #include "arithmetic/uninitialized.hpp"
-#include "cells/binned_points.hpp"
+#include "passes/binned_points.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,18 +1,39 @@
-#include "cuts/direct_assignment.hpp"
+#include "passes/assignment.hpp"
 
 #include "arithmetic/non_stop.hpp"
 #include "arithmetic/running_sums.hpp"
+#include "arithmetic/vector_clones.hpp"
 #include "cuts/packed_tree.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
+#include "passes/point_layout.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 
 namespace rrcb {
 
 namespace {
+
+/// Copies a block of points; returns a number whose highest bit is 1 if a coordinate is not finite.
+template <class Layout>
+RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, LocalIndex length,
+                                            Columns& columns) {
+    constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
+    constexpr std::uint64_t lowest_of_exponent = std::uint64_t{1} << 52;
+    std::uint64_t carries = 0;
+    for (LocalIndex i = 0; i < length; ++i) {
+        for (int axis = 0; axis < Layout::dimension; ++axis) {
+            const double value = x(first + i, axis);
+            columns[axis][i] = value;
+            // Only the largest exponent, that of infinities and NaN, carries into the sign.
+            carries |= (std::bit_cast<std::uint64_t>(value) & magnitude) + lowest_of_exponent;
+        }
+    }
+    return carries;
+}
 
 /// Returns the box of points, without bounds if a coordinate is not finite.
 Box box_around(const Points& points) {

@@ -2,7 +2,7 @@
 
 #include "arithmetic/running_sums.hpp"
 #include "arithmetic/vector_clones.hpp"
-#include "cells/point_layout.hpp"
+#include "passes/point_layout.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 

@@ -1,8 +1,8 @@
-#include "cells/binned_points.hpp"
+#include "passes/binned_points.hpp"
 
 #include "arithmetic/running_sums.hpp"
 #include "arithmetic/safe_scale.hpp"
-#include "cells/cell_finder.hpp"
+#include "passes/cell_finder.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "cuts/periodic_images.hpp"
+#include "lists/periodic_images.hpp"
 
 #include "arithmetic/mix.hpp"
 #include "options/rejection.hpp"

@@ -17,7 +17,9 @@ enum class ErrorCode {
 
 /// The only exception of the library; its text names the place and the fix.
 ///
-/// From a collective function the same code and text reach every rank of the communicator.
+/// From a collective function the same code and text reach every rank of the communicator. Only if
+/// MPI itself fails, the state of the communicator is up to MPI: some ranks may get other texts, or
+/// none.
 class RRCB_API Error : public std::runtime_error {
   public:
     /// Makes an error.

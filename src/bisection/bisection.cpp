@@ -97,14 +97,16 @@ Bisection bisect_within(const Box& points, StatisticalDomain domain, const Optio
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes) {
     require(num_parts >= 1, "num_parts must be at least 1");
-    Options options;
-    options.num_parts = num_parts;
-    options.tree = TreeShape{};
-    options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
-    if (part_sizes.empty()) options.part_sizes.assign(num_parts, 1.0);
     check_dimension(domain.dimension, "the domain");
-    check_part_sizes(options, domain.dimension);
-    return bisect(std::move(domain), options, false);
+    return locally([&] {
+        Options options;
+        options.num_parts = num_parts;
+        options.tree = TreeShape{};
+        options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
+        if (part_sizes.empty()) options.part_sizes.assign(num_parts, 1.0);
+        check_part_sizes(options, domain.dimension);
+        return bisect(std::move(domain), options, false);
+    });
 }
 
 }  // namespace rrcb

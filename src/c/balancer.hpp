@@ -1,5 +1,6 @@
 #pragma once
 
+#include "collective/duplicate.hpp"
 #include "collective/failure.hpp"
 
 #include <rrcb/balance.hpp>
@@ -52,8 +53,10 @@ std::span<const T> view(const T* values, std::size_t count) {
     return values == nullptr ? std::span<const T>() : std::span(values, count);
 }
 
-/// Returns the communicator of a Fortran program's handle. MPI's standard ABI has no MPI_Comm_f2c.
+/// Returns the communicator of a Fortran program's handle; MPI_COMM_NULL while MPI is not running.
+/// MPI's standard ABI has no MPI_Comm_f2c.
 inline MPI_Comm comm_of(int comm) {
+    if (!mpi::is_running()) return MPI_COMM_NULL;
 #ifdef MPI_ABI_VERSION
     return MPI_Comm_fromint(comm);
 #else

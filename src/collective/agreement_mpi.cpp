@@ -3,11 +3,11 @@
 #include "collective/communicator.hpp"
 #include "collective/meeting_mpi.hpp"
 #include "collective/merge_tree.hpp"
+#include "options/rejection.hpp"
 
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <new>
 #include <string>
 
 namespace rrcb {
@@ -15,16 +15,6 @@ namespace rrcb {
 namespace {
 
 constexpr std::size_t most_shared = 12;
-
-/// Throws the same Error on all ranks, without the text on a rank that has no memory for it.
-template <class MakeText>
-[[noreturn]] void throw_alike(ErrorCode code, MakeText&& make_text) {
-    try {
-        throw Error(code, make_text());
-    } catch (const std::bad_alloc&) {
-        throw Error(code);
-    }
-}
 
 /// Returns the order in which failures are reported: first those that no other one caused.
 std::uint64_t order_of(const Participant& self) {
@@ -129,7 +119,7 @@ void refuse(const Shared& argument, Participant& self) {
     Ends ranks{here[0] == ends[0] ? rank : not_needed[0],
                here[1] == ends[1] ? rank : not_needed[1]};
     find_smallest(ranks, self.comm);
-    throw_alike(ErrorCode::invalid_argument, [&] {
+    throw_error(ErrorCode::invalid_argument, [&] {
         return difference(argument.name, argument.fix, static_cast<int>(ranks[0]),
                           static_cast<int>(ranks[1]));
     });
@@ -140,7 +130,7 @@ void fail_together(int failing_rank, Participant& self) {
     if (failing_rank == some_rank) return agree(self);
     Failure theirs = self.failure;
     mpi::check(MPI_Bcast(&theirs, sizeof theirs, MPI_BYTE, failing_rank, self.comm), "MPI_Bcast");
-    throw_alike(theirs.code,
+    throw_error(theirs.code,
                 [&] { return "rank " + std::to_string(failing_rank) + ": " + theirs.text.data(); });
 }
 

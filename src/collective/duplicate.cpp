@@ -93,6 +93,7 @@ Duplicate& make(MPI_Comm user, CallName call) {
 }
 
 Duplicate& find_or_make(MPI_Comm user, CallName call) {
+    check_is_running();
     if (user == MPI_COMM_NULL)
         throw Error(ErrorCode::invalid_argument,
                     "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
@@ -101,6 +102,20 @@ Duplicate& find_or_make(MPI_Comm user, CallName call) {
 }
 
 }  // namespace
+
+bool is_running() {
+    int has_begun = 0;
+    int has_ended = 0;
+    MPI_Initialized(&has_begun);
+    MPI_Finalized(&has_ended);
+    return has_begun != 0 && has_ended == 0;
+}
+
+void check_is_running() {
+    if (!is_running())
+        throw Error(ErrorCode::invalid_argument,
+                    "MPI is not running; call after MPI_Init and before MPI_Finalize");
+}
 
 const MPI_Comm* find_duplicate(MPI_Comm user) {
     const Duplicate* found = Attribute<Duplicate>::find(user);

@@ -18,8 +18,14 @@ Participant enter(MPI_Comm user, CallName call);
 ///
 /// Collective over `user` in the first call with it: one more reduction, so that all ranks throw
 /// the same Error if one of them fails; then nothing is kept. Throws Error on every rank, without a
-/// message, for MPI_COMM_NULL and intercommunicators.
+/// message, for MPI_COMM_NULL, intercommunicators, and outside of MPI_Init and MPI_Finalize.
 MPI_Comm duplicate_of(MPI_Comm user);
+
+/// Returns false before MPI_Init and after MPI_Finalize.
+bool is_running();
+
+/// Throws Error unless MPI is running.
+void check_is_running();
 
 /// Returns the duplicate kept with `user`, or null. Not collective.
 const MPI_Comm* find_duplicate(MPI_Comm user);

@@ -31,6 +31,13 @@ void join_messages(void* in, void* inout, int* count, MPI_Datatype* type) {
 
 }  // namespace
 
+Controller::State& Controller::State::of(const Controller& controller) {
+    if (controller.state_ == nullptr)
+        throw Error(ErrorCode::invalid_argument,
+                    "the controller was moved from; use the one that it was moved to");
+    return *controller.state_;
+}
+
 void Controller::State::open(MPI_Comm comm) {
     comm_ = comm;
     rank_ = mpi::rank_of(comm_);
@@ -45,8 +52,7 @@ void Controller::State::open(MPI_Comm comm) {
 }
 
 void Controller::State::check_usable() const {
-    if (log_->end != CallLog::End::none)
-        mpi::throw_end(log_->why + " (make another controller)");
+    if (log_->end != CallLog::End::none) mpi::throw_end(log_->why + " (make another controller)");
 }
 
 void Controller::State::begin_step(CallName call) {
@@ -163,6 +169,7 @@ void Controller::State::start(const RankLoad& load, std::span<const double> carr
 }
 
 void Controller::State::finish() {
+    mpi::check_is_running();
     is_due = false;
     if (!has_started_) return;
     mpi::check(wait_watched(request_, *log_), "MPI_Wait");
@@ -196,31 +203,33 @@ Controller& Controller::operator=(Controller&&) noexcept = default;
 
 bool Controller::step(double load) {
     const NonStop arithmetic;
-    state_->begin_step(CallName::controller_step);
-    state_->finish();
-    state_->start({load, load});
-    return state_->is_due;
+    State& state = State::of(*this);
+    state.begin_step(CallName::controller_step);
+    state.finish();
+    state.start({load, load});
+    return state.is_due;
 }
 
 bool Controller::step(double load, double points) {
     const NonStop arithmetic;
-    state_->begin_step(CallName::controller_step);
-    state_->finish();
+    State& state = State::of(*this);
+    state.begin_step(CallName::controller_step);
+    state.finish();
     const bool is_legal = is_amount(load) && is_amount(points);
-    state_->start({load, is_legal ? state_->point_cost.smoothed(load, points) : -1});
-    return state_->is_due;
+    state.start({load, is_legal ? state.point_cost.smoothed(load, points) : -1});
+    return state.is_due;
 }
 
 bool Controller::due() const {
-    return state_->is_due;
+    return State::of(*this).is_due;
 }
 
 void Controller::rebalanced(const Report& report, double cost) {
-    state_->report(cost, report.details.least_imbalance);
+    State::of(*this).report(cost, report.details.least_imbalance);
 }
 
 void Controller::rebalanced(double cost) {
-    state_->report(cost, 1);
+    State::of(*this).report(cost, 1);
 }
 
 }  // namespace rrcb

@@ -56,6 +56,9 @@ struct Controller::State {
     State& operator=(const State&) = delete;
     ~State();
 
+    /// Returns the state of a controller. Throws Error if it was moved from.
+    static State& of(const Controller& controller);
+
     /// Takes ownership of the communicator, even if it throws.
     void open(MPI_Comm comm);
     /// Notes a step. Throws Error if ranks have made different calls, or were missing.

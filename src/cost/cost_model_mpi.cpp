@@ -2,6 +2,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "controller/controller_state_mpi.hpp"
 #include "cost/cost_rule.hpp"
+#include "options/rejection.hpp"
 
 #include <rrcb/cost.hpp>
 #include <rrcb/error.hpp>
@@ -25,6 +26,26 @@ std::string percent(double share) {
     return text;
 }
 
+std::string report_of(const CostRule& rule) {
+    const std::string errors = percent(rule.learned_error()) + " of the mean, counting by " +
+                               percent(rule.counted_error());
+    switch (rule.state()) {
+        case CostState::learned:
+            return "learned costs are used: they miss the seconds of a rank by " + errors;
+        case CostState::no_better:
+            return "points are counted: learned costs miss the seconds of a rank by " + errors +
+                   ", which is too near";
+        case CostState::harmful:
+            return "points are counted: with learned costs the slowest rank took longer; they are "
+                   "tried again later";
+        case CostState::one_rank:
+            return "points are counted: there is one rank only";
+        case CostState::too_early:
+            break;
+    }
+    return "points are counted: too few steps were recorded";
+}
+
 void check_columns(int num_columns) {
     if (num_columns < 1 || num_columns > most_cost_columns)
         throw Error(ErrorCode::invalid_argument,
@@ -38,6 +59,14 @@ struct CostModel::State {
     Controller::State& reducer;
     CostRule rule;
     std::optional<Controller> own{};  ///< if the caller gave none
+
+    /// Returns the state of a model. Throws Error if it was moved from.
+    static State& of(const CostModel& model) {
+        if (model.state_ == nullptr)
+            throw Error(ErrorCode::invalid_argument,
+                        "the cost model was moved from; use the one that it was moved to");
+        return *model.state_;
+    }
 };
 
 CostModel::CostModel(MPI_Comm comm, int num_columns) {
@@ -47,7 +76,7 @@ CostModel::CostModel(MPI_Comm comm, int num_columns) {
 }
 
 CostModel::CostModel(Controller& controller, int num_columns) {
-    Controller::State& reducer = *controller.state_;
+    Controller::State& reducer = Controller::State::of(controller);
     Participant self = reducer.enter(CallName::cost_model);
     std::unique_ptr<StepMessage> message;
     self.attempt([&] {
@@ -66,7 +95,7 @@ CostModel& CostModel::operator=(CostModel&&) noexcept = default;
 
 void CostModel::step(double seconds, std::span<const double> columns) {
     const NonStop arithmetic;
-    auto& [reducer, rule, own] = *state_;
+    auto& [reducer, rule, own] = State::of(*this);
     reducer.begin_step(CallName::cost_model_step);
     reducer.finish();
     if (reducer.has_started()) {
@@ -83,50 +112,36 @@ void CostModel::step(double seconds, std::span<const double> columns) {
 }
 
 std::vector<double> CostModel::costs() const {
-    const CostVector& costs = state_->rule.costs();
-    return {costs.begin(), costs.end()};
+    const CostVector& costs = State::of(*this).rule.costs();
+    return locally([&] { return std::vector<double>(costs.begin(), costs.end()); });
 }
 
 bool CostModel::uses_costs() const {
-    return state_->rule.uses_costs();
+    return State::of(*this).rule.uses_costs();
 }
 
 std::vector<double> CostModel::weights(std::span<const double> columns) {
     const NonStop arithmetic;
-    CostRule& rule = state_->rule;
+    CostRule& rule = State::of(*this).rule;
     rule.divide();
     const std::size_t length = rule.num_columns();
-    if (columns.size() % length != 0)
-        throw Error(ErrorCode::invalid_argument, "columns has " + std::to_string(columns.size()) +
-                                                     " numbers; give a row for each point, of as "
-                                                     "many numbers as the model has columns, " +
-                                                     std::to_string(length));
-    std::vector<double> weights(columns.size() / length, 1.0);
-    if (!rule.uses_costs()) return weights;
-    for (std::size_t i = 0; i < weights.size(); ++i)
-        weights[i] = rule.weight(columns.subspan(i * length, length));
-    return weights;
+    return locally([&] {
+        if (columns.size() % length != 0)
+            throw Error(ErrorCode::invalid_argument,
+                        "columns has " + std::to_string(columns.size()) +
+                            " numbers; give a row for each point, of as many numbers as the model "
+                            "has columns, " +
+                            std::to_string(length));
+        std::vector<double> weights(columns.size() / length, 1.0);
+        if (!rule.uses_costs()) return weights;
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            weights[i] = rule.weight(columns.subspan(i * length, length));
+        return weights;
+    });
 }
 
 std::string CostModel::report() const {
-    const CostRule& rule = state_->rule;
-    const std::string errors = percent(rule.learned_error()) + " of the mean, counting by " +
-                               percent(rule.counted_error());
-    switch (rule.state()) {
-        case CostState::learned:
-            return "learned costs are used: they miss the seconds of a rank by " + errors;
-        case CostState::no_better:
-            return "points are counted: learned costs miss the seconds of a rank by " + errors +
-                   ", which is too near";
-        case CostState::harmful:
-            return "points are counted: with learned costs the slowest rank took longer; they are "
-                   "tried again later";
-        case CostState::one_rank:
-            return "points are counted: there is one rank only";
-        case CostState::too_early:
-            break;
-    }
-    return "points are counted: too few steps were recorded";
+    return locally([&] { return report_of(State::of(*this).rule); });
 }
 
 }  // namespace rrcb

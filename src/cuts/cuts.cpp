@@ -176,7 +176,9 @@ Box box_of(const Cuts& cuts, Part part) {
     return is_region_empty(cuts, end, region) ? Box{} : region;
 }
 
-std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
+namespace {
+
+std::vector<Part> parts_touching_sides(const Cuts& cuts, const Box& box) {
     check_shape(cuts);
     std::vector<Part> parts;
     for (int a = 0; a < cuts.dimension; ++a) {
@@ -190,6 +192,12 @@ std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
     number_parts(cuts, parts);
     if (cuts.shape.dealt != 0) std::ranges::sort(parts);
     return parts;
+}
+
+}  // namespace
+
+std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
+    return locally([&] { return parts_touching_sides(cuts, box); });
 }
 
 }  // namespace rrcb

@@ -48,7 +48,8 @@ double imbalance(std::span<const double> part_weights, std::span<const double> p
 std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
                                            std::span<const double> part_sizes) {
     check_part_sizes(part_weights, part_sizes);
-    std::vector<double> unbalance = ideal_weights(part_weights, part_sizes);
+    std::vector<double> unbalance =
+        locally([&] { return ideal_weights(part_weights, part_sizes); });
     for (std::size_t p = 0; p < unbalance.size(); ++p) {
         const double ideal = unbalance[p];
         unbalance[p] = ideal > 0 ? (ideal - part_weights[p]) / ideal * 100 : 0;

@@ -1,6 +1,7 @@
 #include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
+#include "collective/failure.hpp"
 #include "cuts/cut_limits.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
@@ -85,14 +86,16 @@ Bisection bisect_points(std::vector<MassPoint> points, int dimension, int num_pa
                         std::span<const double> part_sizes, CutRule rule, bool plain_cuts) {
     require(num_parts >= 1, "num_parts must be at least 1");
     check_dimension(dimension, "the points");
-    check_sizes(num_parts, part_sizes);
-    std::vector<double> sizes(part_sizes.begin(), part_sizes.end());
-    if (sizes.empty()) sizes.assign(num_parts, 1.0);
-    PointTask task{rule, plain_cuts, {}};
-    task.result.cuts.dimension = dimension;
-    task.result.cuts.num_parts = num_parts;
-    bisect_node(points, sizes, task);
-    return std::move(task.result);
+    return locally([&] {
+        check_sizes(num_parts, part_sizes);
+        std::vector<double> sizes(part_sizes.begin(), part_sizes.end());
+        if (sizes.empty()) sizes.assign(num_parts, 1.0);
+        PointTask task{rule, plain_cuts, {}};
+        task.result.cuts.dimension = dimension;
+        task.result.cuts.num_parts = num_parts;
+        bisect_node(points, sizes, task);
+        return std::move(task.result);
+    });
 }
 
 }  // namespace rrcb

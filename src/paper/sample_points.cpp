@@ -1,4 +1,5 @@
 #include "bisection/patches.hpp"
+#include "collective/failure.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 #include "paper/point_selection.hpp"
@@ -67,10 +68,12 @@ std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dim
     const auto num_samples =
         std::max(GlobalCount{1}, static_cast<GlobalCount>(std::llround(
                                      options.sample_fraction * static_cast<double>(num_points))));
-    const std::vector<GlobalCount> shares = apportion(weights_of(cells), num_samples);
-    std::mt19937_64 engine(options.seed);
     std::vector<MassPoint> points;
-    points.reserve(num_samples);
+    const std::vector<GlobalCount> shares = locally([&] {
+        points.reserve(num_samples);
+        return apportion(weights_of(cells), num_samples);
+    });
+    std::mt19937_64 engine(options.seed);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Box box = sampling_box(cells[i].moments, options.sigma_multiplier);
         for (GlobalCount k = 0; k < shares[i]; ++k) {
@@ -86,7 +89,7 @@ std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dim
 std::vector<MassPoint> mass_points(const Points& points) {
     check_arrays(points);
     std::vector<MassPoint> masses;
-    masses.reserve(points.count);
+    locally([&] { masses.reserve(points.count); });
     const bool weightless = std::ranges::all_of(points.weights, [](double w) { return w == 0; });
     for (LocalIndex i = 0; i < points.count; ++i)
         masses.push_back({points.position(i), weightless ? 1.0 : points.weight(i)});

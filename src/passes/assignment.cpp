@@ -113,7 +113,7 @@ bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts)
 void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     check_positions(points, cuts);
     require(parts.size() == points.count, "parts must have one entry per point");
-    if (!assign_known(cuts, points, parts)) reject_coordinates(points);
+    if (!locally([&] { return assign_known(cuts, points, parts); })) reject_coordinates(points);
     if (!is_whole(cuts) && std::ranges::any_of(parts, is_unknown)) reject_unknown();
     number_parts(cuts, parts);
 }

@@ -187,7 +187,7 @@ std::vector<CellMoments> cell_moments(const BinnedPoints& binned) {
 std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh) {
     check_arrays(points);
     require(points.dimension == mesh.dimension, "the mesh must have the dimension of the points");
-    return cell_moments(bin_by_cell(points, mesh));
+    return locally([&] { return cell_moments(bin_by_cell(points, mesh)); });
 }
 
 }  // namespace rrcb

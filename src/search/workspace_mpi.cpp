@@ -21,6 +21,7 @@ void release_buffers(MPI_Comm comm) {
     if (comm == MPI_COMM_NULL)
         throw Error(ErrorCode::invalid_argument,
                     "MPI_COMM_NULL keeps no buffers; give the communicator of the calls");
+    mpi::check_is_running();
     const MPI_Comm* duplicate = mpi::find_duplicate(comm);
     if (duplicate != nullptr && Kept::find(*duplicate) != nullptr)
         mpi::check(Kept::forget(*duplicate), "MPI_Comm_delete_attr");

@@ -281,6 +281,46 @@ TEST(FailingMemory, in_a_cost_model_whose_controller_goes_on) {
     });
 }
 
+/// Fails each allocation of a call that is not collective; nothing but Error may leave it.
+template <class Call>
+void fail_locally(const char* name, Call&& call) {
+    SCOPED_TRACE(name);
+    for (const auto shortage : {memory_layer::Shortage::once, memory_layer::Shortage::lasting}) {
+        int code = !ok;
+        for (long number = 1; code != ok; ++number) {
+            memory_layer::fail_allocation(number, shortage);
+            code = code_of(call);
+            memory_layer::fail_allocation(0);
+            if (code != ok) EXPECT_EQ(code, static_cast<int>(ErrorCode::out_of_memory)) << number;
+        }
+        EXPECT_EQ(code_of(call), ok);
+    }
+}
+
+TEST(FailingMemory, in_functions_of_one_rank) {
+    CostModel model(MPI_COMM_WORLD, 2);
+    const std::vector<double> coordinates = cloud_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    const Cuts cuts = balance(points, refining(Refine::exact), MPI_COMM_WORLD).cuts;
+    const Box box = bounding_box(points);
+    const SupportMesh mesh = make_support_mesh(box, 2, 4);
+    const std::vector<CellMoments> cells = cell_moments(points, mesh);
+    const StatisticalDomain domain = analytic_domain(cells, 2, box);
+    std::vector<Part> parts(points.count);
+    fail_locally("weights", [&] { (void)model.weights(coordinates); });
+    fail_locally("costs", [&] { (void)model.costs(); });
+    fail_locally("report", [&] { (void)model.report(); });
+    fail_locally("assign", [&] { assign(cuts, points, parts); });
+    fail_locally("parts_touching", [&] { (void)parts_touching(cuts, box); });
+    fail_locally("load_unbalance_percent", [&] { (void)load_unbalance_percent(coordinates); });
+    fail_locally("cell_moments", [&] { (void)cell_moments(points, mesh); });
+    fail_locally("analytic_domain", [&] { (void)analytic_domain(cells, 2, box); });
+    fail_locally("bisect", [&] { (void)bisect(StatisticalDomain{}, 5); });
+    fail_locally("mass_points", [&] { (void)mass_points(points); });
+    fail_locally("sample_points", [&] { (void)sample_points(cells, 2, {}); });
+    fail_locally("bisect_points", [&] { (void)bisect_points({}, 2, 5); });
+}
+
 TEST(FailingMemory, in_handles_of_c) {
     rrcb_controller* controller = nullptr;
     rrcb_cost_model* model = nullptr;

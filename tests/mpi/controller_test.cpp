@@ -2,15 +2,18 @@
 #include "ranks.hpp"
 
 #include <rrcb/controller.hpp>
+#include <rrcb/cost.hpp>
 #include <rrcb/error.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -200,6 +203,31 @@ TEST(Controller, decides_alike_for_loads_of_any_unit) {
         }
         EXPECT_EQ(found, steps);
     }
+}
+
+TEST(Controller, that_was_moved_from_throws) {
+    Controller old(MPI_COMM_WORLD);
+    Controller controller(std::move(old));
+    const std::string text = "the controller was moved from; use the one that it was moved to";
+    const std::vector<std::function<void()>> calls = {
+        [&] { old.step(1); },
+        [&] { old.step(1, 1); },
+        [&] { (void)old.due(); },
+        [&] { old.rebalanced(1); },
+        [&] { old.rebalanced(Report{}, 1); },
+        [&] { CostModel model(old, 2); },
+    };
+    for (const auto& call : calls) {
+        try {
+            call();
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+            EXPECT_EQ(error.what(), text);
+        }
+    }
+    old = std::move(controller);
+    EXPECT_FALSE(old.step(1));
 }
 
 TEST(Controller, may_be_forgotten_until_after_the_end_of_mpi) {

@@ -173,6 +173,18 @@ TEST(CostModel, may_outlive_the_communicator_and_be_moved) {
     record(second, 1);
 }
 
+TEST(CostModel, that_was_moved_from_throws) {
+    CostModel old(MPI_COMM_WORLD, 2);
+    const CostModel model(std::move(old));
+    const std::vector<double> columns{1, 1};
+    const char* text = "the cost model was moved from; use the one that it was moved to";
+    expect_same_error([&] { old.step(1, columns); }, text);
+    expect_same_error([&] { (void)old.weights(columns); }, text);
+    expect_same_error([&] { (void)old.costs(); }, text);
+    expect_same_error([&] { (void)old.uses_costs(); }, text);
+    expect_same_error([&] { (void)old.report(); }, text);
+}
+
 // Ends after MPI has.
 std::optional<CostModel> left_over;
 

@@ -36,15 +36,25 @@ CostRule::CostRule(int num_columns, int rank, int num_ranks)
       rank_(rank),
       num_ranks_(num_ranks),
       sums_(head_size + static_cast<std::size_t>(num_columns * (num_columns + 2) + 1)),
+      seen_(CostVector::Zero(num_columns)),
+      known_(seen_),
       columns_(CostVector::Zero(num_columns)),
       all_(num_columns),
       guard_(num_ranks),
       costs_(CostVector::Zero(num_columns)),
       state_(guard_.state()) {}
 
+/// Returns false if a column was 0, or nearly, in the steps that the costs rest on: its cost cannot
+/// be predicted, so seconds beyond the prediction are no outlier.
+bool CostRule::knows_columns() const {
+    for (Eigen::Index j = 0; j < num_columns_; ++j)
+        if (columns_[j] * columns_[j] > known_[j]) return false;
+    return true;
+}
+
 /// Returns seconds, moved towards the prediction so that a single stall does not spoil the fit.
 double CostRule::without_outlier(double seconds) const {
-    if (scatter_ < 0) return seconds;
+    if (scatter_ < 0 || !knows_columns()) return seconds;
     const double reach = std::max(usual * scatter_, least_reach) * mean_;
     return std::clamp(seconds, learned_ - reach, learned_ + reach);
 }
@@ -62,7 +72,7 @@ std::span<const double> CostRule::hand_in(double seconds, std::span<const double
     sums_[learned_square] = learned_square_;
     sums_[counted_square] = counted_square_;
     sums_[between_square] = between_square_;
-    const double cut = kept_seconds_ - learned_;
+    const double cut = knows_columns() ? kept_seconds_ - learned_ : 0;
     sums_[cut_square] = mean_ > 0 ? cut * cut / (mean_ * mean_) : 0;
     sums_[state_of_root] = is_root ? static_cast<double>(guard_.state()) : 0;
     sums_[learned_of_root] = is_root ? guard_.learned_error() : 0;
@@ -89,6 +99,9 @@ void CostRule::take(std::span<const double> all) {
     counted_error_ = all[counted_of_root];
     std::copy_n(all.end() - 1 - num_columns_, num_columns_, costs_.begin());
     note_errors(all);
+    known_ = seen_;
+    for (Eigen::Index j = 0; j < num_columns_; ++j)
+        seen_[j] = forgetting * seen_[j] + all[head_size + j * (num_columns_ + 2) + 1];
     if (rank_ == 0) learn(all);
     mean_ = mean;
 }

@@ -44,12 +44,15 @@ class CostRule {
     void note_errors(std::span<const double> all);
     void learn(std::span<const double> all);
     double without_outlier(double seconds) const;
+    bool knows_columns() const;
 
     Eigen::Index num_columns_;
     int rank_;
     int num_ranks_;
     std::vector<double> sums_;
 
+    CostVector seen_;     ///< sums of squared columns of all ranks, with forgetting
+    CostVector known_;    ///< those that the costs rest on
     CostVector columns_;  ///< of the last step, as are the next three
     double seconds_ = 0;
     double learned_ = 0;  ///< predicted seconds

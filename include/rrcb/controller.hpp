@@ -50,13 +50,14 @@ class Controller {
 
     /// Records a step and smooths the load; returns due(). Prefer it for measured loads.
     ///
-    ///     if (controller.step(seconds_of_work, points.count)) rebalance();  // your function
+    ///     if (controller.step(seconds_of_work, sum_of_weights)) rebalance();  // your function
     ///
-    /// Collective, and throws, as step(load). The load is taken as `points` times the average cost
-    /// of a point on this rank, so the noise of a clock is not mistaken for imbalance.
+    /// Collective, and throws, as step(load). The load is taken as `weight` times the average cost
+    /// of a unit of it on this rank, so the noise of a clock is not mistaken for imbalance.
     /// @param load   of this rank's own work, finite and not negative, in the unit of the costs
-    /// @param points number of points of this rank, or the sum of their weights, as balanced
-    RRCB_API bool step(double load, double points);
+    /// @param weight of this rank's points: the sum of the weights given to balance(); their number
+    /// only if it got none. If their number is given nevertheless, `load` is not smoothed
+    RRCB_API bool step(double load, double weight);
 
     /// Returns whether to rebalance before the next step, by the latest step(); false after
     /// rebalanced(). The same on every rank. Not collective.

@@ -86,18 +86,18 @@ class Controller(Owner):
         c.call("controller_due", self._own, due)
         return bool(due.value)
 
-    def step(self, load: float, points: float | None = None) -> bool:
+    def step(self, load: float, weight: float | None = None) -> bool:
         """Records a step that took this rank `load` of its own work; returns `due`. Collective.
 
-        `points` is the number of points of this rank or the sum of their weights; give it with
-        measured loads. An illegal number raises Error on every rank, one call later.
+        `weight` is the sum of the weights balanced by of this rank's points, without weights
+        their number; give it with measured loads. An illegal number raises Error on every rank, one call later.
         """
         communicator(self._comm)
         due = ctypes.c_int()
-        if points is None:
+        if weight is None:
             c.call("controller_step", self._own, number(load), due)
         else:
-            c.call("controller_step_points", self._own, number(load), number(points), due)
+            c.call("controller_step_weight", self._own, number(load), number(weight), due)
         return bool(due.value)
 
     def rebalanced(self, balance: Balance | None, cost: float) -> None:

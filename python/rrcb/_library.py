@@ -184,7 +184,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "ghosts_apply_shifts": (c_void_p, c_int, c_size_t, Address),
     "controller_create_fortran": (c_int, HANDLE),
     "controller_step": (c_void_p, c_double, POINTER(c_int)),
-    "controller_step_points": (c_void_p, c_double, c_double, POINTER(c_int)),
+    "controller_step_weight": (c_void_p, c_double, c_double, POINTER(c_int)),
     "controller_due": (c_void_p, POINTER(c_int)),
     "controller_rebalanced": (c_void_p, POINTER(Report), c_double),
     "cost_model_create_fortran": (c_int, HANDLE, c_int, HANDLE),

@@ -81,8 +81,8 @@ int rrcb_controller_step(rrcb_controller* controller, double load, int* due) {
     return guarded(controller, [&](auto& own) { store(own.controller->step(load), due); });
 }
 
-int rrcb_controller_step_points(rrcb_controller* controller, double load, double points, int* due) {
-    return guarded(controller, [&](auto& own) { store(own.controller->step(load, points), due); });
+int rrcb_controller_step_weight(rrcb_controller* controller, double load, double weight, int* due) {
+    return guarded(controller, [&](auto& own) { store(own.controller->step(load, weight), due); });
 }
 
 int rrcb_controller_due(const rrcb_controller* controller, int* due) {
@@ -93,7 +93,12 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
                                double cost) {
     return guarded(controller, [&](auto& own) {
         rrcb::Report known;
-        if (report != nullptr) known.details.least_imbalance = report->least_imbalance;
+        if (report != nullptr) {
+            known.details.least_imbalance = report->least_imbalance;
+            known.details.num_points = report->num_points;
+            known.details.total_weight = report->total_weight;
+            known.details.all_weights_zero = report->all_weights_zero != 0;
+        }
         own.controller->rebalanced(known, cost);
     });
 }

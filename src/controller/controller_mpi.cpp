@@ -9,6 +9,7 @@
 #include <rrcb/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rrcb {
@@ -105,10 +106,12 @@ void Controller::State::change_weights() {
     point_cost = {};
 }
 
-void Controller::State::report(double cost, double least) {
+void Controller::State::report(double cost, const ReportDetails& details) {
     cost_ += cost;
     has_bad_cost_ = has_bad_cost_ || !is_amount(cost) || !is_amount(cost_);
-    least_imbalance_ = least;
+    least_imbalance_ = details.least_imbalance;
+    num_points_ = static_cast<double>(details.num_points);
+    total_weight_ = details.all_weights_zero ? num_points_ : details.total_weight;
     ++num_rebalances_;
     is_due = false;
 }
@@ -121,6 +124,7 @@ StepRecord Controller::State::hand_in(const RankLoad& load, BadInput fault) {
     StepRecord mine;
     mine.work = has_bad_load ? 0 : load.measured / num_ranks_;
     mine.mean_load = has_bad_load ? 0 : load.smoothed / num_ranks_;
+    mine.weight = has_bad_load ? 0 : load.weight / num_ranks_;
     mine.heaviest_load = has_bad_load ? 0 : load.smoothed;
     mine.cost = has_bad_cost_ ? 0 : cost_;
     mine.least_imbalance = least_imbalance_;
@@ -139,6 +143,9 @@ void Controller::State::take(const StepRecord& all) {
     // A decision is out of date if the ranks have rebalanced since.
     is_due = all.is_due > 0 && all.num_rebalances == num_heeded_;
     num_heeded_ = all.num_rebalances;
+    // Points may have come or gone since the balance.
+    const double counted = std::abs(all.weight - num_points_ / num_ranks_);
+    counts_points = counted < 0.1 * std::abs(all.weight - total_weight_ / num_ranks_);
     if (rank_ == root) follow(all);
 }
 
@@ -210,13 +217,15 @@ bool Controller::step(double load) {
     return state.is_due;
 }
 
-bool Controller::step(double load, double points) {
+bool Controller::step(double load, double weight) {
     const NonStop arithmetic;
     State& state = State::of(*this);
     state.begin_step(CallName::controller_step);
     state.finish();
-    const bool is_legal = is_amount(load) && is_amount(points);
-    state.start({load, is_legal ? state.point_cost.smoothed(load, points) : -1});
+    const bool is_legal = is_amount(load) && is_amount(weight);
+    double smoothed = is_legal ? state.point_cost.smoothed(load, weight) : -1;
+    if (is_legal && state.counts_points) smoothed = load;
+    state.start({load, smoothed, weight});
     return state.is_due;
 }
 
@@ -225,11 +234,11 @@ bool Controller::due() const {
 }
 
 void Controller::rebalanced(const Report& report, double cost) {
-    State::of(*this).report(cost, report.details.least_imbalance);
+    State::of(*this).report(cost, report.details);
 }
 
 void Controller::rebalanced(double cost) {
-    State::of(*this).report(cost, 1);
+    State::of(*this).report(cost, {});
 }
 
 }  // namespace rrcb

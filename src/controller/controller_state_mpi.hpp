@@ -20,6 +20,7 @@ namespace rrcb {
 struct RankLoad {
     double measured = 0;
     double smoothed = 0;
+    double weight = 0;  ///< given by the caller; 0 if none was
 };
 
 /// Record of a rank's step, the sums that it carries, and the result of all ranks.
@@ -90,10 +91,11 @@ struct Controller::State {
     /// Takes the joined steps of all ranks. Throws the same Error on each.
     void take(const StepRecord& all);
 
-    void report(double cost, double least);
+    void report(double cost, const ReportDetails& details);
 
     PointCost point_cost;
-    bool is_due = false;  ///< on every rank
+    bool counts_points = false;  ///< the caller gives numbers although weights were balanced
+    bool is_due = false;         ///< on every rank
 
   private:
     void check_usable() const;
@@ -115,6 +117,8 @@ struct Controller::State {
     double cost_ = 0;  ///< of the rebalances since the last step
     bool has_bad_cost_ = false;
     double least_imbalance_ = 1;
+    double num_points_ = 0;  ///< of the last balance, as is the next
+    double total_weight_ = 0;
     double num_rebalances_ = 0;
 
     double num_heeded_ = 0;    ///< rebalances known to the latest decision, on all ranks

@@ -34,6 +34,7 @@ double code_of(int rank, BadInput input) {
 void join(const StepRecord& theirs, StepRecord& ours) {
     ours.work += theirs.work;
     ours.mean_load += theirs.mean_load;
+    ours.weight += theirs.weight;
     for (double StepRecord::*field :
          {&StepRecord::heaviest_load, &StepRecord::cost, &StepRecord::least_imbalance,
           &StepRecord::is_due, &StepRecord::bad_input, &StepRecord::num_rebalances,

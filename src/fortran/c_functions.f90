@@ -265,11 +265,11 @@ module rrcb_c_functions
       real(c_double), value :: load
       integer(c_int), intent(inout) :: due
     end function
-    integer(c_int) function c_controller_step_points(handle, load, points, due) &
-      bind(c, name="rrcb_controller_step_points")
+    integer(c_int) function c_controller_step_weight(handle, load, weight, due) &
+      bind(c, name="rrcb_controller_step_weight")
       import
       type(c_ptr), value :: handle
-      real(c_double), value :: load, points
+      real(c_double), value :: load, weight
       integer(c_int), intent(inout) :: due
     end function
     integer(c_int) function c_controller_rebalanced(handle, report, cost) &

@@ -86,15 +86,16 @@ contains
 
   !> Records a step. Collective.
   !> @param load   of this rank's own work, without waiting
-  !> @param points of this rank, or the sum of their weights; with them the load is smoothed
-  subroutine controller_step(self, load, error, points)
+  !> @param weight of this rank's points: the sum of the weights balanced by, their number only
+  !> without weights; smooths the load
+  subroutine controller_step(self, load, error, weight)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: load
     integer, intent(out), optional :: error
-    real(c_double), intent(in), optional :: points
+    real(c_double), intent(in), optional :: weight
     integer(c_int) :: due
-    if (present(points)) then
-      call settle(c_controller_step_points(self%handle, load, points, due), error)
+    if (present(weight)) then
+      call settle(c_controller_step_weight(self%handle, load, weight, due), error)
     else
       call settle(c_controller_step(self%handle, load, due), error)
     end if

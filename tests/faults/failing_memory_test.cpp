@@ -291,7 +291,8 @@ void fail_locally(const char* name, Call&& call) {
             memory_layer::fail_allocation(number, shortage);
             code = code_of(call);
             memory_layer::fail_allocation(0);
-            if (code != ok) EXPECT_EQ(code, static_cast<int>(ErrorCode::out_of_memory)) << number;
+            if (code == ok) continue;
+            EXPECT_EQ(code, static_cast<int>(ErrorCode::out_of_memory)) << number;
         }
         EXPECT_EQ(code_of(call), ok);
     }
@@ -315,7 +316,7 @@ TEST(FailingMemory, in_functions_of_one_rank) {
     fail_locally("load_unbalance_percent", [&] { (void)load_unbalance_percent(coordinates); });
     fail_locally("cell_moments", [&] { (void)cell_moments(points, mesh); });
     fail_locally("analytic_domain", [&] { (void)analytic_domain(cells, 2, box); });
-    fail_locally("bisect", [&] { (void)bisect(StatisticalDomain{}, 5); });
+    fail_locally("bisect", [&] { (void)bisect(domain, 5, {}); });
     fail_locally("mass_points", [&] { (void)mass_points(points); });
     fail_locally("sample_points", [&] { (void)sample_points(cells, 2, {}); });
     fail_locally("bisect_points", [&] { (void)bisect_points({}, 2, 5); });

@@ -336,7 +336,7 @@ program module_test
 
   call controller%create(MPI_COMM_WORLD, error)
   call controller%step(1.0_c_double, error)
-  call controller%step(1.0_c_double, error, points=10.0_c_double)
+  call controller%step(1.0_c_double, error, weight=10.0_c_double)
   call expect(error == rrcb_ok .and. .not. controller%due(), "step of the controller")
   call controller%destroy()
   call MPI_Finalize(error)

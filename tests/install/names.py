@@ -45,11 +45,11 @@ ONLY_C = {
     "rrcb_ghosts_get_plan", "rrcb_groups_destroy",
     "rrcb_groups_fetch",  # an overload
     "rrcb_last_error",  # the text of an Error
-    "rrcb_controller_step_points",  # an overload
+    "rrcb_controller_step_weight",  # an overload
 }
 # Functions in C that are no procedure of their own in Fortran.
 NOT_FORTRAN = {
-    "rrcb_controller_step_points": "an optional argument of step",
+    "rrcb_controller_step_weight": "an optional argument of step",
 }
 # Functions in C that Fortran does not call, but has as its own.
 OWN_OF_FORTRAN = {"rrcb_interleaved_points", "rrcb_column_points"}

@@ -411,7 +411,7 @@ TEST(CController, decides_as_the_controller_in_cpp) {
         int due = -1;
         int still_due = -1;
         EXPECT_EQ(step < 20 ? rrcb_controller_step(controller, load, &due)
-                            : rrcb_controller_step_points(controller, load, 1, &due),
+                            : rrcb_controller_step_weight(controller, load, 1, &due),
                   RRCB_OK);
         EXPECT_EQ(rrcb_controller_due(controller, &still_due), RRCB_OK);
         EXPECT_EQ(due, still_due);

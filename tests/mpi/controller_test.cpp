@@ -205,6 +205,20 @@ TEST(Controller, decides_alike_for_loads_of_any_unit) {
     }
 }
 
+// Points of other weights cost other times, so a number of points smooths the imbalance away.
+TEST(Controller, takes_no_number_of_points_for_a_sum_of_weights) {
+    if (num_ranks() == 1) GTEST_SKIP() << "nothing is due";
+    Report report;
+    report.details.num_points = 100 * num_ranks();
+    report.details.total_weight = 250.0 * num_ranks();
+    Controller counting(MPI_COMM_WORLD);
+    Controller plain(MPI_COMM_WORLD);
+    counting.rebalanced(report, 0.5);
+    plain.rebalanced(report, 0.5);
+    for (int step = 0; step < 21; ++step)
+        EXPECT_EQ(counting.step(drifting_load(step), 100), plain.step(drifting_load(step))) << step;
+}
+
 TEST(Controller, that_was_moved_from_throws) {
     Controller old(MPI_COMM_WORLD);
     Controller controller(std::move(old));

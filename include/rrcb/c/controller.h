@@ -39,9 +39,10 @@ RRCB_API int rrcb_controller_step(rrcb_controller* controller, double load, int*
  *
  * @param controller of this loop
  * @param load       as for rrcb_controller_step
- * @param points     number of points of this rank, or the sum of their weights
+ * @param weight     of this rank's points: the sum of the weights balanced by; their number only
+ * without weights
  * @param due        as for rrcb_controller_step */
-RRCB_API int rrcb_controller_step_points(rrcb_controller* controller, double load, double points,
+RRCB_API int rrcb_controller_step_weight(rrcb_controller* controller, double load, double weight,
                                          int* due);
 
 /** Writes whether a rebalance is due before the next step. Not collective.

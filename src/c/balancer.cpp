@@ -166,6 +166,7 @@ int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts) {
     return guarded(balancer, [&](auto& own) {
         require(cuts, "cuts");
         own.cuts = rrcb::c::copy_of(*cuts);
+        own.least_count = rrcb_balancer::no_count;
     });
 }
 
@@ -177,6 +178,7 @@ int rrcb_part_of(const rrcb_balancer* balancer, const double* position, int32_t*
         rrcb::Vector at{};
         std::copy_n(position, own.cuts.dimension, at.begin());
         *part = rrcb::part_of(own.cuts, at);
+        own.lower_count(0);
     });
 }
 
@@ -186,6 +188,7 @@ int rrcb_assign(const rrcb_balancer* balancer, const rrcb_points* points, int32_
         const rrcb::Points positions = rrcb::c::points_of(points);
         rrcb::c::require_array(positions.count, parts, "parts");
         rrcb::assign(own.cuts, positions, {parts, positions.count});
+        own.lower_count(positions.count);
     });
 }
 

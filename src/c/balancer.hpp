@@ -9,6 +9,9 @@
 
 #include <mpi.h>
 
+#include <atomic>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,9 +21,18 @@ struct rrcb_balancer {
     static constexpr const char* name = "balancer";
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::Options options{};
-    rrcb::Cuts cuts{};
+    mutable rrcb::Cuts cuts{};  ///< rrcb_assign_all notes its points
     std::optional<rrcb::Report> report{};
     std::optional<rrcb::Plan> plan{};
+    /// Least count of the balance and of the look-ups after it: a plan of fewer points loses some.
+    mutable std::atomic<std::size_t> least_count{no_count};
+    static constexpr std::size_t no_count = std::numeric_limits<std::size_t>::max();
+
+    void lower_count(std::size_t count) const {
+        std::size_t least = least_count;
+        while (count < least && !least_count.compare_exchange_weak(least, count)) {
+        }
+    }
 };
 
 namespace rrcb::c {

@@ -27,6 +27,7 @@ void balance(const rrcb_points* given, const Cuts* previous, int32_t* parts, rrc
     std::ranges::copy(made.parts, parts);
     own.cuts = std::move(made.cuts);
     own.report = std::move(made.report);
+    own.least_count = points.count;
     workspace->result = std::move(made.parts);
 }
 
@@ -82,5 +83,6 @@ int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, in
                 rrcb::c::require_array(positions.count, parts, "parts");
             });
             std::ranges::copy(rrcb::assign_all(own.cuts, positions, self), parts);
+            own.lower_count(positions.count);
         });
 }

@@ -2,8 +2,10 @@
 #include "c/handle_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/remap_mpi.hpp"
+#include "options/rejection.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace rrcb::c {
 
@@ -16,6 +18,14 @@ std::vector<RankRange> ranks_of_parts(const rrcb_rank_range* given, int num_part
         ranks.push_back(given == nullptr ? ranks_of_part(part, num_parts, num_ranks)
                                          : RankRange{given[part].first_rank, given[part].count});
     return ranks;
+}
+
+/// Throws Error for fewer points than were balanced or assigned.
+void require_all(const rrcb_balancer& own, std::size_t count) {
+    const std::size_t least = own.least_count;
+    if (least != rrcb_balancer::no_count && count < least)
+        reject("count is " + std::to_string(count) + ", but " + std::to_string(least) +
+               " points were balanced or assigned; give the parts of all of them");
 }
 
 }  // namespace
@@ -41,6 +51,7 @@ int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) 
         self.attempt([&] {
             rrcb::c::require_cuts(own);
             require_array(count, parts, "parts");
+            rrcb::c::require_all(own, count);
         });
         own.plan = rrcb::plan(rrcb::c::view(parts, count), own.cuts.num_parts, self);
     });
@@ -54,6 +65,7 @@ int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column
         const rrcb::Plan& plan = own.plan ? *own.plan : none;
         const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
         call.move_by(plan, plan.num_points, rrcb::c::num_points_after(plan), self);
+        own.lower_count(rrcb::c::num_points_after(plan));
     });
 }
 

@@ -246,7 +246,8 @@ contains
     call settle(code, error)
   end subroutine
 
-  !> Makes the plan of a move into the parts given, one for each point. Collective.
+  !> Makes the plan of a move into the parts given, one for each point. Refuses fewer than were
+  !> balanced, or assigned since. Collective.
   subroutine make_plan(self, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     integer(c_int32_t), intent(in), contiguous :: parts(:)

@@ -222,6 +222,25 @@ TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     EXPECT_LE(report.peak_bytes, limits.bytes);
 }
 
+TEST_F(CInterface, refuses_a_plan_of_fewer_points_than_were_balanced) {
+    const Cloud cloud(2);
+    ASSERT_EQ(balance(cloud), RRCB_OK);
+    const auto plan_of_first = [&](std::size_t count_on_first) {
+        return rrcb_make_plan(balancer, rank() == 0 ? count_on_first : cloud.count(), parts.data());
+    };
+    expect_error_everywhere(plan_of_first(1), RRCB_INVALID_ARGUMENT,
+                            "rank 0: count is 1, but 300 points were balanced");
+    EXPECT_EQ(plan_of_first(300), RRCB_OK);
+    // Of points that have moved since, there may be fewer.
+    rrcb_points points = cloud.in_c();
+    if (rank() == 0) points.count = 1;
+    ASSERT_EQ(rrcb_assign_all(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
+    EXPECT_EQ(plan_of_first(1), RRCB_OK) << rrcb_last_error();
+    ASSERT_EQ(balance(cloud), RRCB_OK);
+    ASSERT_EQ(rrcb_assign(balancer, &points, parts.data()), RRCB_OK);
+    EXPECT_EQ(plan_of_first(1), RRCB_OK) << rrcb_last_error();
+}
+
 TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     Cloud cloud(2);
     cloud.coordinates.insert(cloud.coordinates.end(), {0.5, 0.5});

@@ -167,7 +167,7 @@ RRCB_API int rrcb_parts_touching(const rrcb_balancer* balancer, const double* lo
  * Collective.
  *
  * @param balancer with the cuts of the parts; gets the plan
- * @param count    points of this rank
+ * @param count    points of this rank, not fewer than were balanced, or assigned since
  * @param parts    the new part of each */
 RRCB_API int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
 

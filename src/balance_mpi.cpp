@@ -309,9 +309,13 @@ Ranks ranks_of(Participant& self) {
 
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self, std::vector<Part> memory) {
-    return previous
-               ? balance_from_earlier(points, options, *previous, may_keep, self, std::move(memory))
-               : balance_from_scratch(points, options, may_keep, self, std::move(memory));
+    Balance result =
+        previous
+            ? balance_from_earlier(points, options, *previous, may_keep, self, std::move(memory))
+            : balance_from_scratch(points, options, may_keep, self, std::move(memory));
+    result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;
+    result.cuts.points = hash_of(points);
+    return result;
 }
 
 namespace {

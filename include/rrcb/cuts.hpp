@@ -30,7 +30,8 @@ struct Cut {
 /// @param dimension of the points, 1 to 3
 RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 
-/// The tree of a recursive bisection into `num_parts` parts; bit-identical on every rank.
+/// The tree of a recursive bisection into `num_parts` parts; bit-identical on every rank, except
+/// `points`.
 ///
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves shape.lower_parts(n) of
 /// them below its cut. End k of the tree, from the lowest, is part shape.part_at(k, num_parts): k
@@ -48,6 +49,11 @@ struct Cuts {
     /// all.
     std::vector<std::int32_t> nodes{};
     TreeShape shape{};  ///< of the whole tree
+    /// Random number of the ranks of the balance, with which calls check their communicator; 0:
+    /// none, as of a balance on one rank. Set it to 0 to use the cuts on other ranks.
+    std::uint64_t group = 0;
+    /// Hash of this rank's points of the balance, with which ghosts() recognizes them; 0: none.
+    std::uint64_t points = 0;
 };
 
 /// Returns true if cuts are the complete tree, the same on every rank, so that look-ups work

@@ -26,6 +26,7 @@ struct GhostPlan {
     std::vector<RankCount> receive;  ///< number of ghosts from each rank; ranks ascending
     Box periodic{};                  ///< box that repeats; empty: none
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
+    std::uint64_t group = 0;         ///< as Cuts::group
 };
 
 /// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
@@ -56,12 +57,13 @@ struct GhostOptions {
 /// region of one of its parts. If points are outside the regions of their rank, such as members of
 /// groups, add the greatest of their distances from these, over all ranks, to the radius.
 /// @param cuts    of a balance, whose ranks have the points
-/// @param points  of this rank
+/// @param points  of this rank, after transfer()
 /// @param options radius, periodic box, ranks of the parts
-/// @param comm    that of the balance
-/// Throws Error on every rank alike: for unusable points, a radius that is not finite, below 0 or
-/// above 100 periods, a position outside the periodic box, options or cuts that differ between
-/// ranks, or no memory. Cost: as plan(); a periodic box adds a pass of counts.
+/// @param comm    that of the balance, or a congruent one
+/// Throws Error on every rank alike: for unusable points, those of the balance if one has yet to
+/// leave its rank, a radius that is not finite, below 0 or above 100 periods, a position outside
+/// the periodic box, options or cuts that differ between ranks, another communicator, or no memory.
+/// Cost: as plan(); a periodic box adds a pass of counts.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 

@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct Plan {
     std::vector<int> import_ranks;           ///< sources of my new points, ascending
     std::vector<LocalIndex> import_indices;  ///< their index there, ascending per rank
     std::vector<Part> import_parts;          ///< their new parts
+    std::uint64_t group = 0;                 ///< as Cuts::group
 };
 
 /// Makes the export and import lists of the points whose rank changes. Collective.
@@ -64,7 +66,8 @@ struct Plan {
 /// Makes the same lists from a balance. Collective.
 ///
 /// @param balance of the points of this rank
-/// @param comm    that of the balance
+/// @param comm    that of the balance, or a congruent one
+/// Throws Error on every rank also for another communicator.
 [[nodiscard]] RRCB_API Plan plan(const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

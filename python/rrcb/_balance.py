@@ -88,30 +88,12 @@ class Distribution:
     def ghosts(self, x: Any, radius: Any, period: Any = None) -> Ghosts:
         """Finds the points that other ranks need within a radius. Collective.
 
-        `x` are the positions on this rank, after distribute(); `radius` is a number, or an array
-        with a radius for each point, within which other ranks need it (docs/loop.md). `period` is
-        the length of a periodic box from 0, one number or one for each axis (infinity: not
-        periodic), or its corners (lower, upper).
+        `x` are the positions on this rank, after distribute(); those before it are refused.
+        `radius` is a number, or an array with a radius for each point, within which other ranks
+        need it (docs/loop.md). `period` is the length of a periodic box from 0, one number or one
+        for each axis (infinity: not periodic), or its corners (lower, upper).
         """
-        return Ghosts(self.comm, self._own, x, radius, period, self._require_moved)
-
-    def _require_moved(self, points: Points) -> None:
-        """Raises Error for the points from before distribute(), if some have to leave this rank."""
-        if points.count == len(self.parts) and self._some_leave():
-            found = np.empty_like(self.parts)
-            c.call("assign", self._own, points, found)
-            if np.array_equal(found, self.parts):
-                raise c.Error("these are the points before distribute(): give those it returned")
-
-    def _some_leave(self) -> bool:
-        """Returns whether a part of the points of this rank belongs to other ranks."""
-        rank, size = self.comm.Get_rank(), self.comm.Get_size()
-        ranks = c.RankRange()
-        for part in np.unique(self.parts):
-            c.call("ranks_of_part", int(part), self.cuts.num_parts, size, ranks)
-            if not ranks.first_rank <= rank < ranks.first_rank + ranks.count:
-                return True
-        return False
+        return Ghosts(self.comm, self._own, x, radius, period)
 
     def _plan(self) -> int:
         if self._num_points_after is None:

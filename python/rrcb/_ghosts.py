@@ -26,17 +26,10 @@ class Ghosts:
     sent: dict[int, Array]  #: rows of the points that each rank needs
 
     def __init__(
-        self,
-        comm: MPI.Intracomm,
-        balancer: c.Handle,
-        x: Any,
-        radius: Any,
-        period: Any,
-        check: Callable[[Points], None] = lambda points: None,
+        self, comm: MPI.Intracomm, balancer: c.Handle, x: Any, radius: Any, period: Any
     ) -> None:
         def local() -> tuple[Points, Array, Array | None]:
             points = Points(x)
-            check(points)
             return points, radius_of(radius, points.count), box_of(period, points.dimension)
 
         def collective(points: Any = None, radii: Any = None, box: Any = None) -> None:

@@ -3,6 +3,7 @@
 #include "c/handle_mpi.hpp"
 #include "cuts/cuts_mpi.hpp"
 #include "lists/assign_all_mpi.hpp"
+#include "options/request.hpp"
 #include "search/workspace_mpi.hpp"
 
 #include <algorithm>
@@ -84,5 +85,6 @@ int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, in
             });
             std::ranges::copy(rrcb::assign_all(own.cuts, positions, self), parts);
             own.lower_count(positions.count);
+            own.cuts.points = rrcb::hash_of(positions);
         });
 }

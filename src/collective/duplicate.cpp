@@ -1,5 +1,6 @@
 #include "collective/duplicate.hpp"
 
+#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
@@ -7,7 +8,10 @@
 
 #include <rrcb/error.hpp>
 
+#include <algorithm>
 #include <memory>
+#include <random>
+#include <string>
 #include <utility>
 
 namespace rrcb::mpi {
@@ -24,6 +28,31 @@ struct Duplicate {
         if (comm != MPI_COMM_NULL && log->end == CallLog::End::none) MPI_Comm_free(&comm);
     }
 };
+
+/// Number of the processes of a communicator, in their order.
+struct Group {
+    std::uint64_t number = 0;
+};
+
+/// Returns a random number of this process.
+std::uint64_t number_of_process() {
+    static const std::uint64_t number = [] {
+        std::random_device random;
+        return std::uint64_t{random()} << 32 | random();
+    }();
+    return number;
+}
+
+/// Returns the number of the group of `self`. Collective.
+std::uint64_t make_group(Participant& self) {
+    std::uint64_t here = 0;
+    self.attempt([&] {
+        here = mix(number_of_process() ^ mix(static_cast<std::uint64_t>(rank_of(self.comm)) + 1));
+    });
+    std::uint64_t all = 0;
+    self.check(MPI_Allreduce(&here, &all, 1, MPI_UINT64_T, MPI_BXOR, self.comm), "MPI_Allreduce");
+    return std::max(all, std::uint64_t{1});
+}
 
 void refuse_two_groups(MPI_Comm user) {
     int has_two = 0;
@@ -74,8 +103,10 @@ Duplicate& make(MPI_Comm user, CallName call) {
     Duplicate* kept = nullptr;
     Participant self{user};
     duplicate(user, call, comm, self);
+    const std::uint64_t group = make_group(self);
     self.attempt([&] {
         check(MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+        Attribute<Group>::keep(std::make_unique<Group>(group), comm);
         kept = Attribute<Duplicate>::keep(std::make_unique<Duplicate>(), user);
         kept->comm = kept->log->comm = comm;
     });
@@ -130,6 +161,20 @@ Participant enter(MPI_Comm user, CallName call) {
     const Duplicate& kept = find_or_make(user, call);
     kept.log->begin(call);
     return {kept.comm, kept.log};
+}
+
+std::uint64_t group_of(MPI_Comm duplicate) {
+    const Group* found = Attribute<Group>::find(duplicate);
+    return found != nullptr ? found->number : 0;
+}
+
+void require_group(std::uint64_t group, const char* made, const Participant& self) {
+    const std::uint64_t here = group_of(self.comm);
+    if (group == 0 || here == 0 || group == here) return;
+    throw Error(ErrorCode::invalid_argument,
+                std::string(made) +
+                    " belongs to other ranks than this communicator; give the communicator that "
+                    "it was made with");
 }
 
 }  // namespace rrcb::mpi

@@ -4,6 +4,8 @@
 
 #include <mpi.h>
 
+#include <cstdint>
+
 namespace rrcb::mpi {
 
 /// Begins a collective call with a communicator of the caller's, on its duplicate.
@@ -16,9 +18,10 @@ Participant enter(MPI_Comm user, CallName call);
 /// Returns the duplicate kept with `user`, only for the library's messages; errors on it return.
 /// Freed with `user`.
 ///
-/// Collective over `user` in the first call with it: one more reduction, so that all ranks throw
-/// the same Error if one of them fails; then nothing is kept. Throws Error on every rank, without a
-/// message, for MPI_COMM_NULL, intercommunicators, and outside of MPI_Init and MPI_Finalize.
+/// Collective over `user` in the first call with it: a reduction for group_of(), and one more, so
+/// that all ranks throw the same Error if one of them fails; then nothing is kept. Throws Error on
+/// every rank, without a message, for MPI_COMM_NULL, intercommunicators, and outside of MPI_Init
+/// and MPI_Finalize.
 MPI_Comm duplicate_of(MPI_Comm user);
 
 /// Returns false before MPI_Init and after MPI_Finalize.
@@ -29,5 +32,13 @@ void check_is_running();
 
 /// Returns the duplicate kept with `user`, or null. Not collective.
 const MPI_Comm* find_duplicate(MPI_Comm user);
+
+/// Returns a number of the processes of a duplicate and their order, never 0: the same for
+/// congruent communicators, otherwise another one. Not collective. Returns 0 for a communicator
+/// that duplicate_of() has not made.
+std::uint64_t group_of(MPI_Comm duplicate);
+
+/// Throws Error if `group` is known, and not that of this communicator. Not collective.
+void require_group(std::uint64_t group, const char* made, const Participant& self);
 
 }  // namespace rrcb::mpi

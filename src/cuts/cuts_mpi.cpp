@@ -39,7 +39,9 @@ Cuts gather_cuts(const Cuts& cuts, Participant& self) {
                            cuts.num_parts,
                            std::vector<Cut>(static_cast<std::size_t>(cuts.num_parts) - 1),
                            {},
-                           cuts.shape};
+                           cuts.shape,
+                           cuts.group,
+                           cuts.points};
         if (!is_whole(cuts))
             for_each_owned(cuts, mpi::rank_of(self.comm), mpi::size_of(self.comm),
                            [&](std::size_t node, const Cut& cut) { whole.tree[node] = cut; });

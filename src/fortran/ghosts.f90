@@ -25,7 +25,8 @@ contains
 
   !> Finds the points that other ranks need, from the cuts. Collective.
   !> @param balancer       whose ranks have the points
-  !> @param points         of this rank
+  !> @param points         of this rank, after transfer; refused if they are those of the balance or
+  !> of assign_all, and one has yet to leave its rank
   !> @param radius         cut-off of all points
   !> @param radii          one for each point instead
   !> @param lower          end of a periodic box

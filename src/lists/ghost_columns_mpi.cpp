@@ -13,7 +13,9 @@ namespace {
 using detail::ByteColumn;
 
 /// Throws Error unless the plan is consistent; returns the number of ghosts.
-LocalIndex check(const GhostPlan& plan, int num_ranks) {
+LocalIndex check(const GhostPlan& plan, const Participant& self) {
+    mpi::require_group(plan.group, "the plan", self);
+    const int num_ranks = mpi::size_of(self.comm);
     check_counts(plan.send, plan.send_indices.size(), num_ranks);
     const LocalIndex num_ghosts = total(plan.receive);
     check_counts(plan.receive, num_ghosts, num_ranks);
@@ -24,8 +26,8 @@ LocalIndex check(const GhostPlan& plan, int num_ranks) {
 }
 
 /// Throws Error unless the groups are consistent; returns the number that other ranks own.
-LocalIndex check(const Groups& groups, int num_ranks) {
-    const LocalIndex num_elsewhere = check(groups.plan, num_ranks);
+LocalIndex check(const Groups& groups, const Participant& self) {
+    const LocalIndex num_elsewhere = check(groups.plan, self);
     const LocalIndex num_groups = groups.plan.num_points + num_elsewhere;
     require(std::ranges::all_of(groups.of_points, [&](LocalIndex g) { return g < num_groups; }),
             "of_points of the groups must be below the number of groups; give the groups as they "
@@ -55,7 +57,7 @@ void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const Tran
           TransferReport* report, Participant& self) {
     Delivery delivery{.num_points = plan.num_points, .sent = plan.send_indices};
     self.attempt([&] {
-        check(plan, mpi::size_of(self.comm));
+        check(plan, self);
         delivery.to = plan.send;
         delivery.from = plan.receive;
     });
@@ -67,7 +69,7 @@ void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                TransferReport* report, Participant& self) {
     Delivery delivery;
     self.attempt([&] {
-        delivery.num_points = check(plan, mpi::size_of(self.comm));
+        delivery.num_points = check(plan, self);
         for (std::size_t k = 0; k < of_points.size(); ++k) {
             require(of_ghosts[k].components == of_points[k].components,
                     "columns of ghosts must have as many components as those of the points");
@@ -90,7 +92,7 @@ void move(const Groups& groups, std::span<const ByteColumn> columns, const Trans
     std::vector<ByteColumn> of_groups;
     std::vector<std::byte*> results;
     self.attempt([&] {
-        check(groups, mpi::size_of(self.comm));
+        check(groups, self);
         values.reserve(columns.size());
         for (const ByteColumn& column : columns) {
             check_column(column, num_groups, "groups of this rank");
@@ -113,7 +115,7 @@ std::vector<double> sums(const Groups& groups, std::span<const double> values,
     std::vector<double> elsewhere;
     std::vector<double> arrived;
     self.attempt([&] {
-        const LocalIndex num_elsewhere = check(groups, mpi::size_of(self.comm));
+        const LocalIndex num_elsewhere = check(groups, self);
         check_column(detail::byte_column(Column<double>{values, components}, all),
                      groups.of_points.size(), "points of the groups");
         all.resize((groups.plan.num_points + num_elsewhere) * components);

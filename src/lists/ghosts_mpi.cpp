@@ -19,6 +19,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace rrcb {
@@ -34,10 +35,11 @@ struct Holders {
     int rank;  ///< this one
     int num_ranks;
 
-    RankRange operator()(Part end) const {
-        const Part part = shape.part_at(end, num_parts);
+    RankRange of_part(Part part) const {
         return given ? (*given)[part] : ranks_of_part(part, num_parts, num_ranks);
     }
+
+    RankRange operator()(Part end) const { return of_part(shape.part_at(end, num_parts)); }
 
     /// Returns the ends of the parts that only this rank holds, in ranges as long as possible.
     std::vector<PartRange> alone_here() const {
@@ -97,9 +99,12 @@ struct Radii {
 /// Finds which of this rank's points other ranks need, by the cuts that are known.
 class Neighbourhood {
   public:
+    /// `has_balanced`: the points are those of the balance, which must have been transferred.
     Neighbourhood(const Cuts& cuts, const Holders& holders,
-                  const std::optional<PeriodicImages>& images)
-        : dimension_(cuts.dimension),
+                  const std::optional<PeriodicImages>& images, bool has_balanced)
+        : cuts_(cuts),
+          has_balanced_(has_balanced),
+          dimension_(cuts.dimension),
           holders_(holders),
           images_(images),
           alone_(holders.alone_here()),
@@ -135,6 +140,7 @@ class Neighbourhood {
     void add(LocalIndex point, const Ball& ball, const Shift& shift) {
         const bool is_image = shift != Shift{};
         if (!is_image && home_ && ball.is_inside(*home_, dimension_)) return;
+        if (!is_image && has_balanced_) require_here(point, ball.centre());
         const auto first = std::ssize(ranks_);
         (is_image ? *search_of_images_ : search_)
             .for_each_part(
@@ -148,11 +154,21 @@ class Neighbourhood {
         if (images_) shifts_.resize(ranks_.size(), shift);
     }
 
+    void require_here(LocalIndex point, const Vector& position) const {
+        const Part part = part_of(cuts_, position);
+        if (part == no_part || holders_.of_part(part).contains(holders_.rank)) return;
+        reject("these are the points of the balance, but point " + std::to_string(point) +
+               " (the first is 0) has to leave this rank for part " + std::to_string(part) +
+               "; give the points that the transfer returned");
+    }
+
     void note(const RankRange& ranks, bool also_here) {
         for (int rank = ranks.first_rank; rank < ranks.first_rank + ranks.count; ++rank)
             if (also_here || rank != holders_.rank) ranks_.push_back(rank);
     }
 
+    const Cuts& cuts_;
+    bool has_balanced_;
     int dimension_;
     const Holders& holders_;
     const std::optional<PeriodicImages>& images_;
@@ -172,6 +188,7 @@ struct GhostRequest {
     Radii radii;
     Holders holders;
     std::optional<PeriodicImages> images;
+    bool has_balanced;  ///< whether the points are those of the balance
 
     void check(const Cuts& cuts) const {
         radii.check(points.count);
@@ -187,7 +204,7 @@ struct GhostRequest {
     /// Lists the points that this rank sends, with their shifts; returns the nodes whose cuts it
     /// lacks for the rest.
     std::vector<std::size_t> list_sent(const Cuts& cuts, GhostPlan& plan) const {
-        Neighbourhood neighbourhood(cuts, holders, images);
+        Neighbourhood neighbourhood(cuts, holders, images, has_balanced);
         for (LocalIndex i = 0; i < points.count; ++i)
             neighbourhood.add(i, Ball(points.position(i), radii.of(i)));
         plan.num_points = points.count;
@@ -232,13 +249,15 @@ void exchange_shifts(GhostPlan& plan, Participant& self) {
 }
 
 /// Collective; an earlier failure on one rank is thrown on all.
-GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& self) {
+GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     GhostPlan plan;
     std::optional<SearchBuffers<GhostSearch>> buffers;
     std::uint64_t bits_of_cuts = 0;
     std::uint64_t bits_of_holders = 0;
     self.attempt([&] {
+        mpi::require_group(cuts.group, "the balance of the cuts", self);
         request.check(cuts);
+        request.has_balanced = cuts.points == hash_of(request.points);
         std::vector<std::size_t> lacking = request.list_sent(cuts, plan);
         if (!is_whole(cuts))
             buffers.emplace(GhostSearch(cuts, std::move(lacking), request, plan), self.comm);
@@ -267,10 +286,12 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
                          {options.radius, options.radii},
                          {options.ranks_of_parts, cuts.shape, cuts.num_parts,
                           mpi::rank_of(self.comm), mpi::size_of(self.comm)},
-                         {}};
+                         {},
+                         false};
     if (points.count == 0 && std::isnan(options.radius)) request.radii.each.emplace();
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);
+    plan.group = mpi::group_of(self.comm);
     if (options.periodic) plan.periodic = *options.periodic;
     return plan;
 }

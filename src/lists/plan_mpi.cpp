@@ -112,6 +112,7 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
     agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
     exchange.run(self);
     list_imports(exchange, result);
+    result.group = mpi::group_of(self.comm);
     return result;
 }
 
@@ -120,8 +121,10 @@ Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
     return plan(parts, num_parts, self);
 }
 
-Plan plan(const Balance& balance, MPI_Comm comm) {
-    return plan(balance.parts, balance.cuts.num_parts, comm);
+Plan plan(const Balance& balance, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    self.attempt([&] { mpi::require_group(balance.cuts.group, "the balance", self); });
+    return plan(balance.parts, balance.cuts.num_parts, self);
 }
 
 }  // namespace rrcb

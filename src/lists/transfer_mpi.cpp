@@ -45,6 +45,7 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
     std::vector<LocalIndex> sent;
     self.attempt([&] {
         const int num_ranks = mpi::size_of(self.comm);
+        mpi::require_group(plan.group, "the plan", self);
         check_lists(plan, num_ranks);
         RankOrder order(plan.export_ranks, num_ranks);
         sent = sort_by_rank(plan, order);

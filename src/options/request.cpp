@@ -47,6 +47,14 @@ std::uint64_t hash_of(std::span<const double> values) {
     return hash;
 }
 
+std::uint64_t hash_of(const Points& points) {
+    std::uint64_t hash = points.count;
+    if (points.count > 0)
+        for (const LocalIndex i : {LocalIndex{0}, points.count / 2, points.count - 1})
+            for (const double x : points.position(i)) add(x, hash);
+    return std::max(hash, std::uint64_t{1});
+}
+
 std::uint64_t bits_of(const Option& option, const Options& options) {
     return visit_kind(option, [&]<class Kind>(const Kind& kind) {
         if constexpr (std::is_same_v<Kind, Choice>) {

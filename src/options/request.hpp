@@ -34,6 +34,9 @@ inline constexpr std::string_view name_of_arithmetic =
 /// Returns a hash of numbers and their count.
 std::uint64_t hash_of(std::span<const double> values);
 
+/// Returns a hash of the number of points and the first, middle and last position, never 0.
+std::uint64_t hash_of(const Points& points);
+
 /// Returns the bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);
 

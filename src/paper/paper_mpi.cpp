@@ -135,6 +135,8 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
         check(options, points.dimension);
         packed = reduce_points(points, box, options);
         result.cuts = {points.dimension, options.num_parts, {}};
+        result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;
+        result.cuts.points = hash_of(points);
         result.cuts.tree.resize(static_cast<std::size_t>(options.num_parts) - 1);
         result.parts.resize(points.count);
     });

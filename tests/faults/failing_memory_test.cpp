@@ -122,7 +122,8 @@ TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
     options.imbalance_tolerance = 1.5;
     std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
-    const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+    cuts.points = 0;  // the points stay where they are
     for (double& x : coordinates) x = 1 - x;
     fail_in_balance(options, &cuts, coordinates);
     options.imbalance_tolerance = 1000;
@@ -252,7 +253,8 @@ TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
     const Points points = interleaved_points(coordinates, 2);
     Options options;
     options.num_parts = 2 * test::num_ranks();
-    const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+    cuts.points = 0;  // the points stay where they are
     const auto call = [&] {
         const GhostPlan lists = ghosts(cuts, points, {.radius = 0.1}, MPI_COMM_WORLD);
         const std::vector<double> near = fetch(lists, column(coordinates, 2), MPI_COMM_WORLD);

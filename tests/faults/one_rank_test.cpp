@@ -75,7 +75,7 @@ TEST(OneRank, tells_of_a_communicator_that_it_could_not_duplicate) {
 }
 
 TEST(OneRank, tells_of_memory_that_it_lacks_to_keep_a_communicator) {
-    constexpr long of_the_duplicate = 2;
+    constexpr long of_the_duplicate = 3;
     fail_each([](long number) { memory_layer::fail_allocation(number); },
               [] { return memory_layer::counted_allocations(); }, ErrorCode::out_of_memory,
               of_the_duplicate);

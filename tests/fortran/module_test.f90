@@ -182,6 +182,10 @@ program module_test
   call balancer%remap(parts, new_numbers(:2), error)
   call expect(error == rrcb_invalid_argument, "remap to too few numbers")
 
+  call balancer%make_plan(parts(:size(parts) - 1), error)
+  call expect(error == rrcb_invalid_argument, "make_plan of too few points")
+  call ghosts%create(balancer, rrcb_interleaved_points(x), error, radius=2.0_c_double)
+  call expect(error == rrcb_invalid_argument, "ghosts before transfer")
   call balancer%make_plan(parts, error)
   call expect(error == rrcb_ok, "make_plan")
   call balancer%get_plan(plan, error)

@@ -38,10 +38,19 @@ class CGhosts : public testing::Test {
         in_c = rrcb_interleaved_points(RRCB_DOUBLE, 3, count, coordinates.data(), weights.data());
         ASSERT_EQ(rrcb_balance(balancer, &in_c, parts.data()), RRCB_OK) << rrcb_last_error();
         cuts = rrcb::balance(points(), {}, MPI_COMM_WORLD).cuts;
+        forget_points();
     }
     void TearDown() override {
         rrcb_ghosts_destroy(ghosts);
         rrcb_destroy(balancer);
+    }
+
+    /// Lets points stay where they are.
+    void forget_points() {
+        rrcb_cuts shown;
+        ASSERT_EQ(rrcb_get_cuts(balancer, &shown), RRCB_OK);
+        ASSERT_EQ(rrcb_set_cuts(balancer, &shown), RRCB_OK);
+        cuts.points = 0;
     }
 
     Points points() const { return interleaved_points(coordinates, 3, weights); }
@@ -117,6 +126,22 @@ class CGhosts : public testing::Test {
     rrcb_points in_c{};
     Cuts cuts;
 };
+
+TEST_F(CGhosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    rrcb_ghost_options options{};
+    options.radius = 0.1;
+    const auto refused = [&] {
+        EXPECT_EQ(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), RRCB_INVALID_ARGUMENT);
+        EXPECT_NE(std::string(rrcb_last_error()).find("the points of the balance"),
+                  std::string::npos)
+            << rrcb_last_error();
+    };
+    ASSERT_EQ(rrcb_assign_all(balancer, &in_c, parts.data()), RRCB_OK);
+    refused();
+    ASSERT_EQ(rrcb_balance(balancer, &in_c, parts.data()), RRCB_OK);
+    refused();
+}
 
 TEST_F(CGhosts, are_those_of_a_call_in_cpp) {
     rrcb_ghost_options options{};

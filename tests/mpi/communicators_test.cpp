@@ -1,4 +1,5 @@
 // Communicators that the library cannot use.
+#include "clouds.hpp"
 #include "ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
@@ -65,6 +66,68 @@ TEST(Communicators, of_two_groups_are_refused) {
     MPI_Comm_free(&merged);
     MPI_Comm_free(&both);
     MPI_Comm_free(&mine);
+}
+
+/// Plans of the points of all ranks, and the calls that use them with a communicator.
+struct Plans {
+    std::vector<double> x = test::uniform_cloud(50, 1, static_cast<unsigned>(test::rank() + 1));
+    Balance made = balance(interleaved_points(x, 1), {}, MPI_COMM_WORLD);
+    Plan moves = plan(made, MPI_COMM_WORLD);
+    std::vector<double> here = transfer(moves, x, MPI_COMM_WORLD);
+    GhostPlan near = near_on(MPI_COMM_WORLD);
+    Groups bonds =
+        groups(interleaved_points(x, 1), std::vector<std::uint64_t>(x.size(), 1), MPI_COMM_WORLD);
+    std::vector<double> of_ghosts = fetch(near, here, MPI_COMM_WORLD);
+
+    GhostPlan near_on(MPI_Comm comm) const {
+        return ghosts(made.cuts, interleaved_points(here, 1), {.radius = 0.1}, comm);
+    }
+
+    std::vector<std::function<void()>> calls(MPI_Comm comm) const {
+        return {
+            [=, this] { EXPECT_EQ(plan(made, comm).export_ranks, moves.export_ranks); },
+            [=, this] { EXPECT_EQ(transfer(moves, x, comm), here); },
+            [=, this] { EXPECT_EQ(near_on(comm).send_indices, near.send_indices); },
+            [=, this] { EXPECT_EQ(fetch(near, here, comm), of_ghosts); },
+            [=, this] { EXPECT_EQ(accumulate(near, of_ghosts, here, comm).size(), here.size()); },
+            [=, this] { EXPECT_EQ(sums(bonds, x, comm).size(), bonds.weights.size()); }};
+    }
+};
+
+void expect_refusals(const Plans& plans, MPI_Comm comm) {
+    for (const auto& call : plans.calls(comm)) {
+        try {
+            call();
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+            EXPECT_NE(std::string(error.what()).find("belongs to other ranks"), std::string::npos)
+                << error.what();
+        }
+    }
+}
+
+TEST(Communicators, of_other_ranks_than_those_of_the_balance_are_refused) {
+    if (test::num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const Plans plans;
+    expect_refusals(plans, MPI_COMM_SELF);
+    for (const auto& [color, key] : {std::pair{test::rank() % 2, 0}, {0, -test::rank()}}) {
+        MPI_Comm other = MPI_COMM_NULL;
+        MPI_Comm_split(MPI_COMM_WORLD, color, key, &other);
+        expect_refusals(plans, other);
+        MPI_Comm_free(&other);
+    }
+}
+
+TEST(Communicators, of_the_same_ranks_in_the_same_order_are_accepted) {
+    Plans plans;
+    MPI_Comm same = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, 0, test::rank(), &same);
+    for (const auto& call : plans.calls(same)) call();
+    MPI_Comm_free(&same);
+    // Cuts that are to be used on other ranks.
+    plans.made.cuts.group = 0;
+    EXPECT_EQ(plan(plans.made, MPI_COMM_SELF).export_ranks.size(), 0u);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
+#include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
 #include "slabs.hpp"
 
+#include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
@@ -49,6 +51,34 @@ TEST(Ghosts, within_no_radius_are_refused_on_all_ranks) {
                                   MPI_COMM_WORLD);
                        });
     }
+}
+
+TEST(Ghosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
+    if (num_ranks() < 2) GTEST_SKIP() << "needs two ranks";
+    const std::vector<double> x = test::uniform_cloud(100, 2, static_cast<unsigned>(rank()));
+    const Points points = interleaved_points(x, 2);
+    const Balance made = balance(points, {}, MPI_COMM_WORLD);
+    const auto here = transfer(plan(made, MPI_COMM_WORLD), column(x, 2), MPI_COMM_WORLD);
+    const Points moved = interleaved_points(here, 2);
+    // A radius that reaches all parts hides nothing.
+    for (const double radius : {0.01, 2.0}) {
+        const GhostOptions options{.radius = radius};
+        expect_refusal("these are the points of the balance, but point ",
+                       [&] { ghosts(made.cuts, points, options, MPI_COMM_WORLD); });
+        const Points of_last = test::is_last_rank() ? points : moved;
+        expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": these are the points",
+                       [&] { ghosts(made.cuts, of_last, options, MPI_COMM_WORLD); });
+        EXPECT_EQ(ghosts(made.cuts, moved, options, MPI_COMM_WORLD).num_points, moved.count);
+    }
+    // Points that have moved since, or that are kept where they are, are none of these.
+    std::vector<double> drifted = here;
+    for (double& value : drifted) value *= 0.99;
+    EXPECT_NO_THROW(
+        ghosts(made.cuts, interleaved_points(drifted, 2), {.radius = 0.1}, MPI_COMM_WORLD));
+    const Balance again = balance(moved, {}, MPI_COMM_WORLD);
+    const auto kept = transfer(plan(again, MPI_COMM_WORLD), column(here, 2), MPI_COMM_WORLD);
+    EXPECT_NO_THROW(
+        ghosts(again.cuts, interleaved_points(kept, 2), {.radius = 0.1}, MPI_COMM_WORLD));
 }
 
 TEST(Ghosts, of_unusable_points_cuts_or_ranks_are_refused_on_all_ranks) {

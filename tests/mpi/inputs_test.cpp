@@ -73,12 +73,14 @@ void expect_same_bits(std::size_t count) {
         Points reference = interleaved_points(cloud.doubles, dimension, weights);
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             const Options options{.num_parts = 11, .refine = refine};
-            const Balance expected = balance(reference, options, MPI_COMM_WORLD);
+            Balance expected = balance(reference, options, MPI_COMM_WORLD);
+            expected.cuts.points = 0;  // the points stay where they are
             const GhostPlan near =
                 ghosts(expected.cuts, reference, {.radius = 0.05}, MPI_COMM_WORLD);
             for (Points points : cloud.arrangements()) {
                 points.weights = weights;
-                const Balance found = balance(points, options, MPI_COMM_WORLD);
+                Balance found = balance(points, options, MPI_COMM_WORLD);
+                found.cuts.points = 0;
                 EXPECT_EQ(found.parts, expected.parts);
                 EXPECT_EQ(bits(found.cuts), bits(expected.cuts));
                 EXPECT_EQ(bounding_box(points).lower, bounding_box(reference).lower);

@@ -227,7 +227,8 @@ TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
         const Options options = options_for(all, larger_below);
         const std::vector<double> coordinates = cloud_here(2);
         const Points points = interleaved_points(coordinates, 2);
-        const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+        Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+        cuts.points = 0;  // the points stay where they are
         const GhostPlan found = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);
         std::vector<std::size_t> expected;
         for (int to = 0; to < num_ranks(); ++to) {

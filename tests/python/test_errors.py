@@ -142,9 +142,10 @@ def test_refuses_ghosts_of_points_that_were_not_moved():
     balance = rrcb.balance(x, comm=comm)
     here = balance.distribute(x)
     if RANKS > 1:
-        same_error(lambda: balance.ghosts(x, 0.1), "these are the points before distribute()")
+        text = "these are the points of the balance"
+        same_error(lambda: balance.ghosts(x, 0.1), text)
         alone = rrcb.assign(here, balance, comm)
-        same_error(lambda: balance.ghosts(on_rank(RANKS - 1, x, here), 0.1), "before distribute()")
+        same_error(lambda: balance.ghosts(on_rank(RANKS - 1, x, here), 0.1), text)
         assert alone.ghosts(here, 0.1).count == balance.ghosts(here, 0.1).count
     for num_parts in (2 * RANKS, max(RANKS - 1, 2)):
         other = rrcb.balance(x, comm=comm, num_parts=num_parts)

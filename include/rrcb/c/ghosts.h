@@ -39,7 +39,8 @@ typedef struct rrcb_ghost_plan {
 /** Finds the points that other ranks need, as rrcb::ghosts. Collective.
  *
  * @param balancer with the cuts, whose ranks have the points; not needed afterwards
- * @param points   of this rank
+ * @param points   of this rank, after rrcb_transfer; refused if they are those of the balance or
+ * of rrcb_assign_all, and one has yet to leave its rank
  * @param options  radius, periodic box, ranks of the parts
  * @param ghosts   belong to the caller; unchanged if the call fails */
 RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,

@@ -324,7 +324,9 @@ Balance balance_over(MPI_Comm comm, const Points& points, const Options& options
                      const Cuts* previous, std::vector<Part> memory = {}) {
     Participant self =
         mpi::enter(comm, previous != nullptr ? CallName::rebalance : CallName::balance);
-    return balance(points, options, previous, true, self, std::move(memory));
+    Balance result = balance(points, options, previous, true, self, std::move(memory));
+    self.throw_alone();
+    return result;
 }
 
 }  // namespace

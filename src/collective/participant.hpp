@@ -61,7 +61,8 @@ struct Participant {
         failure = rrcb::attempt([&] { mpi::check(code, call); });
     }
 
-    /// Throws the failure of this rank, on this rank only.
+    /// Throws the failure of this rank, on this rank only: of a message after which no other one
+    /// follows that could carry it.
     void throw_alone() const {
         if (failed()) throw Error(failure.code, failure.text.data());
     }

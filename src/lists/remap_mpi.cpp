@@ -276,16 +276,26 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
     return remap(parts, previous, ranks_of_parts, shape, is_spread, self);
 }
 
+namespace {
+
+Remap remap_over(MPI_Comm user, std::span<const Part> parts, const PreviousParts& previous,
+                 std::span<const RankRange> ranks_of_parts, const TreeShape& shape) {
+    Participant self = mpi::enter(user, CallName::remap);
+    Remap result = remap(parts, previous, ranks_of_parts, shape, self);
+    self.throw_alone();
+    return result;
+}
+
+}  // namespace
+
 Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts, MPI_Comm user,
             const TreeShape& shape) {
-    Participant self = mpi::enter(user, CallName::remap);
-    return remap(parts, std::nullopt, ranks_of_parts, shape, self);
+    return remap_over(user, parts, std::nullopt, ranks_of_parts, shape);
 }
 
 Remap remap(std::span<const Part> parts, std::span<const Part> previous,
             std::span<const RankRange> ranks_of_parts, MPI_Comm user, const TreeShape& shape) {
-    Participant self = mpi::enter(user, CallName::remap);
-    return remap(parts, PreviousParts(previous), ranks_of_parts, shape, self);
+    return remap_over(user, parts, PreviousParts(previous), ranks_of_parts, shape);
 }
 
 }  // namespace rrcb

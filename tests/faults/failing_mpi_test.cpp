@@ -131,7 +131,8 @@ TEST(FailingMpi, reaches_the_caller_of_what_moves_columns) {
     const Plan lists = plan_of_all_pairs();
     const std::vector<int> values(lists.num_points);
     expect_errors([&] { transfer(lists, values, MPI_COMM_WORLD); });
-    const Cuts cuts = balance(cloud.points(), Options{}, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(cloud.points(), Options{}, MPI_COMM_WORLD).cuts;
+    cuts.points = 0;  // the points stay where they are
     expect_errors([&] { ghosts(cuts, cloud.points(), {.radius = 0.1}, MPI_COMM_WORLD); });
     const GhostPlan near = ghosts(cuts, cloud.points(), {.radius = 0.1}, MPI_COMM_WORLD);
     const std::vector<int> colours(near.num_points);
@@ -214,6 +215,52 @@ void fail_each_message_of_each_rank(const Options& options, long step) {
 
 TEST(FailingMpi, of_one_rank_while_cells_travel_reaches_the_callers_of_all) {
     fail_each_message_of_each_rank({}, 1);
+}
+
+/// Fails each message of each rank in a call, which then throws at least there: a failure after
+/// which no message follows stays on its rank.
+void expect_errors_where_messages_fail(const std::function<void()>& call) {
+    mpi_layer::fail_message(0);
+    call();
+    const long mine = mpi_layer::counted_messages();
+    for (int rank = 0; rank < test::num_ranks(); ++rank) {
+        long num_messages = mine;
+        MPI_Bcast(&num_messages, 1, MPI_LONG, rank, MPI_COMM_WORLD);
+        for (long message = 1; message <= num_messages; ++message) {
+            SCOPED_TRACE("rank " + std::to_string(rank) + ", message " + std::to_string(message));
+            mpi_layer::fail_message(rank == test::rank() ? message : 0);
+            try {
+                call();
+                EXPECT_NE(rank, test::rank());
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), ErrorCode::mpi) << error.what();
+            }
+            mpi_layer::fail_message(0);
+            call();
+        }
+    }
+}
+
+TEST(FailingMpi, of_one_rank_while_earlier_cuts_are_kept_reaches_its_caller) {
+    const Cloud cloud;
+    const Points points = cloud.points();
+    const Cuts cuts = balance(points, {}, MPI_COMM_WORLD).cuts;
+    expect_errors_where_messages_fail(
+        [&] { EXPECT_EQ(rebalance(points, {}, cuts, MPI_COMM_WORLD).report.details.rounds, 1); });
+}
+
+TEST(FailingMpi, of_one_rank_in_a_remap_or_look_up_reaches_its_caller) {
+    const Cloud cloud;
+    Options options;
+    options.tuning.central_parts = 2;
+    options.cuts = HeldCuts::own;
+    const Balance made = balance(cloud.points(), options, MPI_COMM_WORLD);
+    std::vector<RankRange> ranks;
+    for (int rank = 0; rank < test::num_ranks(); ++rank) ranks.push_back({rank, 1});
+    expect_errors_where_messages_fail([&] { remap(made.parts, ranks, MPI_COMM_WORLD); });
+    if (test::num_ranks() > 4) return;
+    expect_errors_where_messages_fail(
+        [&] { EXPECT_EQ(assign_all(made.cuts, cloud.points(), MPI_COMM_WORLD), made.parts); });
 }
 
 /// Options by which many ranks make the parts.

@@ -20,7 +20,8 @@ enum class Refine {
 /// Treatment of coincident points that a balanced cut would divide.
 enum class Coincident {
     together,  ///< they share a part, so that the part of a position is the part of its points
-    divide     ///< some go to each side, those of lower ranks below; look-ups find one part
+    divide     ///< some go to each side, those of lower ranks below; look-ups find one of their
+               ///< parts
 };
 
 /// Cuts that each rank gets if many ranks make the parts, see Tuning::central_parts.

@@ -33,21 +33,19 @@ void finish_at(CutSearch& search, const Vector& position, double below) {
 }
 
 /// Ends with the cut behind a position, the last one below it.
-void finish_behind(CutSearch& search, Vector position, double below) {
-    const std::size_t last = order_of(search).axes().back();
-    position[last] = std::nextafter(position[last], infinity);
+void finish_behind(CutSearch& search, const Vector& position, double below) {
     finish_at(search, position, below);
+    move_behind(search);
 }
 
 /// Ends among points that no cut separates: divides them, or leaves all of them on the side with
 /// the smaller excess.
 void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
                        double below_ties, double weight) {
-    const double missing = target.target - below_ties;
     search.coincident = 1;
     if (target.divides) {
-        search.lot_below = missing;
-        finish_at(search, position, target.target);
+        search.lot_below = target.target - below_ties;
+        finish_at(search, position, below_ties);
     } else if (target.excess(below_ties) < target.excess(below_ties + weight)) {
         finish_at(search, position, below_ties);
     } else {
@@ -178,6 +176,11 @@ void narrow_on_lines(CutSearch& search, const CutTarget& target, const Histogram
 }
 
 }  // namespace
+
+void move_behind(CutSearch& search) {
+    double& value = search.cut.at[axis_index(search, search.num_axes - 1)];
+    value = std::nextafter(value, infinity);
+}
 
 PositionOrder order_of(const CutSearch& search) {
     return {search.cut.axis, search.tied, search.num_axes};

@@ -51,14 +51,15 @@ class Divider {
         if (!rrcb::is_above(cut_, position, points_.dimension())) return false;
         if (!(lot_.below > 0 && is_at(cut_, position, points_.dimension()))) return true;
         const double weight = points_.weight(i);
-        const bool above = lot_.before + weight / 2 > lot_.below;
-        lot_.before += weight;
+        const bool above = lot_.is_above(sum_, weight);
+        sum_ += weight;
         return above;
     }
 
   private:
     const Cut& cut_;
-    Lot lot_;
+    const Lot& lot_;
+    double sum_ = 0;  ///< weight of the points of the lot so far
     const SortedPoints& points_;
 };
 
@@ -76,6 +77,21 @@ LocalIndex partition(const Fragment& fragment, IsAbove&& is_above, SortedPoints&
         }
     }
     return front;
+}
+
+/// Calls visit(i) for the entries exactly at a cut, in the order in which partition() asks for them
+/// while they are below.
+template <class Visit>
+void visit_at(const Cut& cut, const Fragment& fragment, const SortedPoints& points, Visit&& visit) {
+    LocalIndex back = fragment.end;
+    LocalIndex i = fragment.begin;
+    for (LocalIndex front = i; front < back;) {
+        const Vector position = points.position(i);
+        const bool is_in_lot = is_at(cut, position, points.dimension());
+        if (is_in_lot) visit(i);
+        const bool above = !is_in_lot && is_above(cut, position, points.dimension());
+        i = above ? --back : ++front;
+    }
 }
 
 /// Moves the entries of both sides of `middle` to their side; returns true if there are any on
@@ -145,15 +161,20 @@ std::vector<Fragment> cell_fragments(const SortedPoints& points) {
     return fragments;
 }
 
-double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
-                 const SortedPoints& points) {
-    double weight = 0;
-    for (const Fragment& fragment : fragments) {
-        if (!touches(fragment.box, cut, points.dimension())) continue;
-        for (LocalIndex i = fragment.begin; i < fragment.end; ++i)
-            if (is_at(cut, points.position(i), points.dimension())) weight += points.weight(i);
-    }
-    return weight;
+PointsInLot points_at(const Cut& cut, const std::vector<Fragment>& fragments,
+                      const SortedPoints& points) {
+    PointsInLot found;
+    const auto add = [&](LocalIndex i) {
+        const double weight = points.weight(i);
+        if (!(weight > 0)) return;
+        if (found.weight == 0) found.first = weight;
+        found.before_last = found.weight;
+        found.last = weight;
+        found.weight += weight;
+    };
+    for (const Fragment& fragment : fragments)
+        if (touches(fragment.box, cut, points.dimension())) visit_at(cut, fragment, points, add);
+    return found;
 }
 
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split(

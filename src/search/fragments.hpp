@@ -40,16 +40,31 @@ inline bool is_left_out(const Fragment& fragment, const SortedPoints& points) {
 /// The points exactly at a cut, which no cut separates. They form one row over all ranks, in the
 /// order of the ranks; the first of the row go below the cut.
 struct Lot {
-    double before = 0;  ///< weight of those on lower ranks
-    double below = 0;   ///< weight of the row that belongs below; 0: all of it stays above
+    double before = 0;   ///< weight of those on lower ranks
+    double below = 0;    ///< weight of the row that belongs below; 0: all of it stays above
+    double share = 0.5;  ///< share of the weight of the node that belongs below
+
+    /// Returns the side of a point of the row, the one that it makes less too heavy. `sum` is the
+    /// weight of the points of its rank before it.
+    bool is_above(double sum, double weight) const {
+        return before + sum + (1 - share) * weight > below;
+    }
+};
+
+/// The points of one rank in a lot, except those of weight 0.
+struct PointsInLot {
+    double weight = 0;       ///< of all
+    double first = 0;        ///< weight of the first of the row
+    double last = 0;         ///< weight of the last
+    double before_last = 0;  ///< weight of the others
 };
 
 /// Returns the weight of all points of the fragments.
 double weight_of(const std::vector<Fragment>& fragments);
 
-/// Returns the weight of the points exactly at a cut.
-double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
-                 const SortedPoints& points);
+/// Returns the points exactly at a cut, in the order in which split() takes them below.
+PointsInLot points_at(const Cut& cut, const std::vector<Fragment>& fragments,
+                      const SortedPoints& points);
 
 /// Returns the fragments below and above a cut. Those it crosses are divided in place: their
 /// entries of `points` are permuted.

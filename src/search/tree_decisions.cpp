@@ -1,5 +1,6 @@
 // The decisions of the owner of a node.
 #include "arithmetic/part_share.hpp"
+#include "search/doubles.hpp"
 #include "search/gap.hpp"
 #include "search/tree_search.hpp"
 
@@ -22,14 +23,6 @@ Box box_in(std::span<const double> histogram) {
     return box;
 }
 
-template <class Value>
-void append(const Value& value, std::vector<double>& doubles) {
-    static_assert(std::is_trivially_copyable_v<Value> && sizeof(Value) % sizeof(double) == 0);
-    const std::size_t size = doubles.size();
-    doubles.resize(size + sizeof(Value) / sizeof(double));
-    std::memcpy(&doubles[size], &value, sizeof value);
-}
-
 /// Returns ranks and their weights, by rank.
 std::vector<std::pair<double, double>> weights_in(std::span<const double> payload) {
     std::vector<std::pair<double, double>> weights;
@@ -37,6 +30,16 @@ std::vector<std::pair<double, double>> weights_in(std::span<const double> payloa
         weights.emplace_back(payload[k], payload[k + 1]);
     std::ranges::sort(weights);
     return weights;
+}
+
+/// Returns the records of a lot, by rank.
+template <class Record>
+std::vector<Record> lots_in(std::span<const double> payload) {
+    std::vector<Record> records;
+    for (std::size_t k = 1; k < payload.size(); k += sizeof(Record) / sizeof(double))
+        records.push_back(read<Record>(payload.subspan(k)));
+    std::ranges::sort(records, {}, &Record::rank);
+    return records;
 }
 
 }  // namespace
@@ -53,7 +56,9 @@ void TreeSearch::decide(Butterfly& butterfly) {
     };
     for_each_owned([&](const Record& record, Node& node) {
         const bool searches = node.question == Question::cut && !node.at.is_part();
-        node.decided = searches ? decide_on(node, record.payload) : node.search;
+        node.decided = searches                         ? decide_on(node, record.payload)
+                       : node.question == Question::lot ? decide_on_lot(node, record.payload)
+                                                        : node.search;
     });
     limit_gathering();
     for_each_owned([&](const Record& record, const Node& node) {
@@ -90,25 +95,34 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
         if (sums.empty())
             answer.resize(answer.size() + static_cast<std::size_t>(node.at.num_parts));
     } else if (node.question == Question::lot) {
-        append(place_lot(node, record.payload), answer);
+        append(node.lot, answer);
     } else if (node.search.stage == CutSearch::over_fragments && !is_central()) {
         append(node.content.box, answer);
     }
     return answer;
 }
 
-/// Finds the rank that has points of a lot on both sides of its cut.
-TreeSearch::LotAnswer TreeSearch::place_lot(const Node& node,
-                                            std::span<const double> payload) const {
-    LotAnswer answer{1.0 * tree_.num_ranks};
-    for (const auto& [rank, weight] : weights_in(payload)) {
-        if (answer.before + weight > node.search.lot_below) {
-            answer.dividing_rank = rank;
-            break;
-        }
-        answer.before += weight;
+/// Finds the first rank with points of a lot above the cut. If all points are on one side, the cut
+/// leaves them there without dividing, because look-ups find the upper side of a cut that divides.
+CutSearch TreeSearch::decide_on_lot(Node& node, std::span<const double> payload) const {
+    CutSearch search = node.search;
+    const std::vector<LotRecord> row = lots_in<LotRecord>(payload);
+    Lot lot = lot_at(node.at, search);
+    const auto dividing = std::ranges::find_if(row, [&](const LotRecord& record) {
+        if (lot.is_above(record.points.before_last, record.points.last)) return true;
+        lot.before += record.points.weight;
+        return false;
+    });
+    const bool is_above =
+        row.empty() || (dividing == row.begin() && lot.is_above(0, row.front().points.first));
+    const bool is_below = !is_above && dividing == row.end();
+    if (is_above || is_below) search.lot_below = 0;
+    if (is_below) {
+        search.below += lot.before;
+        move_behind(search);
     }
-    return answer;
+    if (!is_above && !is_below) node.lot = {dividing->rank, lot.before};
+    return search;
 }
 
 /// Advances a search with the joined records of all ranks. Empty records mean that it has no points

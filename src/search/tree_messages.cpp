@@ -1,28 +1,15 @@
 // The records that ranks send to the owners of nodes, and how they follow the answers.
 #include "arithmetic/quantum.hpp"
+#include "search/doubles.hpp"
 #include "search/gap.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <utility>
 
 namespace rrcb {
-
-namespace {
-
-/// Returns the value at the beginning of doubles.
-template <class Value>
-Value read(std::span<const double> doubles) {
-    Value value;
-    std::memcpy(static_cast<void*>(&value), doubles.data(), sizeof value);
-    return value;
-}
-
-}  // namespace
 
 void TreeSearch::ask(Butterfly& butterfly) {
     std::vector<double> payload;
@@ -38,13 +25,10 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     if (node.question == Question::parts) return count_parts(node, payload);
     const auto& fragments = node.content.fragments;
     if (fragments.empty()) return;
-    if (node.question == Question::lot || node.at.is_part()) {
-        const bool is_lot = node.question == Question::lot;
-        const double weight =
-            is_lot ? weight_at(node.search.cut, fragments, points_) : weight_of(fragments);
-        const double quantum = is_lot ? node.search.quantum : 0;
-        const double told[] = {mark_of_weights, 1.0 * rank_, rounded_to(quantum, weight)};
-        if (weight > 0) payload.assign(std::begin(told), std::end(told));
+    if (node.question == Question::lot) return add_lot(node, payload);
+    if (node.at.is_part()) {
+        const double weight = weight_of(fragments);
+        if (weight > 0) payload = {mark_of_weights, 1.0 * rank_, weight};
         return;
     }
     if (node.search.stage == CutSearch::centring) return find_gap(node, payload);
@@ -58,6 +42,15 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     const std::span<double> histogram = std::span(payload).subspan(1);
     clear_histogram(histogram);
     node.local.count(node.search, layout_, histogram);
+}
+
+/// Appends this rank's points of a lot.
+void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
+    LotRecord record{1.0 * rank_, points_at(node.search.cut, node.content.fragments, points_)};
+    if (!(record.points.weight > 0)) return;
+    record.points.weight = rounded_to(node.search.quantum, record.points.weight);
+    payload.push_back(mark_of_weights);
+    append(record, payload);
 }
 
 /// Appends the gap of this rank's points around the known cut of a node.
@@ -121,7 +114,10 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
     if (node.question == Question::parts) return take_sums(std::move(node), more);
     node.content.weight = answer.weight;
     if (node.at.is_part()) return end_at_part(node.at, node.content);
-    if (node.question == Question::lot) return end_at_cut(std::move(node), read<LotAnswer>(more));
+    if (node.question == Question::lot) {
+        node.search = answer.search;
+        return end_at_cut(std::move(node), read<LotAnswer>(more));
+    }
     follow_search(std::move(node), answer.search, more);
 }
 

@@ -194,10 +194,9 @@ TreeSearch::Halves TreeSearch::split_tightly(const std::vector<Fragment>& fragme
 void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     if (is_central() || owner_of(node.at) == rank_) num_coincident_ += node.search.coincident;
     Cut cut = node.search.cut;
-    Lot lot;
-    if (node.question == Question::lot) {
+    Lot lot = lot_at(node.at, node.search);
+    if (lot.below > 0) {
         cut.divides = 1;
-        lot.below = node.search.lot_below;
         lot.before = rank_ < told.dividing_rank   ? -infinity
                      : rank_ > told.dividing_rank ? infinity
                                                   : told.before;
@@ -205,6 +204,11 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     node.content.are_parts_counted = false;
     if (node.search.stage != CutSearch::centring) note(node.at.node, cut);
     divide(node.at, node.content, cut, lot, node.search.below);
+}
+
+/// Returns the lot of a search that is done, as seen by the first rank.
+Lot TreeSearch::lot_at(const Descent& at, const CutSearch& search) const {
+    return {0, search.lot_below, share_below(at)};
 }
 
 void TreeSearch::end_at_part(const Descent& at, const Content& content) {

@@ -130,6 +130,17 @@ class TreeSearch {
         parts,  ///< the weights of the parts below by the current cuts
     };
 
+    /// Points of a rank in a lot.
+    struct LotRecord {
+        double rank = 0;
+        PointsInLot points{};
+    };
+    /// Divides a lot: ranks before the dividing one have their points below, ranks after it above.
+    struct LotAnswer {
+        double dividing_rank = 0;
+        double before = 0;  ///< weight on the ranks before it
+    };
+
     /// Points and weight of a node.
     struct Content {
         std::vector<Fragment> fragments;
@@ -149,6 +160,7 @@ class TreeSearch {
         LocalSearch local;
         CutTarget target{};          ///< at the owner only
         CutSearch decided{};         ///< likewise
+        LotAnswer lot{};             ///< likewise
         double below = not_counted;  ///< weight below the current cut, if that was counted
         Places places{};             ///< allowed for the cut
     };
@@ -165,11 +177,6 @@ class TreeSearch {
     struct Answer {
         CutSearch search;
         double weight = 0;
-    };
-    /// Divides a lot: ranks before the dividing one have their points below, ranks after it above.
-    struct LotAnswer {
-        double dividing_rank = 0;
-        double before = 0;  ///< weight on the ranks before it
     };
 
     bool is_central() const { return guide_ != nullptr; }
@@ -195,9 +202,11 @@ class TreeSearch {
     Bracket bracket_of(const Node& node) const;
     void count(const Node& node, std::vector<double>& payload);
     void count_parts(const Node& node, std::vector<double>& payload);
+    void add_lot(const Node& node, std::vector<double>& payload) const;
     void find_gap(const Node& node, std::vector<double>& payload);
     std::vector<double> answer_to(const Record& record, const Node& node) const;
-    LotAnswer place_lot(const Node& node, std::span<const double> payload) const;
+    Lot lot_at(const Descent& at, const CutSearch& search) const;
+    CutSearch decide_on_lot(Node& node, std::span<const double> payload) const;
     CutSearch decide_on(Node& node, std::span<const double> payload);
     void decide_by_first_count(Node& node, std::span<const double> histogram, CutSearch& search);
     void limit_gathering();

@@ -116,6 +116,41 @@ TEST(CoincidentPoints, beside_one_that_outweighs_them_are_divided_by_number) {
     }
 }
 
+TEST(CoincidentPoints, are_divided_as_distinct_ones_on_a_line) {
+    std::mt19937_64 engine(11);
+    for (int round = 0; round < 400; ++round) {
+        Options options = dividing(2 + static_cast<int>(engine() % 12));
+        options.tuning.central_parts = engine() % 2 == 0 ? 2 : 4096;
+        if (engine() % 3 != 0)
+            for (int k = 0; k < options.num_parts; ++k)
+                options.part_sizes.push_back(test::uniform(engine, 0.05));
+        if (engine() % 3 == 0)
+            options.tree = {1 + static_cast<int>(engine() % 3), engine() % 2 == 0};
+        // The row over the ranks is in ascending order.
+        std::vector<double> apart(std::mt19937_64(engine() + rank())() % 100);
+        std::iota(apart.begin(), apart.end(), 100.0 * rank());
+        const std::vector<double> together(apart.size(), 0.5);
+        const auto weights_of = [&](const std::vector<double>& x) {
+            return balance(interleaved_points(x, 1), options, MPI_COMM_WORLD).report.part_weights;
+        };
+        ASSERT_EQ(weights_of(together), weights_of(apart)) << "round " << round;
+    }
+}
+
+TEST(CoincidentPoints, go_to_the_side_that_they_make_less_too_heavy) {
+    // 190 of 225 leave 35 for 34.515, which is 1.4 % more; 191 for 190.485 are 0.3 % more.
+    std::vector<double> mine;
+    for (int i = 0; i < 225; ++i)
+        if (i % num_ranks() == rank()) mine.push_back(7);
+    for (const Refine refine : {Refine::tolerance, Refine::exact}) {
+        Options options = dividing(2, refine);
+        options.part_sizes = {0.8466, 0.1534};
+        const Balance result = balance(interleaved_points(mine, 1), options, MPI_COMM_WORLD);
+        EXPECT_EQ(result.report.part_weights, (std::vector<double>{191, 34}));
+        EXPECT_TRUE(result.report.within_tolerance);
+    }
+}
+
 TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
     // 490, 20 and 490: with either side of 510 the imbalance is 1.02.
     std::vector<double> mine;

@@ -60,7 +60,7 @@ TEST(Fragments, of_points_at_a_cut_go_below_until_the_weight_due_there_is_reache
          {std::pair{0.0, 2u}, std::pair{1.0, 1u}, std::pair{2.0, 0u}, std::pair{5.0, 0u}}) {
         SortedPoints points = sorted({0, 2, 2, 2, 4});
         Cut cut = cut_at(2);
-        EXPECT_EQ(weight_at(cut, cell_fragments(points), points), 3);
+        EXPECT_EQ(points_at(cut, cell_fragments(points), points).weight, 3);
         const auto [lower, upper] = split(cell_fragments(points), cut, {before, 2}, points);
         EXPECT_EQ(positions_in(lower, points).size(), 1 + num_below) << before;
         EXPECT_EQ(positions_in(upper, points).size(), 4 - num_below) << before;
@@ -166,7 +166,7 @@ TEST(Fragments, weigh_what_lies_exactly_at_a_cut) {
         for (std::size_t i = 0; i < 60; ++i)
             if (lattice.coordinates[2 * i] == x && lattice.coordinates[2 * i + 1] == y)
                 weight += lattice.weights[i];
-        EXPECT_EQ(weight_at(cut, cell_fragments(points), points), weight);
+        EXPECT_EQ(points_at(cut, cell_fragments(points), points).weight, weight);
     }
 }
 
@@ -182,7 +182,7 @@ TEST(Fragments, of_a_lot_on_several_ranks_miss_the_weight_due_by_half_a_point_at
             SortedPoints points = sorted({0, 4, 2, 2, 2, 2, 2}, weights);
             const Cut cut = cut_at(2);
             const auto fragments = cell_fragments(points);
-            const double here = weight_at(cut, fragments, points);
+            const double here = points_at(cut, fragments, points).weight;
             const auto [lower, upper] = split(fragments, cut, {before, due}, points);
             for (const Fragment& fragment : lower) below += fragment.weight;
             before += here;

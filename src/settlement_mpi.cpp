@@ -77,7 +77,8 @@ void Settlement::refine(const Points& points, const Bin& bin, Decision& decision
                       !decision.part_weights.empty(),
                       verdict.heaviest,
                       !decision.bisects,
-                      verdict.box};
+                      verdict.box,
+                      report.details.num_points};
     Refined refined = refinement_->refine(std::move(estimate), points, bin, result.parts, self);
     report_measured(refined.imbalance, options_->imbalance_tolerance, report);
     report.part_weights = sums_.take();

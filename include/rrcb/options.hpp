@@ -14,7 +14,7 @@ enum class Refine {
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the counted imbalance is within `imbalance_tolerance`
     exact       ///< to the weighted median: each cut to within the weight of one point, which goes
-                ///< to the side that it makes less too heavy
+           ///< to the side that it makes less too heavy, or further to fill parts of equal size
 };
 
 /// Treatment of coincident points that a balanced cut would divide.

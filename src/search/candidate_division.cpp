@@ -17,18 +17,19 @@ std::vector<Candidate> read_candidates(std::span<const double> records, int dime
 
 Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
                        const CutTarget& target) {
-    Division best{0, target.base, {}};
+    Division best{target.base_count, target.base, {}};
     double below = target.base;
-    Ties ties{0, 0, below, 0};
+    Ties ties{target.base_count, 0, below, 0};
     for (std::size_t k = 0; k < sorted.size(); ++k) {
         below += sorted[k].weight;
         if (k + 1 < sorted.size() && !before(sorted[k].position, sorted[k + 1].position)) continue;
-        ties.count = k + 1 - ties.begin;
+        const GlobalCount count = target.base_count + static_cast<GlobalCount>(k + 1);
+        ties.count = count - ties.begin;
         ties.weight = below - ties.below;
         if (ties.count > 1 && ties.below < target.target && target.target < below) best.ties = ties;
-        ties = {k + 1, 0, below, 0};
-        if (target.excess(below) >= target.excess(best.below)) continue;
-        best.num_below = k + 1;
+        ties = {count, 0, below, 0};
+        if (target.excess(below, count) >= target.excess(best.below, best.count)) continue;
+        best.count = count;
         best.below = below;
     }
     return best;

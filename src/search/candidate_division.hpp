@@ -19,19 +19,19 @@ struct Candidate {
 /// Reads candidates from records of position and weight.
 std::vector<Candidate> read_candidates(std::span<const double> records, int dimension);
 
-/// Candidates at one position, and the weight below them.
+/// Candidates at one position, and the points below them.
 struct Ties {
-    std::size_t begin = 0;
-    std::size_t count = 0;
+    GlobalCount begin = 0;  ///< number of the points below
+    GlobalCount count = 0;
     double below = 0;
     double weight = 0;
 };
 
 /// Candidates in two groups: those below the cut come first.
 struct Division {
-    std::size_t num_below = 0;
-    double below = 0;  ///< weight of the node below the cut
-    Ties ties;         ///< candidates that hold the target, if there are several
+    GlobalCount count = 0;  ///< points of the node below the cut
+    double below = 0;       ///< their weight
+    Ties ties;              ///< candidates that hold the target, if there are several
 };
 
 /// Returns the division with the least excess of sorted candidates, all above the base of the

@@ -3,6 +3,7 @@
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
 #include "search/candidate_division.hpp"
+#include "search/chosen_slot.hpp"
 #include "search/gap.hpp"
 
 #include <algorithm>
@@ -41,15 +42,17 @@ void finish_behind(CutSearch& search, const Vector& position, double below) {
 /// Ends among points that no cut separates: divides them, or leaves all of them on the side with
 /// the smaller excess.
 void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
-                       double below_ties, double weight) {
+                       const Ties& ties) {
+    const double above = ties.below + ties.weight;
     search.coincident = 1;
     if (target.divides) {
-        search.lot_below = target.target - below_ties;
-        finish_at(search, position, below_ties);
-    } else if (target.excess(below_ties) < target.excess(below_ties + weight)) {
-        finish_at(search, position, below_ties);
+        search.lot_below = target.target - ties.below;
+        finish_at(search, position, ties.below);
+    } else if (target.excess(ties.below, ties.begin) <
+               target.excess(above, ties.begin + ties.count)) {
+        finish_at(search, position, ties.below);
     } else {
-        finish_behind(search, position, below_ties + weight);
+        finish_behind(search, position, above);
     }
 }
 
@@ -67,7 +70,8 @@ void break_tie(CutSearch& search, const CutTarget& target, std::span<const doubl
     }
     Vector position{};
     position[axis_index(search, search.tied)] = value;
-    finish_among_ties(search, target, position, target.base, weight);
+    finish_among_ties(search, target, position,
+                      {target.base_count, target.num_candidates, target.base, weight});
 }
 
 struct CandidateRange {
@@ -100,39 +104,6 @@ void narrow(CutSearch& search, const CutTarget& target, const HistogramLayout& l
     search.lower = is_limited ? std::max(lower, target.places.first) : lower;
     search.upper = is_limited ? std::min(upper, target.places.last) : upper;
     if (!is_limited && is_few) search.stage = CutSearch::gathering;
-}
-
-/// Slot of the histogram that the target falls into, with the weight below it.
-struct Chosen {
-    int slot = 0;
-    double below = 0;
-};
-
-Chosen choose(double base, double target, std::span<const double> weights) {
-    Chosen chosen{0, base};
-    const int last = static_cast<int>(weights.size()) - 1;
-    // The base and all slots before this one weigh less than the target. So the target is in this
-    // slot, or by round-off behind all slots, and the last one is taken.
-    while (chosen.slot < last) {
-        const double next = chosen.below + weights[chosen.slot];
-        if (next >= target) break;
-        chosen.below = next;
-        ++chosen.slot;
-    }
-    return chosen;
-}
-
-/// Excess of a cut at either edge of a slot.
-struct EdgeErrors {
-    double lower;
-    double upper;
-
-    bool at_lower() const { return lower <= upper; }
-    double least() const { return std::min(lower, upper); }
-};
-
-EdgeErrors errors_at(const Chosen& chosen, double weight, const CutTarget& target) {
-    return {target.excess(chosen.below), target.excess(chosen.below + weight)};
 }
 
 /// Returns true if all candidates share a coordinate at which the cut is allowed and may break
@@ -212,10 +183,11 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
         search.chosen = bins.slot_of(extent.smallest);
         return break_tie(search, target, histogram, extent.smallest, sum_of(weights));
     }
-    const Chosen chosen = choose(target.base, target.target, weights);
+    const auto counts = counts_in(histogram, layout);
+    const Chosen chosen = choose(target, weights, counts);
     if (finish_at_limit(search, target, weights, chosen)) return;
     const int slot = chosen.slot;
-    const EdgeErrors errors = errors_at(chosen, weights[slot], target);
+    const EdgeErrors errors = errors_at(chosen, weights[slot], counts[slot], target);
     const int edge = chosen.slot - (errors.at_lower() ? 1 : 0);
     if (edge >= 0 && edge <= layout.num_bins && errors.least() <= target.slack) {
         finish(search, bins.edge(edge), chosen.below + (errors.at_lower() ? 0 : weights[slot]));
@@ -223,7 +195,8 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
     }
     search.chosen = slot;
     target.base = chosen.below;
-    target.num_candidates = static_cast<GlobalCount>(counts_in(histogram, layout)[slot]);
+    target.base_count = chosen.count;
+    target.num_candidates = static_cast<GlobalCount>(counts[slot]);
     if (layout.limits[axis].has_grid()) {
         narrow_on_lines(search, target, layout, errors, weights[slot]);
     } else {
@@ -241,12 +214,13 @@ bool decide_among(CutSearch& search, const CutTarget& target, std::span<const do
     std::ranges::stable_sort(candidates, before, &Candidate::position);
 
     const Division division = best_division(candidates, before, target);
-    const std::size_t best = division.num_below;
+    const auto best = static_cast<std::size_t>(division.count - target.base_count);
     search.coincident = division.ties.count > 0 ? 1 : 0;
-    const bool good = target.excess(division.below) <= target.slack;
+    const Ties& ties = division.ties;
+    const bool good = target.excess(division.below, division.count) <= target.slack;
     if (search.coincident != 0 && target.divides && !good) {
-        const Ties& ties = division.ties;
-        finish_among_ties(search, target, candidates[ties.begin].position, ties.below, ties.weight);
+        finish_among_ties(search, target, candidates[ties.begin - target.base_count].position,
+                          ties);
         return false;
     }
     if (best == 0 || best == candidates.size()) {

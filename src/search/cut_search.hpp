@@ -7,7 +7,9 @@
 
 #include <rrcb/cuts.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -40,6 +42,18 @@ struct CutSearch {
     double lot_below = 0;  ///< weight of points to be divided that belongs below, once done
 };
 
+/// Numbers of points below a cut with which both sides have a point for each part.
+struct CountLimits {
+    GlobalCount least = 0;
+    GlobalCount most = std::numeric_limits<GlobalCount>::max();
+    double penalty = 0;  ///< more than any excess
+
+    /// Returns the number of parts that stay empty with so many points below.
+    GlobalCount num_missing(GlobalCount count) const {
+        return std::max({least - count, count - most, GlobalCount{0}});
+    }
+};
+
 /// State of a search at the owner only.
 struct CutTarget {
     double target = 0;               ///< weight that belongs below the cut
@@ -47,6 +61,8 @@ struct CutTarget {
     double slack = 0;                ///< excess that a cut may leave
     double base = 0;                 ///< weight of the node below all candidates
     GlobalCount num_candidates = 0;  ///< points of all ranks that are left
+    GlobalCount base_count = 0;      ///< points of the node below all candidates
+    CountLimits counts{};            ///< of points below the cut
     bool divides = false;  ///< points that no cut separates are divided, those of lower ranks below
     Places places{};       ///< allowed for the cut; any place if cuts are not limited
 
@@ -55,6 +71,12 @@ struct CutTarget {
     /// target.
     double excess(double below) const {
         return below < target ? 2 * share * (target - below) : 2 * (1 - share) * (below - target);
+    }
+
+    /// Returns the excess of a cut with so many points below it; of two cuts that leave parts
+    /// empty, the one that leaves fewer has the smaller excess.
+    double excess(double below, GlobalCount count) const {
+        return excess(below) + counts.penalty * static_cast<double>(counts.num_missing(count));
     }
 };
 

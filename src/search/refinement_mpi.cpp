@@ -10,6 +10,7 @@
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace rrcb {
@@ -59,20 +60,31 @@ Refined Refinement::refine(Estimate&& estimate, const Points& points, const Bin&
     const bool is_exact = tree_.rule.is_exact;
     const bool is_known = estimate_.is_counted || (is_exact && !are_cuts_limited(options_));
     const bool is_accepted = !is_known && accept_estimate(points, parts, self);
-    if (is_exact || !(is_accepted || correct(points, parts, self))) search(bin, parts, self);
+    if (is_exact || !(is_accepted || correct(points, parts, self))) {
+        search(bin, parts, self);
+    } else if (refined_.imbalance <= options_.imbalance_tolerance) {
+        search_exactly(bin, parts, self);
+    }
     refined_.cuts = std::move(estimate_.cuts);
     return std::move(refined_);
 }
 
-/// Searches the cuts, and once more, exactly, if they miss a tolerance. Collective.
+/// Searches the cuts, and once more, exactly, if that is not enough. Collective.
 void Refinement::search(const Bin& bin, std::span<Part> parts, Participant& self) {
     if (limits_) {
         search_for_better(bin, parts, self);
     } else {
         search_once(bin, parts, self);
     }
-    const bool missed = refined_.imbalance > options_.imbalance_tolerance;
-    if (missed && !std::exchange(tree_.rule.is_exact, true)) search_for_better(bin, parts, self);
+    search_exactly(bin, parts, self);
+}
+
+/// Searches exactly, once, if the cuts miss the tolerance or leave parts empty. Collective.
+void Refinement::search_exactly(const Bin& bin, std::span<Part> parts, Participant& self) {
+    const bool is_good =
+        refined_.imbalance <= options_.imbalance_tolerance && num_left_empty() == 0;
+    if (is_good || std::exchange(tree_.rule.is_exact, true)) return;
+    search_for_better(bin, parts, self);
 }
 
 /// Takes an estimate, and derives the targets and the limits of its cuts.
@@ -89,6 +101,8 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
                   0,
                   options_.refine == Refine::exact,
                   estimate_.is_earlier && !is_limited};
+    fills_parts_ = !is_limited && estimate_.num_points >= std::ssize(sizes) &&
+                   std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
     if (is_limited)
         self.attempt([&] {
             limits_.emplace(options_, estimate_.box, estimate_.cuts.dimension,
@@ -130,6 +144,12 @@ void Refinement::measure(Participant& self) {
     tree_.rule.counted_weight = sum_of(sums_.sums());
 }
 
+/// Returns the number of parts without weight although there are points for all; 0 if parts have
+/// different sizes, because empty ones may be the most even then.
+std::ptrdiff_t Refinement::num_left_empty() const {
+    return fills_parts_ ? std::ranges::count(sums_.sums(), 0.0) : 0;
+}
+
 /// Finds all cuts, and the parts at the end. Collective.
 void Refinement::search_once(const Bin& bin, std::span<Part> parts, Participant& self) {
     const bool is_counted = !tree_.rule.is_exact && !limits_;
@@ -164,8 +184,15 @@ void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Partic
         memory_.parts.assign(parts.begin(), parts.end());
     });
     const double imbalance_before = refined_.imbalance;
+    const std::ptrdiff_t empty_before = num_left_empty();
     search_once(bin, parts, self);
-    if (refined_.imbalance < imbalance_before) return;
+    // Parts are filled only if they stay within the tolerance or as even as they were.
+    constexpr double round_off = 1e-12;
+    const std::ptrdiff_t gain = empty_before - num_left_empty();
+    const double most =
+        gain > 0 ? std::max(imbalance_before, options_.imbalance_tolerance) : imbalance_before;
+    const double margin = gain > 0 ? round_off : gain < 0 ? -round_off : 0;
+    if (refined_.imbalance < most * (1 + margin)) return;
     refined_.imbalance = imbalance_before;
     refined_.coincident_cuts = before.coincident_cuts;
     estimate_.cuts.tree = std::move(before.tree);

@@ -12,6 +12,7 @@
 #include <rrcb/method/bisection.hpp>
 #include <rrcb/options.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -52,10 +53,11 @@ struct Estimate {
     double common_weight = 0;       ///< weight of each point if all weigh the same, else 0
     /// Imbalance of the parts that may stay instead; infinite if there are none.
     double kept_imbalance = std::numeric_limits<double>::infinity();
-    bool is_counted = false;  ///< `parts` and the sums are those of the cuts, not good enough
-    double heaviest = 0;      ///< weight of the heaviest point
-    bool is_earlier = false;  ///< the cuts are those of an earlier call
-    Box box{};                ///< of all points, if cuts are limited
+    bool is_counted = false;     ///< `parts` and the sums are those of the cuts, not good enough
+    double heaviest = 0;         ///< weight of the heaviest point
+    bool is_earlier = false;     ///< the cuts are those of an earlier call
+    Box box{};                   ///< of all points, if cuts are limited
+    GlobalCount num_points = 0;  ///< over all ranks
 };
 
 /// Returns the points by cells, for a search. May throw. Made of a std::ref, it does not allocate.
@@ -84,7 +86,8 @@ class Refinement {
     ///
     /// Collective. Writes the part of each point into `parts`; a search works on a sorted copy of
     /// the points. A tolerance can be missed because upper levels used slack that lower ones need.
-    /// Then it searches once more, exactly, and keeps the better cuts. Limited cuts are all
+    /// Then, and if equal parts are empty although there are as many points, it searches once more,
+    /// exactly, and keeps the better cuts. Limited cuts are all
     /// searched in their places, and the estimate is kept if it is better. Without weight the cuts
     /// are kept. A failure on one rank, before or here, is thrown on all.
     Refined refine(Estimate&& estimate, const Points& points, const Bin& bin, std::span<Part> parts,
@@ -95,9 +98,11 @@ class Refinement {
     bool accept_estimate(const Points& points, std::span<Part> parts, Participant& self);
     bool correct(const Points& points, std::span<Part> parts, Participant& self);
     void search(const Bin& bin, std::span<Part> parts, Participant& self);
+    void search_exactly(const Bin& bin, std::span<Part> parts, Participant& self);
     void search_once(const Bin& bin, std::span<Part> parts, Participant& self);
     void search_for_better(const Bin& bin, std::span<Part> parts, Participant& self);
     void measure(Participant& self);
+    std::ptrdiff_t num_left_empty() const;
 
     const Options& options_;
     PartSums& sums_;
@@ -107,6 +112,7 @@ class Refinement {
     std::optional<CutLimits> limits_;       ///< empty if cuts are not limited
     std::optional<Correction> correction_;  ///< with a tolerance, if cuts are not limited
     TreeRounds rounds_;
+    bool fills_parts_ = false;  ///< points suffice for all parts, which are to be equal
     Refined refined_;
 };
 

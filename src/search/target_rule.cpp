@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace rrcb {
 
@@ -112,6 +113,16 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     const double growth = std::pow(attainable_tolerance(at) * ideal / weight, 1.0 / levels);
     target.slack = std::max(target.slack, of_both * (growth - 1) * weight);
     return target;
+}
+
+CountLimits TargetRule::count_limits(const Descent& at, GlobalCount count, double weight) const {
+    const auto sizes = part_sizes.empty() ? part_sizes : sizes_of(at);
+    const bool are_equal =
+        std::ranges::adjacent_find(sizes, std::ranges::not_equal_to{}) == sizes.end();
+    if (!are_equal || count < at.num_parts) return {};
+    constexpr double factor = 4;
+    const GlobalCount least = at.lower_parts();
+    return {least, count - at.num_parts + least, factor * weight};
 }
 
 }  // namespace rrcb

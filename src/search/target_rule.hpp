@@ -46,6 +46,11 @@ struct TargetRule {
     /// below its present cut, if that was counted.
     CutTarget target_of(const Descent& at, double weight, double below = not_counted) const;
 
+    /// Returns the numbers of points below a node's cut that fill all parts, of `count` points that
+    /// weigh `weight`. With parts of different sizes any number: an empty part may then be the most
+    /// even.
+    CountLimits count_limits(const Descent& at, GlobalCount count, double weight) const;
+
   private:
     std::span<const double> sizes_of(const Descent& at) const {
         return part_sizes.subspan(at.first_part, at.num_parts);

@@ -5,8 +5,6 @@
 #include "search/tree_search.hpp"
 
 #include <algorithm>
-#include <cstring>
-#include <type_traits>
 #include <utility>
 
 namespace rrcb {
@@ -171,6 +169,9 @@ void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histo
     node.target = tree_.rule.target_of(node.at, weight, node.below);
     node.target.places = node.places;
     node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;
+    const auto count = static_cast<GlobalCount>(sum_of(counts_in(histogram, layout_)));
+    if (node.target.places.all())
+        node.target.counts = tree_.rule.count_limits(node.at, count, weight);
     decide_by_bins(search, node.target, layout_, histogram);
 }
 

@@ -134,7 +134,7 @@ TEST(Tie, on_all_axes_divides_the_points_where_they_are_to_be_divided) {
     decide_by_bins(search, target, layout, histogram_of({0, 10}, many, 2.5, 2.5));
     EXPECT_EQ(search.cut.at[0], 2.5);
     EXPECT_EQ(search.lot_below, 4);
-    EXPECT_EQ(search.below, 7);
+    EXPECT_EQ(search.below, 3);
 }
 
 /// Ends among candidates of weight 1 on a line.
@@ -171,7 +171,7 @@ TEST(DecideAmong, keeps_candidates_in_one_place_together_or_divides_them) {
     EXPECT_EQ(divided.coincident, 1);
     EXPECT_EQ(divided.cut.at[0], 2);
     EXPECT_EQ(divided.lot_below, 1);
-    EXPECT_EQ(divided.below, 2);
+    EXPECT_EQ(divided.below, 1);
 }
 
 TEST(DecideAmong, breaks_ties_along_the_next_axis) {

@@ -292,9 +292,26 @@ class Global {
         }
         EXPECT_EQ(cut.axis, axis_of(members)) << case_;
         const double share = target / all;
-        EXPECT_LE(excess(sum(lower) / all, share),
-                  least_excess(members, share, cut.axis) * (1 + 1e-12))
-            << case_;
+        const Loss loss{num_empty(at, lower.size(), members.size()),
+                        excess(sum(lower) / all, share)};
+        const auto [least_empty, least_excess] = least_loss(at, members, share, cut.axis);
+        EXPECT_EQ(loss.first, least_empty) << case_;
+        EXPECT_LE(loss.second, least_excess * (1 + 1e-12)) << case_;
+    }
+
+    /// Parts of a node that a cut leaves empty although there are points for all, if they have one
+    /// size, and then its excess.
+    using Loss = std::pair<std::size_t, double>;
+
+    std::size_t num_empty(const Descent& at, std::size_t below, std::size_t all) const {
+        for (Part part = at.first_part; part < at.first_part + at.num_parts; ++part)
+            if (size_of(static_cast<std::size_t>(part)) != sizes(at) / at.num_parts) return 0;
+        const auto lacking = [](const Descent& side, std::size_t count) {
+            const auto parts = static_cast<std::size_t>(side.num_parts);
+            return parts > count ? parts - count : 0;
+        };
+        if (lacking(at, all) > 0) return 0;
+        return lacking(at.lower(), below) + lacking(at.upper(), all - below);
     }
 
     int axis_of(const std::vector<std::size_t>& members) const {
@@ -316,7 +333,8 @@ class Global {
     }
 
     /// The least that a cut across this axis may leave.
-    double least_excess(std::vector<std::size_t> members, double share, int axis) const {
+    Loss least_loss(const Descent& at, std::vector<std::size_t> members, double share,
+                    int axis) const {
         const auto key = [&](std::size_t i) {
             std::vector<double> numbers{x(i, static_cast<std::size_t>(axis))};
             for (std::size_t a = 0; a < d_ && !case_.plain_cuts; ++a) numbers.push_back(x(i, a));
@@ -325,12 +343,13 @@ class Global {
         std::ranges::sort(members, {}, key);
         double all = 0;
         for (const std::size_t i : members) all += weight(i);
-        double least = excess(0, share);
+        Loss least{num_empty(at, 0, members.size()), excess(0, share)};
         double below = 0;
         for (std::size_t k = 0; k < members.size(); ++k) {
             below += weight(members[k]);
             if (k + 1 < members.size() && key(members[k]) == key(members[k + 1])) continue;
-            least = std::min(least, excess(below / all, share));
+            least = std::min(
+                least, Loss{num_empty(at, k + 1, members.size()), excess(below / all, share)});
         }
         return least;
     }

@@ -45,6 +45,7 @@ TEST(Parts, are_filled_whatever_the_weights) {
         Options options;
         options.num_parts = 2 + static_cast<int>(engine() % 30);
         options.refine = round % 3 == 0 ? Refine::exact : Refine::tolerance;
+        options.tuning.central_parts = round % 5 == 0 ? 2 : 4096;
         const bool is_power = round % 2 == 0;
         const SkewedPoints skewed(engine, (is_power ? 20 : 5) * options.num_parts, is_power);
         const Balance result = balance(skewed.points(), options, MPI_COMM_WORLD);

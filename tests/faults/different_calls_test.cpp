@@ -118,7 +118,7 @@ std::vector<NamedCall> all_calls() {
          [](Input&) {
              rrcb_balancer* made = nullptr;
              if (rrcb_create(world, &made) != RRCB_OK)
-                 throw Error(ErrorCode::invalid_argument, rrcb_last_error());
+                 throw Error(ErrorCode::mpi, rrcb_last_error());
              rrcb_destroy(made);
          }},
     };

@@ -1,5 +1,7 @@
 #include "cuts/packed_tree.hpp"
 
+#include "arithmetic/vector_clones.hpp"
+
 #include <algorithm>
 
 namespace rrcb {

@@ -208,7 +208,7 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
 
 /// Returns the lot of a search that is done, as seen by the first rank.
 Lot TreeSearch::lot_at(const Descent& at, const CutSearch& search) const {
-    return {0, search.lot_below, share_below(at)};
+    return {0, search.lot_below, tree_.rule.share_below(at)};
 }
 
 void TreeSearch::end_at_part(const Descent& at, const Content& content) {

@@ -54,7 +54,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         state.last = std::move(parcel.last);
         const std::vector<char> again = rrcb::zoltan::serialize(state, parcel.of_zoltan);
         expect(rrcb::zoltan::serialize(state, parcel.of_zoltan) == again, "the same bytes twice");
-        expect(rrcb::zoltan::deserialize(again).given == parcel.given, "the same parameters");
+        expect(std::ranges::equal(rrcb::zoltan::deserialize(again).given, parcel.given),
+               "the same parameters");
     } catch (const rrcb::zoltan::ZoltanError&) {
     }
     return 0;

@@ -11,11 +11,12 @@ namespace rrcb {
 
 /// Statistics of a call; the same on every rank.
 struct ReportDetails {
-    GlobalCount num_points = 0;      ///< over all ranks
-    GlobalCount num_records = 0;     ///< cells bisected
-    double total_weight = 0;         ///< over all ranks
-    double estimated_imbalance = 1;  ///< of the statistical domain, see quality.hpp; NaN if there
-                                     ///< is none: from earlier cuts, or if many ranks make the parts
+    GlobalCount num_points = 0;   ///< over all ranks
+    GlobalCount num_records = 0;  ///< cells bisected
+    double total_weight = 0;      ///< over all ranks
+    double estimated_imbalance =
+        1;  ///< of the statistical domain, see quality.hpp; NaN if there
+            ///< is none: from earlier cuts, or if many ranks make the parts
     /// Lower bound of the imbalance of any partition: a part cannot weigh less than the heaviest
     /// point.
     double least_imbalance = 1;

@@ -36,8 +36,8 @@ std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axi
 /// `options`, one per rank; nullopt if they are no bisection. Not collective.
 ///
 /// The cuts give each point the part of its rank, except coincident points that a cut divides, if
-/// the options allow it. Rank r holds part r if that is possible. Otherwise the ranks hold the parts
-/// in another order, as after a renumbering.
+/// the options allow it. Rank r holds part r if that is possible. Otherwise the ranks hold the
+/// parts in another order, as after a renumbering.
 ///
 /// A cut must be across an axis that a new cut might have:
 /// - that of the same cut in `estimate`, if all cuts above it are across those of `estimate` too,

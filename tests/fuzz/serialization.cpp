@@ -6,6 +6,7 @@
 #include "fuzzing.hpp"
 #include "zoltan/real/message.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 

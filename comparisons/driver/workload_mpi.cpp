@@ -145,12 +145,12 @@ void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm) {
     const int rank = rank_of(comm);
     const rrcb::Plan plan = rrcb::plan(ranks, size_of(comm), comm);
     const std::size_t width = static_cast<std::size_t>(workload.dimension);
-    const std::size_t weights = workload.weighted ? 1 : 0;
-    std::tie(workload.coordinates, workload.weights) =
-        rrcb::transfer(plan,
-                       rrcb::columns(rrcb::column(workload.coordinates, width),
-                                     rrcb::column(workload.weights, weights)),
-                       comm);
+    const auto coordinates = rrcb::column(workload.coordinates, width);
+    if (workload.weighted)
+        std::tie(workload.coordinates, workload.weights) =
+            rrcb::transfer(plan, rrcb::columns(coordinates, workload.weights), comm);
+    else
+        workload.coordinates = rrcb::transfer(plan, coordinates, comm);
     // What stays comes first; it belongs behind what comes from the ranks before this one.
     const auto kept = plan.num_points - plan.export_indices.size();
     const auto before = static_cast<std::size_t>(std::ranges::lower_bound(plan.import_ranks, rank) -
@@ -160,7 +160,7 @@ void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm) {
         std::rotate(begin, begin + kept * components, begin + (kept + before) * components);
     };
     order(workload.coordinates, width);
-    order(workload.weights, weights);
+    if (workload.weighted) order(workload.weights, 1);
 }
 
 namespace {

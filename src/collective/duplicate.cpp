@@ -64,7 +64,7 @@ void refuse_two_groups(MPI_Comm user) {
 
 /// Returns what is kept with `user`, or null. Makes way for another duplicate if ranks made
 /// different calls with this one. Throws Error if some made none.
-Duplicate* find(MPI_Comm user) {
+Duplicate* kept_with(MPI_Comm user) {
     Duplicate* found = Attribute<Duplicate>::find(user);
     if (found == nullptr || found->log->end == CallLog::End::none) return found;
     if (found->log->end == CallLog::End::missing) throw_end(found->log->why);
@@ -128,7 +128,7 @@ Duplicate& find_or_make(MPI_Comm user, CallName call) {
     if (user == MPI_COMM_NULL)
         throw Error(ErrorCode::invalid_argument,
                     "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
-    Duplicate* found = find(user);
+    Duplicate* found = kept_with(user);
     return found != nullptr ? *found : make(user, call);
 }
 

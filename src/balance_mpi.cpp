@@ -325,7 +325,7 @@ Balance balance_over(MPI_Comm comm, const Points& points, const Options& options
     Participant self =
         mpi::enter(comm, previous != nullptr ? CallName::rebalance : CallName::balance);
     Balance result = balance(points, options, previous, true, self, std::move(memory));
-    self.throw_alone();
+    self.throw_failed_message();
     return result;
 }
 

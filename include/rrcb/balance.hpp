@@ -31,10 +31,11 @@ struct ReportDetails {
 ///
 /// Look at `imbalance` and `within_tolerance`; the other fields explain these two.
 struct Report {
-    double imbalance = 1;              ///< heaviest part / mean part, counted; NaN if not counted,
-                                       ///< 1 without points
-    bool within_tolerance = false;     ///< `imbalance` is at most Options::imbalance_tolerance
-    bool kept = false;                 ///< nothing moves: the points of rank r are part r
+    double imbalance = 1;           ///< heaviest part / mean part, counted; NaN if not counted,
+                                    ///< 1 without points
+    bool within_tolerance = false;  ///< `imbalance` is at most Options::imbalance_tolerance
+    bool kept = false;  ///< nothing moves: the points of rank r are part r; not noticed if many
+                        ///< ranks make the parts
     std::vector<double> part_weights;  ///< over all ranks, one per part, by count if all weights
                                        ///< are 0; empty if not counted, or if ranks get their own
                                        ///< cuts only

@@ -38,7 +38,7 @@ int guarded_together(CallName call, Handle* handle, Body&& body) noexcept {
     return guarded(handle, [&](auto& own) {
         Participant self = mpi::enter(own.comm, call);
         body(own, self);
-        self.throw_alone();
+        self.throw_failed_message();
     });
 }
 

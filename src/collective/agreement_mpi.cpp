@@ -101,7 +101,6 @@ std::size_t find_difference(Participant& self, std::span<Shared> arguments) {
         find_smallest(values, self.comm);
     }
     if (smallest[0] < 2 * num_ranks) fail_together(static_cast<int>(smallest[0] % num_ranks), self);
-    self.throw_alone();  // a message failed that no other rank could hear of
     for (std::size_t k = 0; k < arguments.size(); ++k) {
         const Ends ends{smallest[1 + 2 * k], smallest[2 + 2 * k]};
         if (ends != not_needed && ends[0] != ~ends[1]) return k;

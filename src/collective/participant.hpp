@@ -67,6 +67,12 @@ struct Participant {
         if (failed()) throw Error(failure.code, failure.text.data());
     }
 
+    /// Throws the failure of a last message, on this rank only. Without memory for a last message,
+    /// which has no records, the result is complete.
+    void throw_failed_message() const {
+        if (failed() && failure.code == ErrorCode::mpi) throw_alone();
+    }
+
     /// Notes the failing rank that a message named, which may be no_rank or some_rank.
     void hear_of(int rank) {
         if (failing_there == no_rank) failing_there = rank;

@@ -122,7 +122,7 @@ Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
 }
 
 Plan plan(const Balance& balance, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+    Participant self = mpi::enter(user, CallName::plan);
     self.attempt([&] { mpi::require_group(balance.cuts.group, "the balance", self); });
     return plan(balance.parts, balance.cuts.num_parts, self);
 }

@@ -57,7 +57,9 @@ std::vector<double> part_weights(const Points& points, std::span<const Part> par
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  MPI_Comm user) {
     Participant self = mpi::enter(user, CallName::part_weights);
-    return part_weights(points, parts, num_parts, self);
+    std::vector<double> weights = part_weights(points, parts, num_parts, self);
+    self.throw_failed_message();
+    return weights;
 }
 
 std::vector<double> part_weights(const Points& points, const Balance& balance, MPI_Comm comm) {
@@ -85,7 +87,9 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       MPI_Comm user) {
     Participant self = mpi::enter(user, CallName::moved_fraction);
-    return moved_fraction(points, parts, num_parts, self);
+    const double moved = moved_fraction(points, parts, num_parts, self);
+    self.throw_failed_message();
+    return moved;
 }
 
 double moved_fraction(const Points& points, const Balance& balance, MPI_Comm comm) {

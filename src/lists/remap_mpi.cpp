@@ -282,7 +282,7 @@ Remap remap_over(MPI_Comm user, std::span<const Part> parts, const PreviousParts
                  std::span<const RankRange> ranks_of_parts, const TreeShape& shape) {
     Participant self = mpi::enter(user, CallName::remap);
     Remap result = remap(parts, previous, ranks_of_parts, shape, self);
-    self.throw_alone();
+    self.throw_failed_message();
     return result;
 }
 

@@ -49,6 +49,7 @@ struct Input {
         for (int r = 0; r < num_ranks(); ++r) ranks.push_back({r, 1});
         for (std::uint64_t i = 0; i < 40; ++i) keys.push_back(i / 2);
         balanced = balance(points, {}, world);
+        balanced.cuts.points = 0;  // the points stay where they are
         lists = plan(balanced, world);
         near = ghosts(balanced.cuts, points, {.radius = 0.1}, world);
         clusters = groups(points, keys, world);

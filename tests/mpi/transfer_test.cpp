@@ -326,7 +326,7 @@ TEST(Transfer, refuses_a_plan_of_another_communicator) {
     const std::vector<double> values(parts.size());
     EXPECT_FALSE(transfer(lists, values, reversed).empty());
     expect_on_all_ranks(text_of([&] { transfer(lists, values, MPI_COMM_WORLD); }),
-                        "make the plans of all ranks in one call, with this communicator");
+                        "the plan belongs to other ranks than this communicator");
     MPI_Comm_free(&reversed);
 }
 

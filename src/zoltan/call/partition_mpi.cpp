@@ -239,7 +239,7 @@ void balance_objects(const Call& call, Objects&& objects, Partition& result) {
         balanced.cuts = gather_cuts(balanced.cuts, self);
     if ((call.outcome.any_keeps_cuts || is_whole(balanced.cuts)) && !numbering.is_whole())
         numbering = whole_numbering(numbering, layout.map, self);
-    self.throw_alone();
+    self.throw_failed_message();
     print_notices(balanced.report, layout.map.num_parts, remap, call.state, call.function);
     result.summary = summary_of(balanced.report, layout.map.num_parts);
     keep(std::move(prepared), std::move(balanced), std::move(layout.map), std::move(numbering),

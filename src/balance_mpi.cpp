@@ -257,16 +257,6 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
     call.settlement.refine(call.points, std::ref(bin), decision, call.result, self);
 }
 
-/// Returns true if parts are so uneven that the axes of the earlier cuts, which are kept, may be
-/// why.
-bool may_be_poor(const Report& report, const Options& options) {
-    constexpr double factor = 1.25;
-    const double within_reach =
-        std::max(options.imbalance_tolerance, report.details.least_imbalance);
-    return is_refined(options) && !are_cuts_limited(options) &&
-           std::isgreater(report.imbalance, factor * within_reach);
-}
-
 /// Returns the better balance; that from scratch only if its gain is worth moving points.
 Balance better(Balance&& reused, Balance&& anew, const Options& options) {
     const int rounds = reused.report.details.rounds + anew.report.details.rounds;
@@ -295,7 +285,9 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     }
     if (!is_kept) settle_from_earlier(call, earlier, self);
     number_parts(call);
-    if (!may_be_poor(call.result.report, call.options)) return std::move(call.result);
+    const Report& report = call.result.report;
+    if (!may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
+        return std::move(call.result);
     return better(std::move(call.result), balance_from_scratch(points, given, false, self, {}),
                   call.options);
 }

@@ -224,6 +224,34 @@ def strangers(seed: int) -> list[History]:
     return histories
 
 
+def false_starts(seed: int) -> list[History]:
+    """Slow first steps, uneven or not, and first rebalances that cost ten times as much as later ones."""
+    random = np.random.default_rng([seed, 7])
+
+    def between(low: float, high: float) -> float:
+        return low * (high / low) ** random.random()
+
+    histories = []
+    for i in range(40):
+        steps, ranks = int(between(300, 2000)), int(between(3, 32))
+        t, cost = np.arange(steps), between(0.5, 10)
+        each = even_out(random.uniform(-1, 1, ranks))
+        drift = [
+            t[:, None] * between(3e-4, 1e-2) * each,
+            np.cumsum((random.random(steps) < 1 / 60)[:, None] * 0.3 * even_out(random.uniform(-1, 1, (steps, ranks))), 0),
+            0.4 * np.sin(TAU * t / between(50, 800))[:, None] * each,
+            np.cumsum(even_out(random.normal(size=(steps, ranks))) * between(0.005, 0.03), 0),
+        ][i % 4]
+        if i < 20:
+            slow = t < random.integers(3, 8)
+            kept = slow[:, None] * even_out(random.uniform(-0.5, 0.5, ranks)) * (i % 2)
+            history = History(f"slow start {i}", drift, cost, np.where(slow, between(3, 30), 1), kept=kept)
+        else:
+            history = History(f"dear first rebalance {i}", drift, np.where(t == 0, 10 * cost, cost))
+        histories.append(history)
+    return histories
+
+
 def recorded(folder: Path) -> list[History]:
     """Of each method of a run of `rrcb_compare --every=N`: its rebalances cost what was measured.
 

@@ -12,7 +12,7 @@ import pandas as pd
 import plot
 from document import markdown_table
 from driver import OUT, PROGRAMS, Driver, build
-from load_histories import NOISES, History, foreign, generated, noise, recorded, strangers
+from load_histories import NOISES, History, false_starts, foreign, generated, noise, recorded, strangers
 from matplotlib.figure import Figure
 
 OURS, LOAD_ONLY, BEST = "controller", "controller, load alone", "best interval or never"
@@ -181,6 +181,7 @@ def main() -> None:
         "generated": [h for seed in SEEDS[: 1 if arguments.quick else 2] for h in generated(seed)],
         "other codes": foreign(SEEDS[0]),
         "strangers": strangers(SEEDS[0]),
+        "false starts": false_starts(SEEDS[0]),
         "recorded": [history for run in runs for history in recorded(run)],
     }
     rows = study(Replay(PROGRAMS / "librrcb_rule_replay.so"), groups)

@@ -15,6 +15,9 @@ constexpr double foresight = 4;
 /// Waste, in costs of a rebalance, after which one is tried even if earlier ones did not help.
 constexpr double patience = 8;
 
+/// Share of its cost that counts of a first rebalance, which may be far dearer than later ones.
+constexpr double share_of_first = 1.0 / 3;
+
 constexpr std::size_t start_length = 2;  ///< 2^2 steps
 
 /// Returns the median; of two values the smaller.
@@ -45,7 +48,7 @@ void RebalanceRule::add(const StepLoad& load) {
 void RebalanceRule::rebalanced(double cost, double least_imbalance) {
     if (num_rebalances_ > 0 && cycle_.count() > 0) {
         if (knows_rebalances_) earlier_.remember(cycle_, latest_.lasting());
-        slow_start_ = slow_start();
+        if (busiest_ > 0) slow_start_ = std::max(0.0, cycle_.first(start_length).work - busiest_);
     }
     costs_[num_rebalances_++ % costs_.size()] = cost;
     least_ = least_imbalance - 1;
@@ -61,10 +64,11 @@ void RebalanceRule::expect_less() {
 }
 
 /// Returns the work, in units, of the first steps of the cycle beyond the most of as many later
-/// ones: a rebalance may slow them down, as by cold caches.
+/// ones: a rebalance may slow them down, as by cold caches. At most that of the last cycle, because
+/// steps may be slow for another reason.
 double RebalanceRule::slow_start() const {
     if (!(busiest_ > 0)) return slow_start_;
-    return std::max(0.0, cycle_.first(start_length).work - busiest_);
+    return std::clamp(cycle_.first(start_length).work - busiest_, 0.0, slow_start_);
 }
 
 /// Returns the cost of the next rebalance, in units: that of the latest, outliers limited, plus the
@@ -73,7 +77,8 @@ double RebalanceRule::cost() const {
     if (num_rebalances_ == 0) return cycle_.total().work / static_cast<double>(cycle_.count());
     const double middle = median(costs_, num_rebalances_);
     const double latest = costs_[(num_rebalances_ - 1) % costs_.size()];
-    return std::clamp(latest, middle / 2, 2 * middle) / unit_ + slow_start();
+    const double share = num_rebalances_ == 1 ? share_of_first : 1;
+    return share * std::clamp(latest, middle / 2, 2 * middle) / unit_ + slow_start();
 }
 
 /// Returns whether a rebalance pays if the `excess` has lasted for so many steps.

@@ -35,4 +35,10 @@ bool is_worth_moving(double kept, double offered, const Options& options) {
     return gains && (is_half || was_searched);
 }
 
+bool may_be_poor(double imbalance, double least, const Options& options) {
+    constexpr double factor = 1.25;
+    return is_refined(options) && !are_cuts_limited(options) &&
+           std::isgreater(imbalance, factor * std::max(options.imbalance_tolerance, least));
+}
+
 }  // namespace rrcb

@@ -23,4 +23,8 @@ bool keeps_at_once(double kept, double tolerance);
 /// it.
 bool is_worth_moving(double kept, double offered, const Options& options);
 
+/// Returns true if parts from earlier cuts are so uneven, although `least` is possible, that the
+/// axes of these cuts, which are kept, may be why.
+bool may_be_poor(double imbalance, double least, const Options& options);
+
 }  // namespace rrcb

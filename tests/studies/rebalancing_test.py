@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 import plot
 import rebalancing
-from load_histories import NOISES, History, foreign, generated, noise, recorded, strangers
+from load_histories import NOISES, History, false_starts, foreign, generated, noise, recorded, strangers
 
 GROWTH = np.arange(6)[:, None] * np.array([0.1, -0.1])
 
@@ -67,6 +67,13 @@ class HistoryTest(unittest.TestCase):
         loads, points = slow.loads(0, np.array([slow.steps // 3 - 1, slow.steps // 3]))
         self.assertGreater(np.ptp(loads - points, axis=1)[1], 0.05)
         np.testing.assert_allclose(loads[0], points[0])
+
+
+    def test_false_starts_are_slow_or_dear_at_first(self) -> None:
+        slow, dear = false_starts(1)[0], false_starts(1)[20]
+        self.assertGreater(slow.base_of[0], 2.9)
+        self.assertEqual(slow.base_of[8], 1)
+        self.assertAlmostEqual(dear.cost_of[0], 10 * dear.cost_of[1])
 
 
 class RuleTest(unittest.TestCase):

@@ -75,9 +75,10 @@ TEST(PointCost, averages_the_cost_of_a_point) {
     EXPECT_NEAR(even.smoothed(2, 20), 4, 0.05);
 }
 
-RebalanceRule after_rebalance(double cost, double least_imbalance = 1) {
+/// Returns the rule after rebalances that cost the same.
+RebalanceRule after_rebalance(double cost, double least_imbalance = 1, int number = 2) {
     RebalanceRule rule;
-    rule.rebalanced(cost, least_imbalance);
+    for (int k = 0; k < number; ++k) rule.rebalanced(cost, least_imbalance);
     return rule;
 }
 
@@ -223,15 +224,22 @@ TEST(RebalanceRule, does_not_take_one_costly_rebalance_for_the_rule) {
     EXPECT_LE(first_due(rule, growth), 1.8 * usual);
 }
 
+/// Returns the steps until a rebalance is due. The first four steps take `slow` times the work.
+int due_after_slow_steps(RebalanceRule& rule, double slow) {
+    for (int step = 0;; ++step) {
+        const double mean = step < 4 ? slow : 1;
+        rule.add({mean, mean * (1 + 0.002 * step)});
+        if (rule.is_due()) return step + 1;
+    }
+}
+
 // The first four steps of each cycle take five times the work: 16 beyond the cost of 1.
-TEST(RebalanceRule, adds_slow_steps_after_a_rebalance_to_its_cost) {
+TEST(RebalanceRule, adds_slow_steps_after_each_rebalance_to_its_cost) {
     const auto due = [](double slow) {
         RebalanceRule rule = after_rebalance(1);
-        for (int step = 0;; ++step) {
-            const double mean = step < 4 ? slow : 1;
-            rule.add({mean, mean * (1 + 0.002 * step)});
-            if (rule.is_due()) return step + 1;
-        }
+        due_after_slow_steps(rule, slow);
+        rule.rebalanced(1, 1);
+        return due_after_slow_steps(rule, slow);
     };
     const double best = std::sqrt(2 * 1 / 0.002);
     EXPECT_GE(due(1), best);
@@ -239,6 +247,19 @@ TEST(RebalanceRule, adds_slow_steps_after_a_rebalance_to_its_cost) {
     const double slow_best = std::sqrt(2 * (1 + 16) / 0.002);
     EXPECT_GE(due(5), 0.9 * slow_best);
     EXPECT_LE(due(5), 1.4 * slow_best);
+}
+
+TEST(RebalanceRule, takes_slow_steps_of_the_start_for_no_cost_of_a_rebalance) {
+    RebalanceRule slow = after_rebalance(1);
+    RebalanceRule usual = after_rebalance(1);
+    EXPECT_LE(due_after_slow_steps(slow, 30), 1.2 * due_after_slow_steps(usual, 1));
+}
+
+TEST(RebalanceRule, does_not_wait_for_ever_after_a_dear_first_rebalance) {
+    const auto growth = [](int step) { return 0.002 * step; };
+    RebalanceRule dear = after_rebalance(10, 1, 1);
+    const double best = std::sqrt(2 * (10.0 / 3) / 0.002);
+    EXPECT_LE(first_due(dear, growth), 1.4 * best);
 }
 
 /// Clock of ranks that adds noise of a relative deviation to each step.

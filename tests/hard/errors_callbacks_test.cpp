@@ -104,7 +104,6 @@ TEST(CallbackErrors, parameters_that_differ_between_ranks) {
                                                               {"OBJ_WEIGHT_DIM", "0"},
                                                               {"AUTO_MIGRATE", "1"},
                                                               {"REMAP", "0"},
-                                                              {"RETURN_LISTS", "EXPORT"},
                                                               {"RCB_REUSE", "1"},
                                                               {"RCB_LOCK_DIRECTIONS", "1"},
                                                               {"RCB_SET_DIRECTIONS", "3"},

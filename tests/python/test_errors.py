@@ -151,7 +151,7 @@ def test_refuses_ghosts_of_points_that_were_not_moved():
         other = rrcb.balance(x, comm=comm, num_parts=num_parts)
         other.ghosts(other.distribute(x), 0.1)
         if RANKS > 1:
-            same_error(lambda: other.ghosts(x, 0.1), "these are the points before distribute()")
+            same_error(lambda: other.ghosts(x, 0.1), "these are the points of the balance")
     # As many points as before, of which some have crossed a cut.
     rows = np.resize(np.arange(len(here)), len(x))
     assert balance.ghosts(here[rows] * 0.99, 0.1).num_points == len(x)

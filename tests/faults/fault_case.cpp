@@ -89,8 +89,6 @@ constexpr std::array cases = {
          [](Program& p) { p.weights[7] = -1; }},
     Case{"weights_differ", "OBJ_WEIGHT_DIM differs", ZOLTAN_FATAL, false,
          [](Program& p) { p.set("OBJ_WEIGHT_DIM", "0"); }},
-    Case{"lists_differ", "RETURN_LISTS differs", ZOLTAN_OK, false,
-         [](Program& p) { p.set("RETURN_LISTS", "EXPORT"); }},
     Case{"ids_differ", "NUM_LID_ENTRIES differs", ZOLTAN_FATAL, false,
          [](Program& p) { p.set("NUM_LID_ENTRIES", "2"); }},
 };

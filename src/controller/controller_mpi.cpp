@@ -141,7 +141,8 @@ StepRecord Controller::State::hand_in(const RankLoad& load, BadInput fault) {
 void Controller::State::take(const StepRecord& all) {
     check_record(all);
     // A decision is out of date if the ranks have rebalanced since.
-    is_due = all.is_due > 0 && all.num_rebalances == num_heeded_;
+    is_due = all.is_due > 0 && all.num_rebalances == num_heeded_ &&
+             all.num_rebalances == num_rebalances_;
     num_heeded_ = all.num_rebalances;
     // Points may have come or gone since the balance.
     const double counted = std::abs(all.weight - num_points_ / num_ranks_);

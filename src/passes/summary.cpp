@@ -4,6 +4,7 @@
 #include "arithmetic/running_sums.hpp"
 #include "options/validation.hpp"
 #include "passes/box.hpp"
+#include "passes/point_layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,15 +33,17 @@ void widen(const Points& points, double lower, double upper, int axis, Extent& e
     const PositionOrder is_before(axis, 1, points.dimension);
     Vector& first = extent.first[axis];
     Vector& last = extent.last[axis];
-    for (LocalIndex i = 0; i < points.count; ++i) {
-        const double value = points.coordinate(i, axis);
-        const bool is_first = value == lower;
-        const bool is_last = value == upper;
-        if (!is_first && !is_last) continue;
-        const Vector position = points.position(i);
-        if (is_first && (first[axis] != value || is_before(position, first))) first = position;
-        if (is_last && (last[axis] != value || is_before(last, position))) last = position;
-    }
+    visit_layout(points, [&](const auto& x) {
+        for (LocalIndex i = 0; i < points.count; ++i) {
+            const double value = x(i, axis);
+            if (value != lower && value != upper) continue;
+            const Vector position = points.position(i);
+            if (value == lower && (first[axis] != value || is_before(position, first)))
+                first = position;
+            if (value == upper && (last[axis] != value || is_before(last, position)))
+                last = position;
+        }
+    });
 }
 
 /// Adds a block of points, which `of_block` encloses.
@@ -79,7 +82,7 @@ PointSummary summary_of_weights(const Points& points) {
 }
 
 PointSummary summary_of(const Points& points) {
-    constexpr LocalIndex points_in_block = 256;
+    constexpr LocalIndex points_in_block = 512;
     PointSummary summary = summary_of_weights(points);
     bool are_finite = true;
     in_ranges(points.count, points_in_block, [&](LocalIndex first, LocalIndex last) {

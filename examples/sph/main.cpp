@@ -88,4 +88,4 @@ int main(int argc, char** argv) {
 }
 
 // Output on 4 ranks:
-// 100 steps: at most 428 of 1600 particles on a rank, momentum 2.000000000
+// 100 steps: at most 427 of 1600 particles on a rank, momentum 2.000000000

@@ -2,7 +2,7 @@
 rrcb_add_test(NAME mpm_soil_test SOURCES materials/soil_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_balancers_test SOURCES parallel/balancers_test.cpp
-              LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 2 3 7 LABELS mpm)
+              LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 3 LABELS mpm)
 rrcb_add_test(NAME mpm_anchor_test SOURCES effects/anchor_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm hard)
 rrcb_add_test(NAME mpm_scene_file_test SOURCES scene/scene_file_test.cpp
@@ -10,7 +10,7 @@ rrcb_add_test(NAME mpm_scene_file_test SOURCES scene/scene_file_test.cpp
 rrcb_add_test(NAME mpm_scene_reports_test SOURCES scene/scene_reports_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 3 LABELS mpm)
 rrcb_add_test(NAME mpm_state_test SOURCES step/state_test.cpp LIBRARIES mpm_test_support mpm_scene
-              RANKS 1 3 7 LABELS mpm)
+              RANKS 1 3 LABELS mpm)
 rrcb_add_test(NAME mpm_reference_test SOURCES analytic/reference_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 2 LABELS mpm)
 rrcb_add_test(NAME mpm_time_step_test SOURCES analytic/time_step_test.cpp

@@ -2,8 +2,8 @@
 #
 # Warnings, except of unused results, of calls that must fail. Compiled quickly, with headers read once for
 # all tests: most of a test is set-up.
-# At -O1 GCC 12 takes sums of short strings to write past their ends. With sanitizers tests are not optimised,
-# and their pointers are checked by the address sanitizer only: UBSan's checks of them double the time to compile.
+# At -O1 GCC 12 takes sums of short strings to write past their ends. Pointers of tests are checked by the
+# address sanitizer only: UBSan's checks of them double the time to compile.
 function(rrcb_set_test_options target)
   rrcb_set_warnings(${target})
   target_compile_options(
@@ -12,7 +12,7 @@ function(rrcb_set_test_options target)
             $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-array-bounds -Wno-restrict
             -Wno-stringop-overflow>)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=address,undefined")
-    target_compile_options(${target} PRIVATE -O0 -fno-sanitize=null,alignment,object-size,vptr)
+    target_compile_options(${target} PRIVATE -fno-sanitize=null,alignment,object-size,vptr)
   endif()
   if(TARGET rrcb_mpi_test_main AND NOT target STREQUAL rrcb_mpi_test_main)
     target_precompile_headers(${target} REUSE_FROM rrcb_mpi_test_main)

@@ -109,8 +109,8 @@ MUTATIONS = [
     Mutation(
         "the farther of two edges of a bin",
         "src/search/cut_search.cpp",
-        "return lower <= upper",
-        "return lower > upper",
+        "finish(search, best == 0 ? search.lower : search.upper, division.below);",
+        "finish(search, best != 0 ? search.lower : search.upper, division.below);",
         ("mpi_refinement", "properties.balance"),
     ),
     Mutation(
@@ -172,8 +172,8 @@ MUTATIONS = [
     Mutation(
         "infinite weights are let in",
         "src/options/validation.cpp",
-        "bad += !(weight >= 0 && weight - weight == 0);",
-        "bad += !(weight >= 0);",
+        "if (!are_positive || !std::isfinite(sum)) reject_weights(points);",
+        "if (!are_positive) reject_weights(points);",
         ("mpi_agreement",),
     ),
     Mutation(
@@ -263,7 +263,7 @@ MUTATIONS = [
     Mutation(
         "a ghost is sent to a rank once for each of its parts",
         "src/lists/ghosts_mpi.cpp",
-        "ranks_.erase(again.begin(), again.end());",
+        "ranks_.erase(std::unique(ranks_.begin() + first, ranks_.end()), ranks_.end());",
         "",
         ("mpi_ghosts",),
     ),

@@ -171,9 +171,9 @@ MUTATIONS = [
     ),
     Mutation(
         "infinite weights are let in",
-        "src/options/validation.cpp",
-        "if (!are_positive || !std::isfinite(sum)) reject_weights(points);",
-        "if (!are_positive) reject_weights(points);",
+        "src/passes/summary.cpp",
+        "if (summary.lightest < 0 || !std::isfinite(extent.weight)) reject_weights(points);",
+        "if (summary.lightest < 0) reject_weights(points);",
         ("mpi_agreement",),
     ),
     Mutation(

@@ -29,16 +29,23 @@ struct GhostPlan {
     std::uint64_t group = 0;         ///< as Cuts::group
 };
 
+/// Whose radius counts, if points have different ones.
+enum class Needs : std::int32_t {
+    sender,    ///< a rank needs the points whose radii reach one of its parts
+    receiver,  ///< it needs the points within the radius of a point of one of its parts
+    either     ///< it needs both: the points within the greater of two radii
+};
+
 /// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
 /// `radii`, which every rank that has points gives or none does.
 struct GhostOptions {
     /// Cut-off of all points, in the unit of the coordinates; NaN: not given.
     double radius = std::numeric_limits<double>::quiet_NaN();
-    /// One radius for each point instead; for contacts of spheres the diameters. Of two points on
-    /// different ranks, nearer than the greater of their radii, the one with that radius is a ghost
-    /// on the other's rank, the other not always. To meet each pair once, skip a ghost of a smaller
-    /// radius than the point's, or of an equal one and a smaller number. If both ranks need all
-    /// their pairs, use the greatest as `radius`.
+    /// One radius for each point instead; for contacts of spheres the diameters. Unless `needs`
+    /// says otherwise: of two points on different ranks, nearer than the greater of their radii,
+    /// the one with that radius is a ghost on the other's rank, the other not always. To meet each
+    /// pair once, skip a ghost of a smaller radius than the point's, or of an equal one and a
+    /// smaller number.
     std::optional<std::span<const double>> radii{};
     /// Box that contains the points, including its faces. It repeats along each axis on which its
     /// two ends are finite; on the others they are infinite. A rank may need several images of one
@@ -47,6 +54,10 @@ struct GhostOptions {
     std::optional<Box> periodic{};
     /// Ranks of each part, as after a remap(), if not ranks_of_part().
     std::optional<std::span<const RankRange>> ranks_of_parts{};
+    /// Whose radii count. With the radii of receivers, a part gets the points within its greatest
+    /// radius of the box of its points with more than half of that radius, and those within the
+    /// greatest other radius of the box of its other points.
+    Needs needs = Needs::sender;
 };
 
 /// Finds the points that other ranks need, from the cuts. Collective.
@@ -55,7 +66,7 @@ struct GhostOptions {
 ///
 /// A rank needs the points of others at most the radius, plus round-off, away from the closed
 /// region of one of its parts. If points are outside the regions of their rank, such as members of
-/// groups, add the greatest of their distances from these, over all ranks, to the radius.
+/// groups, add the greatest of their distances from these to the radius.
 /// @param cuts    of a balance, whose ranks have the points
 /// @param points  of this rank, after transfer()
 /// @param options radius, periodic box, ranks of the parts
@@ -63,7 +74,8 @@ struct GhostOptions {
 /// Throws Error on every rank alike: for unusable points, those of the balance if one has yet to
 /// leave its rank, a radius that is not finite, below 0 or above 100 periods, a position outside
 /// the periodic box, options or cuts that differ between ranks, another communicator, or no memory.
-/// Cost: as plan(); a periodic box adds a pass of counts.
+/// Cost: as plan(); a periodic box adds a pass of counts. Receivers' radii add one, two reductions, of
+/// up to 14 doubles a part, and two passes over the points.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 

@@ -12,6 +12,8 @@ from . import _library as c
 from ._agreement import communicator, prepare, together
 from ._arrays import FLOATS, NUMBERS, Array, Columns, Points, axes_of, numbers_in, pointer
 
+NEEDS = ("sender", "receiver", "either")
+
 
 class Ghosts:
     """Points of other ranks that this rank needs; made by Balance.ghosts().
@@ -26,14 +28,22 @@ class Ghosts:
     sent: dict[int, Array]  #: rows of the points that each rank needs
 
     def __init__(
-        self, comm: MPI.Intracomm, balancer: c.Handle, x: Any, radius: Any, period: Any
+        self,
+        comm: MPI.Intracomm,
+        balancer: c.Handle,
+        x: Any,
+        radius: Any,
+        period: Any,
+        needs: str = "sender",
     ) -> None:
-        def local() -> tuple[Points, Array, Array | None]:
+        def local() -> tuple[Points, c.GhostOptions, Array, Array | None]:
             points = Points(x)
-            return points, radius_of(radius, points.count), box_of(period, points.dimension)
+            radii, box = radius_of(radius, points.count), box_of(period, points.dimension)
+            return points, options_of(radii, box, needs), radii, box
 
-        def collective(points: Any = None, radii: Any = None, box: Any = None) -> None:
-            options = None if points is None else options_of(radii, box)
+        def collective(
+            points: Any = None, options: Any = None, radii: Any = None, box: Any = None
+        ) -> None:
             self._own = c.OwnedHandle("ghosts_create", "ghosts_destroy", balancer, points, options)
             self._box = box
             self._read(points.dimension)
@@ -126,9 +136,12 @@ def radius_of(radius: Any, count: int) -> Array:
     return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii.copy()
 
 
-def options_of(radii: Array, box: Array | None) -> c.GhostOptions:
+def options_of(radii: Array, box: Array | None, needs: str) -> c.GhostOptions:
     """Returns the library's options, which borrow the arrays."""
+    if needs not in NEEDS:
+        raise c.Error(f"needs must be one of {', '.join(NEEDS)}, not {needs!r}")
     options = c.GhostOptions()
+    options.needs = NEEDS.index(needs)
     if radii.ndim == 0:
         options.radius = float(radii)
     else:

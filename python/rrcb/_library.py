@@ -121,6 +121,7 @@ class GhostOptions(Structure):
         ("upper", c_void_p),
         ("ranks_of_parts", c_void_p),
         ("num_parts", c_size_t),
+        ("needs", c_int),
     ]
 
 

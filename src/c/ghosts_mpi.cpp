@@ -25,6 +25,7 @@ struct KeptOptions {
     void read(const rrcb_ghost_options* from, LocalIndex num_points) {
         require(from, "options");
         options.radius = from->radius;
+        options.needs = static_cast<Needs>(from->needs);
         if (from->radii != nullptr) options.radii = view(from->radii, num_points);
         if (from->lower != nullptr || from->upper != nullptr) {
             require(from->lower, "lower");

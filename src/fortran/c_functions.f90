@@ -24,6 +24,7 @@ module rrcb_c_functions
     type(c_ptr) :: radii = c_null_ptr
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
     integer(c_size_t) :: num_parts = 0
+    integer(c_int) :: needs = 0
   end type
 
   type, bind(c) :: c_ghost_plan

@@ -32,7 +32,8 @@ contains
   !> @param lower          end of a periodic box
   !> @param upper          the other end
   !> @param ranks_of_parts the ranks of part p at p + 1; without it as by rrcb_ranks_of_part
-  subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts)
+  !> @param needs          whose radii count: rrcb_needs_sender by default, _receiver or _either
+  subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts, needs)
     class(rrcb_ghosts), intent(inout), target :: self
     class(rrcb_balancer), intent(in) :: balancer
     type(rrcb_points), intent(in) :: points
@@ -41,7 +42,9 @@ contains
     real(c_double), intent(in), target, contiguous, optional :: radii(:)
     real(c_double), intent(in), target, optional :: lower(3), upper(3)
     type(rrcb_rank_range), intent(in), target, contiguous, optional :: ranks_of_parts(:)
+    integer(c_int), intent(in), optional :: needs
     type(c_ghost_options) :: options
+    if (present(needs)) options%needs = needs
     if (present(radius)) options%radius = radius
     if (present(radii)) then
       if (size(radii, kind=c_size_t) /= points%count) then

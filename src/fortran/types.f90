@@ -8,6 +8,8 @@ module rrcb_types
   integer, parameter, public :: rrcb_ok = 0, rrcb_invalid_argument = 1, rrcb_out_of_memory = 2, &
     rrcb_mpi_error = 3, rrcb_internal_error = 4
   integer(c_int), parameter, public :: rrcb_float = 3, rrcb_double = 4
+  !> Whose radius counts, if points have different ones.
+  integer(c_int), parameter, public :: rrcb_needs_sender = 0, rrcb_needs_receiver = 1, rrcb_needs_either = 2
   integer(c_int), parameter :: type_byte = 0, type_int32 = 1, type_int64 = 2
   !> Types of points whose arrays do not fit together, see src/c/points.cpp: they fail on all ranks.
   integer(c_int), parameter :: wrong_weights = 5, wrong_axis = 6, wrong_shape = 7

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -172,6 +173,13 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
     expected.radii = radii;
     expected.ranks_of_parts = ranks;
     expect_same(expected);
+    for (const auto& [name, needs] : {std::pair(RRCB_NEEDS_RECEIVER, Needs::receiver),
+                                      std::pair(RRCB_NEEDS_EITHER, Needs::either)}) {
+        options.needs = name;
+        expected.needs = needs;
+        find(options);
+        expect_same(expected);
+    }
 }
 
 /// Fails unless the last error is this one on all ranks.

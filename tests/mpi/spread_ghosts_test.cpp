@@ -92,6 +92,21 @@ TEST(SpreadGhosts, are_those_by_the_whole_tree) {
     }
 }
 
+TEST(SpreadGhosts, by_the_radii_of_receivers_are_those_by_the_whole_tree) {
+    const std::vector<double> coordinates = positions_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    std::vector<double> radii(points.count);
+    for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = i % 9 == 0 ? 3 : 0.3;
+    for (const int num_parts : {2, num_ranks() + 1, 300}) {
+        const Cuts whole = random_cuts(2, num_parts);
+        const GhostOptions options{.radii = radii, .needs = Needs::either};
+        const GhostPlan expected = ghosts(whole, points, options, MPI_COMM_WORLD);
+        const GhostPlan found = ghosts(known_here(whole), points, options, MPI_COMM_WORLD);
+        EXPECT_EQ(found.send_indices, expected.send_indices);
+        expect_same(found.receive, expected.receive);
+    }
+}
+
 TEST(SpreadGhosts, need_cuts_of_all_tiers_of_a_tree) {
     const int num_parts = 40000;
     const Cuts whole = test::planes(num_parts);

@@ -273,6 +273,25 @@ def test_finds_ghosts_by_radii():
         assert all_ids[i] in held[owner[j]] or all_ids[j] in held[owner[i]]
 
 
+def test_finds_ghosts_within_the_radii_of_receivers():
+    x = cloud(2, 150)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute(x)
+    numbers = ids(len(here))
+    radii = np.where(numbers % 5 == 0, 0.2, 0.05)
+    all_x, all_r, all_ids = everywhere(here), everywhere(radii), everywhere(numbers)
+    distance = np.linalg.norm(all_x[None] - here[:, None], axis=2)
+    for needs in ("receiver", "either"):
+        ghosts = balance.ghosts(here, radii, needs=needs)
+        held = np.concatenate([numbers, ghosts.fetch(numbers)])
+        assert len(set(held)) == len(held)
+        reach = np.maximum(radii[:, None], all_r[None] if needs == "either" else 0)
+        needed = all_ids[(distance <= reach).any(axis=0)]
+        assert np.isin(needed, held).all()
+        assert needs == "either" or ghosts.count <= balance.ghosts(here, 0.2).count
+    same_error(lambda: balance.ghosts(here, radii, needs="all"), "needs must be one of sender")
+
+
 def test_accumulates_at_points():
     x = cloud(2, 200)
     balance = rrcb.balance(x, comm=comm)

@@ -10,6 +10,13 @@ extern "C" {
 /** Points that ranks send and receive as ghosts, and their communicator. */
 typedef struct rrcb_ghosts rrcb_ghosts;
 
+/** Whose radius counts, if points have different ones; as rrcb::Needs. */
+typedef enum rrcb_needs {
+    RRCB_NEEDS_SENDER = 0,   /**< the points whose radii reach a part */
+    RRCB_NEEDS_RECEIVER = 1, /**< those within the radius of a point of a part */
+    RRCB_NEEDS_EITHER = 2    /**< both */
+} rrcb_needs;
+
 /** Distances at which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
     double radius;       /**< cut-off of all points, in the unit of the coordinates */
@@ -20,6 +27,7 @@ typedef struct rrcb_ghost_options {
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
                                               as by rrcb_ranks_of_part */
     size_t num_parts;                      /**< length of `ranks_of_parts` */
+    int needs;                             /**< an rrcb_needs */
 } rrcb_ghost_options;
 
 /** Lists of points sent and received as ghosts, as rrcb::GhostPlan; indices count from 0. */

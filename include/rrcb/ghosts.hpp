@@ -56,7 +56,8 @@ struct GhostOptions {
     std::optional<std::span<const RankRange>> ranks_of_parts{};
     /// Whose radii count. With the radii of receivers, a part gets the points within its greatest
     /// radius of the box of its points with more than half of that radius, and those within the
-    /// greatest other radius of the box of its other points.
+    /// greatest other radius of the box of its other points. Cost: a pass of counts, two
+    /// reductions, one of up to 14 doubles a part, and two passes over the points.
     Needs needs = Needs::sender;
 };
 
@@ -74,8 +75,7 @@ struct GhostOptions {
 /// Throws Error on every rank alike: for unusable points, those of the balance if one has yet to
 /// leave its rank, a radius that is not finite, below 0 or above 100 periods, a position outside
 /// the periodic box, options or cuts that differ between ranks, another communicator, or no memory.
-/// Cost: as plan(); a periodic box adds a pass of counts. Receivers' radii add one, two reductions, of
-/// up to 14 doubles a part, and two passes over the points.
+/// Cost: as plan(); a periodic box adds a pass of counts, `needs` what is written there.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 

@@ -27,6 +27,9 @@ struct GhostPlan {
     Box periodic{};                  ///< box that repeats; empty: none
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
     std::uint64_t group = 0;         ///< as Cuts::group
+    /// Number of the call on this rank, with which fetch() recognizes ghosts from before a
+    /// transfer. Set it to 0 if as many other points were transferred.
+    std::uint64_t stamp = 0;
 };
 
 /// Whose radius counts, if points have different ones.
@@ -157,7 +160,7 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 /// @param limits  as for transfer()
 /// @param report  as for transfer()
 /// @return ghosts by ascending rank, in the order of send_indices there
-/// Throws Error as transfer().
+/// Throws Error as transfer(), and if the points were transferred by a plan made since.
 template <class Columns>
 [[nodiscard]] auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
                          const TransferLimits& limits = {}, TransferReport* report = nullptr) {

@@ -9,6 +9,7 @@
 #include "lists/periodic_images.hpp"
 #include "lists/radii.hpp"
 #include "lists/remap_mpi.hpp"
+#include "lists/transfer_log.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
@@ -308,6 +309,7 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);
     plan.group = mpi::group_of(self.comm);
+    plan.stamp = next_stamp();
     if (options.periodic) plan.periodic = *options.periodic;
     return plan;
 }

@@ -17,6 +17,13 @@ namespace rrcb {
 /// Periods along each axis.
 using Shift = std::array<std::int32_t, 3>;
 
+/// Whose radius counts, if points have different ones.
+enum class Needs : std::int32_t {
+    sender,    ///< a rank needs the points whose radii reach one of its parts
+    receiver,  ///< it needs the points within the radius of a point of one of its parts
+    either     ///< it needs both: the points within the greater of two radii
+};
+
 /// Points that this rank sends and receives as ghosts; a list of ranks names each rank once.
 struct GhostPlan {
     LocalIndex num_points = 0;    ///< that this rank holds
@@ -30,13 +37,8 @@ struct GhostPlan {
     /// Number of the call on this rank, with which fetch() recognizes ghosts from before a
     /// transfer. Set it to 0 if as many other points were transferred.
     std::uint64_t stamp = 0;
-};
-
-/// Whose radius counts, if points have different ones.
-enum class Needs : std::int32_t {
-    sender,    ///< a rank needs the points whose radii reach one of its parts
-    receiver,  ///< it needs the points within the radius of a point of one of its parts
-    either     ///< it needs both: the points within the greater of two radii
+    double radius = std::numeric_limits<double>::quiet_NaN();  ///< as in the options
+    Needs needs = Needs::sender;                               ///< as in the options
 };
 
 /// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
@@ -81,6 +83,50 @@ struct GhostOptions {
 /// Cost: as plan(); a periodic box adds a pass of counts, `needs` what is written there.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
+
+/// Scope of verify(). The same on every rank, except the contents of spans.
+struct VerifyOptions {
+    /// Most points, over all ranks, whose neighbours are looked for.
+    std::size_t sample = 1000;
+    /// True cut-off, if the ghosts have a skin; NaN: that of ghosts().
+    double radius = std::numeric_limits<double>::quiet_NaN();
+    std::optional<std::span<const double>> radii{};       ///< needed if ghosts() got some
+    std::optional<std::span<const std::uint64_t>> ids{};  ///< of the points; else their indices
+    /// Ids of the points that this rank held before a transfer, of which each is still there.
+    std::optional<std::span<const std::uint64_t>> ids_before{};
+};
+
+/// Point that is not where it should be.
+struct Fault {
+    std::uint64_t id = 0;    ///< of the point
+    int rank = 0;            ///< that holds it, or did before the transfer
+    std::uint64_t near = 0;  ///< point of this rank that needs it, or the same id
+};
+
+/// Result of verify(), with the faults that concern this rank.
+struct Verification {
+    GlobalCount num_pairs = 0;   ///< of the sample and points of other ranks, over all ranks
+    GlobalCount num_faults = 0;  ///< over all ranks; 0: all is well
+    std::vector<Fault> missing;  ///< near points that are no ghosts here, ids that are lost
+    std::vector<Fault> twice;    ///< ghosts that came twice, ids that another rank has too
+    std::vector<Fault>
+        strangers;  ///< own points that came as ghosts, ids that were not there before
+};
+
+/// Compares ghosts with all pairs of a random sample of the points, and ids with those of the other
+/// ranks. Collective.
+///
+///     const rrcb::Verification seen = rrcb::verify(near, points, {.sample = 1000}, comm);
+///
+/// Prints nothing.
+/// @param near    of ghosts(), or other ghosts
+/// @param points  of this rank, whose ghosts these are
+/// @param options number of points, radii, ids
+/// @param comm    that of the plan
+/// Throws Error as fetch(). Cost: on every rank the sample, and a pass over the points; time for
+/// the points near the sample; messages for their pairs, all ghosts and all ids.
+RRCB_API Verification verify(const GhostPlan& near, const Points& points,
+                             const VerifyOptions& options, MPI_Comm comm);
 
 /// Moves fetched positions of ghosts to those of the images; does nothing without a periodic box.
 /// Not collective.

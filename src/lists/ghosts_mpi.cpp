@@ -310,6 +310,8 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
     GhostPlan plan = ghosts(cuts, request, self);
     plan.group = mpi::group_of(self.comm);
     plan.stamp = next_stamp();
+    plan.radius = options.radius;
+    plan.needs = options.needs;
     if (options.periodic) plan.periodic = *options.periodic;
     return plan;
 }

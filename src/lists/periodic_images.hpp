@@ -38,6 +38,8 @@ class PeriodicImages {
                     visit(shift, image(ball.centre(), shift));
     }
 
+    Vector image(const Vector& x, const Shift& shift) const;
+
     /// Returns the distances from a position to the box along the axes.
     Vector apart(const Vector& x) const;
 
@@ -45,7 +47,6 @@ class PeriodicImages {
 
   private:
     bool is_periodic(int axis) const;
-    Vector image(const Vector& x, const Shift& shift) const;
 
     Box box_;
     int dimension_;

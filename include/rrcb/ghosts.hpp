@@ -84,7 +84,8 @@ struct GhostOptions {
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 
-/// Scope of verify(). The same on every rank, except the contents of spans.
+/// Scope of verify(). The same on every rank, except the spans, which ranks without points may
+/// leave out.
 struct VerifyOptions {
     /// Most points, over all ranks, whose neighbours are looked for.
     std::size_t sample = 1000;
@@ -98,9 +99,9 @@ struct VerifyOptions {
 
 /// Point that is not where it should be.
 struct Fault {
-    std::uint64_t id = 0;    ///< of the point
-    int rank = 0;            ///< that holds it, or did before the transfer
-    std::uint64_t near = 0;  ///< point of this rank that needs it, or the same id
+    std::uint64_t id = 0;         ///< of the point
+    int rank = 0;                 ///< that holds it, or did before the transfer
+    std::uint64_t needed_by = 0;  ///< point of this rank, or the same id
 };
 
 /// Result of verify(), with the faults that concern this rank.

@@ -71,7 +71,8 @@ struct VerifyRequest {
         radii.check(points.count);
         require(!options.ids || options.ids->size() == points.count,
                 "ids must have one entry for each point");
-        require(options.ids || !options.ids_before, "ids_before needs ids to compare with");
+        require(options.ids || !options.ids_before || points.count == 0,
+                "ids_before needs ids to compare with");
     }
 
     /// Returns the sample of this rank and room for those of others, `count` for each.
@@ -218,8 +219,9 @@ std::vector<Fault>& list_of(Verification& seen, List list) {
     return list == List::twice ? seen.twice : seen.strangers;
 }
 
-/// Compares the ids of all ranks, now and before a transfer. Collective.
-void compare_ids(const VerifyOptions& options, Verification& seen, Participant& self) {
+/// Compares the ids of all ranks, now and, if any rank has some, before a transfer. Collective.
+void compare_ids(const VerifyOptions& options, bool has_before, Verification& seen,
+                 Participant& self) {
     Outgoing<IdNotice> notices;
     const auto add = [&](std::span<const std::uint64_t> ids, std::uint64_t is_now) {
         const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
@@ -227,7 +229,7 @@ void compare_ids(const VerifyOptions& options, Verification& seen, Participant& 
             notices.add(static_cast<int>(mix(id) % num_ranks), {id, is_now});
     };
     self.attempt([&] {
-        add(*options.ids, 1);
+        if (options.ids) add(*options.ids, 1);
         if (options.ids_before) add(*options.ids_before, 0);
     });
     std::vector<Arrived<IdNotice>> arrived = notices.send(self);
@@ -240,8 +242,7 @@ void compare_ids(const VerifyOptions& options, Verification& seen, Participant& 
         for (std::size_t begin = 0, end = 0; begin < arrived.size(); begin = end) {
             while (end < arrived.size() && arrived[end].second.id == arrived[begin].second.id)
                 ++end;
-            find_faults(std::span(arrived).subspan(begin, end - begin),
-                        options.ids_before.has_value(), faults);
+            find_faults(std::span(arrived).subspan(begin, end - begin), has_before, faults);
         }
     });
     const std::vector<Arrived<IdFault>> returned = faults.send(self);
@@ -264,12 +265,14 @@ Verification verify(const GhostPlan& plan, const Points& points, const VerifyOpt
                           PeriodicImages(plan.periodic, points.dimension)};
     if (points.count == 0 && std::isnan(radius)) request.radii.each.emplace();
     self.attempt([&] { request.check(); });
-    agree(self, {{"the sample", options.sample},
-                 {"the dimension", static_cast<std::uint64_t>(points.dimension)},
-                 {"whether ids are given", options.ids ? 1u : 0u},
-                 {"whether ids_before are given", options.ids_before ? 1u : 0u},
-                 request.radii.each_given(points.count),
-                 request.radii.shared()});
+    std::array shared{
+        Shared{"whether ids are given", options.ids ? 1u : 0u, options.ids || points.count > 0},
+        Shared{"whether ids_before are given", 1, options.ids_before.has_value()},
+        Shared{"the sample", options.sample},
+        Shared{"the dimension", static_cast<std::uint64_t>(points.dimension)},
+        request.radii.each_given(points.count),
+        request.radii.shared()};
+    agree(self, shared);
     std::size_t num_each = 0;
     const std::vector<Sample> samples = share_samples(request, num_each, self);
     Outgoing<Neighbour> found;
@@ -278,7 +281,7 @@ Verification verify(const GhostPlan& plan, const Points& points, const VerifyOpt
     const std::vector<Arrived<Neighbour>> neighbours = found.send(self);
     Verification seen;
     compare_ghosts(request, neighbours, seen, self);
-    if (options.ids) compare_ids(options, seen, self);
+    if (shared[0].value != 0) compare_ids(options, shared[1].value != 0, seen, self);
     std::array<std::int64_t, 2> totals{
         std::ssize(neighbours),
         std::ssize(seen.missing) + std::ssize(seen.twice) + std::ssize(seen.strangers)};

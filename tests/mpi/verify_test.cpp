@@ -139,7 +139,7 @@ TEST(Verify, names_the_pairs_whose_ghosts_are_missing) {
         fetch(scene.near({.radius = 0.1}), scene.ids, MPI_COMM_WORLD);
     for (const Fault& fault : less.missing) {
         EXPECT_EQ(std::ranges::count(wide, fault.id), 1);
-        EXPECT_EQ(std::ranges::count(scene.ids, fault.near), 1);
+        EXPECT_EQ(std::ranges::count(scene.ids, fault.needed_by), 1);
         EXPECT_NE(fault.rank, rank());
     }
     EXPECT_TRUE(less.twice.empty() && less.strangers.empty());

@@ -292,6 +292,37 @@ def test_finds_ghosts_within_the_radii_of_receivers():
     same_error(lambda: balance.ghosts(here, radii, needs="all"), "needs must be one of sender")
 
 
+def test_verifies_ghosts():
+    x = cloud(2, 150, empty=0 if RANKS > 2 else None)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute({"x": x, "id": ids(len(x))})
+    ghosts = balance.ghosts(here["x"], np.where(here["id"] % 5 == 0, 0.2, 0.05), 1.0, "either")
+    seen = ghosts.verify(here["x"], 10**6, ids=here["id"], ids_before=ids(len(x)))
+    assert seen.num_faults == 0 and len(seen.missing) == 0 and seen.num_pairs > 0
+    narrow = balance.ghosts(here["x"], 0.05)
+    seen = narrow.verify(here["x"], 10**6, radius=0.1, ids=here["id"])
+    assert comm.allreduce(len(seen.missing)) == seen.num_faults
+    assert np.isin(seen.missing["needed_by"], here["id"]).all()
+    wide = balance.ghosts(here["x"], 0.1).fetch(here["id"])
+    assert np.isin(seen.missing["id"], wide).all() and (seen.missing["rank"] != ME).all()
+    assert RANKS == 1 or seen.num_faults > 0
+    changed = here["id"] + 500 * (len(here["id"]) > 0)
+    seen = narrow.verify(here["x"], 0, ids=changed, ids_before=here["id"])
+    assert len(seen.missing) == len(seen.strangers) == len(changed)
+
+
+def test_refuses_ghosts_from_before_a_transfer():
+    if RANKS == 1:
+        raise Skip("needs two ranks")
+    x = cloud(2, 150)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute(x)
+    ghosts = balance.ghosts(here, 0.1)
+    assert len(ghosts.fetch(here)) == ghosts.count
+    rrcb.assign(1 - here, balance, comm).distribute(here)
+    same_error(lambda: ghosts.fetch(here), "the points were transferred since these ghosts")
+
+
 def test_accumulates_at_points():
     x = cloud(2, 200)
     balance = rrcb.balance(x, comm=comm)

@@ -1,0 +1,62 @@
+! Ghosts of 200 points on a line: their check, and what is refused.
+program near_test
+  use, intrinsic :: iso_c_binding
+  use mpi
+  use rrcb
+  implicit none
+  integer :: rank, num_ranks, error, i
+  type(rrcb_balancer) :: balancer
+  type(rrcb_ghosts) :: ghosts
+  type(rrcb_plan) :: plan
+  type(rrcb_verification) :: seen
+  real(c_double), target, allocatable :: x(:, :), here(:, :), near(:, :)
+  integer(c_int64_t), target, allocatable :: ids(:), ids_here(:)
+  integer(c_int32_t), allocatable :: parts(:)
+  call MPI_Init(error)
+  call MPI_Comm_rank(MPI_COMM_WORLD, rank, error)
+  call MPI_Comm_size(MPI_COMM_WORLD, num_ranks, error)
+  x = reshape([(modulo(0.37_c_double*(rank*200 + i), 1.0_c_double), i=1, 200)], [1, 200])
+  ids = [(int(rank*200 + i, c_int64_t), i=1, 200)]
+  allocate (parts(200))
+  call balancer%create(MPI_COMM_WORLD)
+  call balancer%balance(rrcb_interleaved_points(x), parts)
+  call balancer%make_plan(parts)
+  call balancer%get_plan(plan)
+  allocate (here(1, plan%num_points_after), ids_here(plan%num_points_after))
+  call balancer%transfer([rrcb_column(x, here), rrcb_column(ids, ids_here)])
+  call ghosts%create(balancer, rrcb_interleaved_points(here), radius=0.1_c_double)
+  call ghosts%verify(rrcb_interleaved_points(here), seen, error, 1000000_c_size_t, ids=ids_here, ids_before=ids)
+  call expect(error == rrcb_ok .and. seen%num_faults == 0, "sound ghosts")
+  call expect(seen%num_pairs > 0 .or. num_ranks == 1, "pairs")
+  ! Too small a layer: points that are needed from further away.
+  call ghosts%verify(rrcb_interleaved_points(here), seen, error, 1000000_c_size_t, radius=0.15_c_double)
+  call expect(seen%num_faults > 0 .or. num_ranks == 1, "faults")
+  call expect(all(seen%missing%rank /= rank) .and. size(seen%twice) == 0, "missing ghosts")
+  call expect(all(seen%missing%needed_by >= 1 .and. seen%missing%needed_by <= size(ids_here)), "indices")
+  call ghosts%verify(rrcb_interleaved_points(here), seen, error, ids=ids_here(2:))
+  call expect(error == rrcb_invalid_argument, "too few ids")
+  ! Points that went on to the next rank.
+  deallocate (parts)
+  allocate (parts(size(ids_here)))
+  parts = modulo(rank + 1, num_ranks)
+  call balancer%make_plan(parts)
+  call balancer%transfer([rrcb_column ::])
+  allocate (near(1, 100000))
+  call ghosts%fetch([rrcb_column(here, near)], error)
+  call expect(error == merge(rrcb_ok, rrcb_invalid_argument, num_ranks == 1), "stale ghosts")
+  if (num_ranks > 1) call expect(index(rrcb_last_error(), "the points were transferred since") > 0, "text")
+  call ghosts%destroy()
+  call balancer%destroy()
+  call MPI_Finalize(error)
+
+contains
+
+  subroutine expect(holds, what)
+    logical, intent(in) :: holds
+    character(*), intent(in) :: what
+    if (holds) return
+    print '(2a)', "wrong: ", what
+    error stop 1
+  end subroutine
+
+end program near_test

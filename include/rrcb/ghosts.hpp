@@ -52,8 +52,9 @@ struct GhostOptions {
     /// pair once, skip a ghost of a smaller radius than the point's, or of an equal one and a
     /// smaller number.
     std::optional<std::span<const double>> radii{};
-    /// Box that contains the points, including its faces. It repeats along each axis on which its
-    /// two ends are finite; on the others they are infinite. A rank may need several images of one
+    /// Box that contains the points, [lower, upper) along each axis on which it repeats, on which
+    /// its two ends are finite; on the others they are infinite. A point on an upper face, as
+    /// wrapping may round it, is taken for one just below it. A rank may need several images of one
     /// point, also of its own. Each is a ghost with its entry in GhostPlan::shifts: the image of x
     /// is at x + shift * (upper - lower), each operation rounded to a double. Wrap positions first.
     std::optional<Box> periodic{};
@@ -130,7 +131,8 @@ RRCB_API Verification verify(const GhostPlan& near, const Points& points,
                              const VerifyOptions& options, MPI_Comm comm);
 
 /// Moves fetched positions of ghosts to those of the images; does nothing without a periodic box.
-/// Not collective.
+/// Images that rounding leaves in [lower, upper) of an axis come to the next number outside. Not
+/// collective.
 ///
 /// @param plan      of the ghosts
 /// @param positions the axes of one ghost after the other

@@ -322,30 +322,4 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
     return ghosts(cuts, points, options, self);
 }
 
-namespace {
-
-template <class T>
-void apply_shifts_to(std::span<T> positions, const GhostPlan& plan) {
-    if (plan.shifts.empty()) return;
-    const std::size_t dimension = positions.size() / plan.shifts.size();
-    require(dimension >= 1 && dimension <= max_dimension &&
-                positions.size() == dimension * plan.shifts.size(),
-            "positions must have an entry for each axis of each ghost");
-    for (std::size_t k = 0; k < positions.size(); ++k) {
-        const int axis = static_cast<int>(k % dimension);
-        positions[k] = static_cast<T>(
-            image_of(positions[k], plan.periodic, axis, plan.shifts[k / dimension][axis]));
-    }
-}
-
-}  // namespace
-
-void apply_shifts(const GhostPlan& plan, std::span<double> positions) {
-    apply_shifts_to(positions, plan);
-}
-
-void apply_shifts(const GhostPlan& plan, std::span<float> positions) {
-    apply_shifts_to(positions, plan);
-}
-
 }  // namespace rrcb

@@ -47,9 +47,78 @@ program near_test
   if (num_ranks > 1) call expect(index(rrcb_last_error(), "the points were transferred since") > 0, "text")
   call ghosts%destroy()
   call balancer%destroy()
+  call check_tilted_box()
+  call check_half_open_boxes()
   call MPI_Finalize(error)
 
 contains
+
+  ! All pairs within 0.1 in a box that is tilted by 0.3, found without the tilt.
+  subroutine check_tilted_box()
+    real(c_double), parameter :: tilt = 0.3_c_double, stretch = (tilt + sqrt(tilt**2 + 4))/2
+    real(c_double), target, allocatable :: all_points(:, :), mine(:, :), own(:, :), images(:, :)
+    integer(c_int32_t), allocatable :: parts_of_mine(:)
+    type(rrcb_plan) :: moves
+    type(rrcb_ghost_plan) :: lists
+    integer :: k
+    all_points = reshape([(modulo(0.6180339887_c_double*k, 1.0_c_double), modulo(0.7548776662_c_double*k, 1.0_c_double), &
+      k=1, 200)], [2, 200])
+    mine = all_points(:, rank + 1::num_ranks)
+    allocate (parts_of_mine(size(mine, 2)))
+    call balancer%create(MPI_COMM_WORLD)
+    call balancer%balance(rrcb_interleaved_points(mine), parts_of_mine)
+    call balancer%make_plan(parts_of_mine)
+    call balancer%get_plan(moves)
+    allocate (own(2, moves%num_points_after))
+    call balancer%transfer([rrcb_column(mine, own)])
+    call ghosts%create(balancer, rrcb_interleaved_points(own), radius=0.1_c_double*stretch, &
+      lower=[0.0_c_double, 0.0_c_double, 0.0_c_double], upper=[1.0_c_double, 1.0_c_double, 1.0_c_double])
+    call ghosts%get_plan(lists)
+    allocate (images(2, lists%num_ghosts))
+    call ghosts%fetch([rrcb_column(own, images)])
+    call ghosts%apply_shifts(images)
+    do k = 1, size(own, 2)
+      call expect(near_count(own(:, k), own, 0) + near_count(own(:, k), images, 0) == &
+        near_count(own(:, k), all_points, 1), "pairs in a tilted box")
+    end do
+    call ghosts%destroy()
+    call balancer%destroy()
+  end subroutine
+
+  integer function near_count(at, others, periods)
+    real(c_double), intent(in) :: at(2), others(:, :)
+    integer, intent(in) :: periods
+    real(c_double) :: apart(2)
+    integer :: j, k, l
+    near_count = 0
+    do j = 1, size(others, 2)
+      do k = -periods, periods
+        do l = -periods, periods
+          apart = others(:, j) + [k, l] - at
+          if (norm2([apart(1) + 0.3_c_double*apart(2), apart(2)]) <= 0.1_c_double) near_count = near_count + 1
+        end do
+      end do
+    end do
+  end function
+
+  ! By plain cuts the points of a lattice are in the half-open boxes of their parts.
+  subroutine check_half_open_boxes()
+    real(c_double), target, allocatable :: nodes(:, :)
+    integer(c_int32_t), allocatable :: parts_of_nodes(:)
+    real(c_double) :: lower(3), upper(3)
+    integer :: k
+    nodes = reshape([(real(modulo(k, 15), c_double), real(k/15, c_double), k=rank, 224, num_ranks)], &
+      [2, (224 - rank)/num_ranks + 1])
+    allocate (parts_of_nodes(size(nodes, 2)))
+    call balancer%create(MPI_COMM_WORLD)
+    call balancer%set("axes.plain", "ON")
+    call balancer%balance(rrcb_interleaved_points(nodes), parts_of_nodes)
+    do k = 1, size(nodes, 2)
+      call balancer%box_of(parts_of_nodes(k), lower, upper)
+      call expect(all(nodes(:, k) >= lower(:2) .and. nodes(:, k) < upper(:2)), "half-open boxes")
+    end do
+    call balancer%destroy()
+  end subroutine
 
   subroutine expect(holds, what)
     logical, intent(in) :: holds

@@ -292,6 +292,46 @@ def test_finds_ghosts_within_the_radii_of_receivers():
     same_error(lambda: balance.ghosts(here, radii, needs="all"), "needs must be one of sender")
 
 
+def test_images_are_outside_the_box():
+    for dtype in (np.float64, np.float32):
+        wrapped = dtype(-1e-9) + dtype(1)
+        x = np.array([0, np.nextafter(dtype(1), dtype(0)), 1, wrapped, *np.arange(1, 30) / 30], dtype)
+        balance = rrcb.balance(x[ME::RANKS, None], comm=comm)
+        here = balance.distribute(x[ME::RANKS, None])
+        ghosts = balance.ghosts(here, 0.05, period=1.0)
+        images = ghosts.fetch_positions(here)
+        assert not ((images >= 0) & (images < 1))[ghosts.shifts != 0].any()
+        every = np.concatenate([here, images])
+        apart = np.abs(x[None].astype(float) - here)
+        expected = (np.minimum(apart, 1 - apart) <= 0.05).sum(axis=1)
+        assert np.array_equal((np.abs(every.T.astype(float) - here) <= 0.05).sum(axis=1), expected)
+
+
+def test_finds_all_pairs_in_a_tilted_box():
+    tilt, radius = 0.3, 0.1
+    stretch = (tilt + np.sqrt(tilt**2 + 4)) / 2
+    straight = np.random.default_rng(1).random((200, 2))
+    balance = rrcb.balance(straight[ME::RANKS], comm=comm)
+    here = balance.distribute(straight[ME::RANKS])
+    images = balance.ghosts(here, radius * stretch, period=1.0).fetch_positions(here)
+    shifts = np.array(list(itertools.product((-1, 0, 1), repeat=2)))
+    every = (straight[:, None] + shifts).reshape(-1, 2)
+    tilted = np.array([[1, 0], [tilt, 1]])
+    counts = [
+        (np.linalg.norm((x[None] - here[:, None]) @ tilted, axis=2) <= radius).sum(axis=1)
+        for x in (np.concatenate([here, images]), every)
+    ]
+    assert np.array_equal(*counts)
+
+
+def test_plain_parts_are_half_open_boxes():
+    lattice = np.stack(np.meshgrid(np.arange(15.0), np.arange(15.0)), axis=-1).reshape(-1, 2)
+    x = lattice[ME::RANKS]
+    balance = rrcb.balance(x, comm=comm, axes__plain=True)
+    lower, upper = balance.cuts.boxes()[balance.parts].swapaxes(0, 1)
+    assert ((x >= lower) & (x < upper)).all()
+
+
 def test_verifies_ghosts():
     x = cloud(2, 150, empty=0 if RANKS > 2 else None)
     balance = rrcb.balance(x, comm=comm)

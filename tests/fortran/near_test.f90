@@ -49,6 +49,7 @@ program near_test
   call balancer%destroy()
   call check_tilted_box()
   call check_half_open_boxes()
+  call check_faces()
   call MPI_Finalize(error)
 
 contains
@@ -100,6 +101,33 @@ contains
       end do
     end do
   end function
+
+  ! Images of real(4) are never in the half-open box, although a point is on its upper face.
+  subroutine check_faces()
+    real(c_float), target, allocatable :: mine(:, :), own(:, :), images(:, :)
+    integer(c_int32_t), allocatable :: parts_of_mine(:)
+    type(rrcb_plan) :: moves
+    type(rrcb_ghost_plan) :: lists
+    integer :: k
+    mine = reshape([0.0_c_float, 1.0_c_float, nearest(1.0_c_float, -1.0_c_float), &
+      (real(rank*20 + k, c_float)/(20*num_ranks + 1), k=1, 20)], [1, 23])
+    allocate (parts_of_mine(23))
+    call balancer%create(MPI_COMM_WORLD)
+    call balancer%balance(rrcb_interleaved_points(mine), parts_of_mine)
+    call balancer%make_plan(parts_of_mine)
+    call balancer%get_plan(moves)
+    allocate (own(1, moves%num_points_after))
+    call balancer%transfer([rrcb_column(mine, own)])
+    call ghosts%create(balancer, rrcb_interleaved_points(own), radius=0.1_c_double, &
+      lower=[0.0_c_double, 0.0_c_double, 0.0_c_double], upper=[1.0_c_double, 1.0_c_double, 1.0_c_double])
+    call ghosts%get_plan(lists)
+    allocate (images(1, lists%num_ghosts))
+    call ghosts%fetch([rrcb_column(own, images)])
+    call ghosts%apply_shifts(images)
+    call expect(.not. any(lists%shifts(1, :) /= 0 .and. images(1, :) >= 0 .and. images(1, :) < 1), "images outside")
+    call ghosts%destroy()
+    call balancer%destroy()
+  end subroutine
 
   ! By plain cuts the points of a lattice are in the half-open boxes of their parts.
   subroutine check_half_open_boxes()

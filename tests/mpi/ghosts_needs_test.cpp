@@ -120,6 +120,8 @@ void expect_ghosts(const Scene& scene, Needs needs, bool is_periodic) {
     if (is_periodic) options.periodic = unit;
     const GhostPlan plan = ghosts(scene.cuts, scene.points(), options, MPI_COMM_WORLD);
     const std::vector<int> numbers = fetch(plan, scene.mine, MPI_COMM_WORLD);
+    const VerifyOptions sample{.radii = scene.radii_here};
+    EXPECT_EQ(verify(plan, scene.points(), sample, MPI_COMM_WORLD).num_faults, 0);
     std::map<std::pair<int, Shift>, int> found;
     for (std::size_t k = 0; k < numbers.size(); ++k)
         ++found[{numbers[k], is_periodic ? plan.shifts[k] : Shift{}}];

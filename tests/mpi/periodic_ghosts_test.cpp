@@ -124,6 +124,10 @@ void expect_ghosts(const Scene& scene, double radius) {
         plan, columns(scene.mine, column(scene.here, static_cast<std::size_t>(scene.dimension))),
         MPI_COMM_WORLD);
     apply_shifts(plan, positions);
+    EXPECT_EQ(verify(plan, interleaved_points(scene.here, scene.dimension), {.sample = 20},
+                     MPI_COMM_WORLD)
+                  .num_faults,
+              0);
     ASSERT_EQ(plan.shifts.size(), numbers.size());
     std::map<std::pair<int, Shift>, int> found;
     std::vector<int> near_ghosts(numbers.size());

@@ -116,6 +116,34 @@ TEST(TiltedBox, gives_all_pairs_in_c) {
     rrcb_ghosts_destroy(near);
 }
 
+TEST(PeriodicFaces, have_no_images_of_floats_inside_the_box_in_c) {
+    const std::vector<float> x{0, 1, std::nextafter(1.F, 0.F), static_cast<float>(rank()) / 20};
+    const Balance made = balance(interleaved_points(x, 1), {}, MPI_COMM_WORLD);
+    const std::vector<float> here = transfer(plan(made, MPI_COMM_WORLD), x, MPI_COMM_WORLD);
+    Balancer balancer;
+    std::vector<std::int32_t> parts(x.size());
+    const rrcb_points all = rrcb_interleaved_points(RRCB_FLOAT, 1, x.size(), x.data(), nullptr);
+    ASSERT_EQ(rrcb_balance(balancer.handle, &all, parts.data()), RRCB_OK);
+    const rrcb_points points =
+        rrcb_interleaved_points(RRCB_FLOAT, 1, here.size(), here.data(), nullptr);
+    rrcb_ghost_options options{};
+    options.radius = 0.1;
+    options.lower = unit.lower.data();
+    options.upper = unit.upper.data();
+    rrcb_ghosts* near = nullptr;
+    ASSERT_EQ(rrcb_ghosts_create(balancer.handle, &points, &options, &near), RRCB_OK)
+        << rrcb_last_error();
+    rrcb_ghost_plan lists;
+    ASSERT_EQ(rrcb_ghosts_get_plan(near, &lists), RRCB_OK);
+    std::vector<float> images(lists.num_ghosts);
+    const rrcb_column fetched{RRCB_FLOAT, 1, here.data(), images.data()};
+    ASSERT_EQ(rrcb_ghosts_fetch(near, 1, &fetched, nullptr, nullptr), RRCB_OK);
+    ASSERT_EQ(rrcb_ghosts_apply_shifts(near, RRCB_FLOAT, images.size(), images.data()), RRCB_OK);
+    for (std::size_t k = 0; k < images.size(); ++k)
+        EXPECT_FALSE(lists.shifts[3 * k] != 0 && images[k] >= 0 && images[k] < 1) << images[k];
+    rrcb_ghosts_destroy(near);
+}
+
 /// Nodes of a lattice, each n-th one on this rank.
 std::vector<double> lattice() {
     std::vector<double> mine;

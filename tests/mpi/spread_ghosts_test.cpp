@@ -137,8 +137,11 @@ TEST(SpreadGhosts, of_points_on_the_ranks_of_their_parts_are_those_by_the_whole_
     // Cuts that the rank had above scattered points, and those above its own parts alone.
     std::size_t num_sent = 0;
     for (const Cuts& known : {balance.cuts, known_here(whole)})
-        for (const double radius : {0.0, 0.01, 0.1, 2.0})
+        for (const double radius : {0.0, 0.01, 0.1, 2.0}) {
             num_sent += expect_same_plans(whole, known, points, radius);
+            const GhostPlan found = ghosts_of(known, points, radius, std::nullopt);
+            EXPECT_EQ(verify(found, points, {}, MPI_COMM_WORLD).num_faults, 0);
+        }
     EXPECT_GT(num_sent, 100u);
 }
 

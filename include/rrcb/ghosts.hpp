@@ -100,8 +100,8 @@ struct VerifyOptions {
 
 /// Point that is not where it should be.
 struct Fault {
-    std::uint64_t id = 0;         ///< of the point
-    int rank = 0;                 ///< that holds it, or did before the transfer
+    std::uint64_t id = 0;  ///< of the point
+    int rank = 0;  ///< that holds it, or did before the transfer; -1: several others hold it
     std::uint64_t needed_by = 0;  ///< point of this rank, or the same id
 };
 

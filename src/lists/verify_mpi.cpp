@@ -1,6 +1,4 @@
-#include "arithmetic/mix.hpp"
 #include "collective/duplicate.hpp"
-#include "lists/cell_list.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/outgoing_mpi.hpp"
@@ -33,20 +31,45 @@ struct Neighbour {
     std::int32_t unused = 0;
 };
 
-/// Id of a point, on its way to the rank that collects all ranks of it.
-struct IdNotice {
-    std::uint64_t id;
-    std::uint64_t is_now;  ///< 0: before a transfer
-};
+/// Points of a rank in about as many cells of their box, to find those near a position.
+class CellList {
+  public:
+    explicit CellList(const Points& points) : box_(bounding_box(points)) {
+        for (int a = 0; a < points.dimension; ++a)
+            num_cells_[a] = std::max(1., std::floor(std::pow(points.count, 1. / points.dimension)));
+        for (LocalIndex i = 0; i < points.count; ++i)
+            cells_.emplace_back(cell_of(points.position(i)), i);
+        std::ranges::sort(cells_);
+    }
 
-/// A list of faults.
-enum class List : std::int32_t { missing, twice, strangers };
+    /// Calls visit(point) for all points at most `reach` away along each axis, and some others.
+    template <class Visit>
+    void for_each_near(const Vector& x, double reach, Visit&& visit) const {
+        const auto at = [&](double by) { return cell_of({x[0] + by, x[1] + by, x[2] + by}); };
+        const Vector first = at(-reach);
+        const Vector last = at(reach);
+        for (double i = first[0]; i <= last[0]; ++i)
+            for (double j = first[1]; j <= last[1]; ++j) {
+                const std::pair begin(Vector{i, j, first[2]}, LocalIndex{0});
+                auto near = std::ranges::lower_bound(cells_, begin);
+                for (; near != cells_.end() && near->first <= Vector{i, j, last[2]}; ++near)
+                    visit(near->second);
+            }
+    }
 
-/// Fault of an id, on its way back.
-struct IdFault {
-    std::uint64_t id;
-    std::int32_t rank;
-    List list;
+  private:
+    Vector cell_of(const Vector& x) const {
+        Vector cell{};
+        for (std::size_t a = 0; a < max_dimension; ++a) {
+            const double share = (x[a] - box_.lower[a]) / (box_.upper[a] - box_.lower[a]);
+            if (share > 0) cell[a] = std::min(std::floor(share * num_cells_[a]), num_cells_[a] - 1);
+        }
+        return cell;
+    }
+
+    Box box_;
+    Vector num_cells_{1, 1, 1};
+    std::vector<std::pair<Vector, LocalIndex>> cells_{};
 };
 
 using GhostKey = std::tuple<int, std::uint64_t, Shift>;  ///< rank, index there, shift
@@ -98,7 +121,7 @@ struct VerifyRequest {
         for (std::size_t k = 0; k < samples.size(); ++k) {
             const Sample& sample = samples[k];
             const int to = static_cast<int>(k / num_each);
-            if (std::isnan(sample.radius) || (points.count == 0)) continue;
+            if (std::isnan(sample.radius) || points.count == 0) continue;
             const double reach = std::max(sample.radius, greatest);
             images.for_each(Ball(sample.x, reach), [&](const Shift& back, const Vector& centre) {
                 const Shift shift{-back[0], -back[1], -back[2]};
@@ -196,59 +219,42 @@ void compare_ghosts(const VerifyRequest& request, std::span<const Arrived<Neighb
     });
 }
 
-/// Answers the ranks of one id: several that have it, none now, or none before.
-void find_faults(std::span<const Arrived<IdNotice>> of_id, bool has_before,
-                 Outgoing<IdFault>& faults) {
-    const auto first_now = std::ranges::find(
-        of_id, 1u, [](const Arrived<IdNotice>& notice) { return notice.second.is_now; });
-    const std::span before(of_id.begin(), first_now);
-    const std::span now(first_now, of_id.end());
-    const auto add = [&](int to, int rank, List list) {
-        faults.add(to, {of_id[0].second.id, rank, list});
-    };
-    for (const auto& [rank, notice] : now)
-        if (now.size() > 1)
-            add(rank, rank == now[0].first ? now[1].first : now[0].first, List::twice);
-        else if (has_before && before.empty())
-            add(rank, rank, List::strangers);
-    if (now.empty()) add(before[0].first, before[0].first, List::missing);
-}
-
-std::vector<Fault>& list_of(Verification& seen, List list) {
-    if (list == List::missing) return seen.missing;
-    return list == List::twice ? seen.twice : seen.strangers;
-}
-
-/// Compares the ids of all ranks, now and, if any rank has some, before a transfer. Collective.
+/// Compares the ids of all ranks, now and, if any rank has some, before a transfer: those of one
+/// number are a group. Collective.
 void compare_ids(const VerifyOptions& options, bool has_before, Verification& seen,
                  Participant& self) {
-    Outgoing<IdNotice> notices;
-    const auto add = [&](std::span<const std::uint64_t> ids, std::uint64_t is_now) {
-        const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
-        for (const std::uint64_t id : ids)
-            notices.add(static_cast<int>(mix(id) % num_ranks), {id, is_now});
-    };
+    constexpr std::size_t num_sums = 3;  // points now and before, and ranks of those now
+    const double rank = mpi::rank_of(self.comm);
+    std::vector<std::uint64_t> keys;
+    std::vector<double> places;
+    std::vector<double> values;
+    std::size_t num_now = 0;
     self.attempt([&] {
-        if (options.ids) add(*options.ids, 1);
-        if (options.ids_before) add(*options.ids_before, 0);
+        if (options.ids) keys.assign(options.ids->begin(), options.ids->end());
+        num_now = keys.size();
+        for (std::size_t k = 0; k < num_now; ++k) values.insert(values.end(), {1, 0, rank});
+        if (options.ids_before)
+            keys.insert(keys.end(), options.ids_before->begin(), options.ids_before->end());
+        values.resize(num_sums * keys.size());
+        for (std::size_t k = num_now; k < keys.size(); ++k) values[num_sums * k + 1] = 1;
+        places.resize(keys.size());
     });
-    std::vector<Arrived<IdNotice>> arrived = notices.send(self);
-    Outgoing<IdFault> faults;
+    const Groups ids = groups(interleaved_points(places, 1), keys, GroupPlace::first_point, self);
+    const std::vector<double> sums_here = sums(ids, values, num_sums, self);
+    std::vector<double> of_ids;
+    const std::array columns{detail::byte_column(column(sums_here, num_sums), of_ids)};
+    move(ids, columns, {}, nullptr, self);
     self.attempt([&] {
-        const auto key = [](const Arrived<IdNotice>& notice) {
-            return std::tuple(notice.second.id, notice.second.is_now, notice.first);
-        };
-        std::ranges::sort(arrived, {}, key);
-        for (std::size_t begin = 0, end = 0; begin < arrived.size(); begin = end) {
-            while (end < arrived.size() && arrived[end].second.id == arrived[begin].second.id)
-                ++end;
-            find_faults(std::span(arrived).subspan(begin, end - begin), has_before, faults);
+        for (std::size_t k = 0; k < keys.size(); ++k) {
+            const std::span sum = std::span(of_ids).subspan(num_sums * k, num_sums);
+            const bool is_now = k < num_now;
+            const Fault fault{keys[k], static_cast<int>(rank), keys[k]};
+            const double other = sum[0] == 2 ? sum[2] - rank : -1;
+            if (is_now && sum[0] > 1)
+                seen.twice.push_back({fault.id, static_cast<int>(other), fault.id});
+            if (is_now && has_before && sum[1] == 0) seen.strangers.push_back(fault);
+            if (!is_now && sum[0] == 0) seen.missing.push_back(fault);
         }
-    });
-    const std::vector<Arrived<IdFault>> returned = faults.send(self);
-    self.attempt([&] {
-        for (const auto& [source, fault] : returned)
-            list_of(seen, fault.list).push_back({fault.id, fault.rank, fault.id});
     });
 }
 

@@ -131,8 +131,8 @@ RRCB_API Verification verify(const GhostPlan& near, const Points& points,
                              const VerifyOptions& options, MPI_Comm comm);
 
 /// Moves fetched positions of ghosts to those of the images; does nothing without a periodic box.
-/// Images that rounding leaves in [lower, upper) of an axis come to the next number outside. Not
-/// collective.
+/// Images of positions in the box that rounding leaves in [lower, upper) come to the next number
+/// outside. Not collective.
 ///
 /// @param plan      of the ghosts
 /// @param positions the axes of one ghost after the other

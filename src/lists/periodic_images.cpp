@@ -79,11 +79,13 @@ std::uint64_t PeriodicImages::hash() const {
 
 namespace {
 
-/// Returns a coordinate moved to that of an image, which is never in [lower, upper): rounding may
-/// bring it there, and a point on the upper face lands on the lower one.
+/// Returns a coordinate moved to that of an image. If it is in the box, its image is never in
+/// [lower, upper): rounding may bring it there, and the upper face lands on the lower one. A
+/// point that has left the box since may come in on the other side.
 template <class T>
 T image_outside(T x, const Box& box, int axis, std::int32_t shift) {
     const auto image = static_cast<T>(image_of(x, box, axis, shift));
+    if (!(x >= box.lower[axis] && x <= box.upper[axis])) return image;
     const auto towards = [](T from, double to) { return std::nextafter(from, static_cast<T>(to)); };
     auto end = static_cast<T>(shift > 0 ? box.upper[axis] : box.lower[axis]);
     if (shift > 0) {

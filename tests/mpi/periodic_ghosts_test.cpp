@@ -256,6 +256,15 @@ void expect_images_outside(const Box& box) {
     }
 }
 
+TEST(PeriodicGhosts, follow_points_that_leave_the_box) {
+    GhostPlan plan;
+    plan.periodic = Box{{0}, {1}};
+    plan.shifts = {Shift{-1, 0, 0}, Shift{1, 0, 0}, Shift{-1, 0, 0}};
+    std::vector<double> positions{1.25, -0.25, 1};
+    apply_shifts(plan, positions);
+    EXPECT_EQ(positions, (std::vector{0.25, 0.75, std::nextafter(0, -1)}));
+}
+
 TEST(PeriodicGhosts, at_the_faces_of_the_box_are_met_once_and_never_inside) {
     for (const Box& box : {Box{{0}, {1}}, Box{{0.1}, {0.7}}, Box{{-0.1}, {0.2}}, Box{{-1}, {0}}}) {
         expect_images_outside<double>(box);

@@ -68,8 +68,9 @@ class AxisOrder {
 
 /// Axes that are cut, and the positions of cuts along them. All limits hold at once.
 struct Axes {
-    AxisOrder order{};   ///< such as AxisOrder::grouped({0, 1}); default: the longest of each box
-    bool plain = false;  ///< planes only: points on a plane stay together
+    AxisOrder order{};  ///< such as AxisOrder::grouped({0, 1}); default: the longest of each box
+    /// Planes only: points on a plane stay together, above it, so that regions are half-open boxes.
+    bool plain = false;
 
     /// Least extent of every part along each axis, > 0 and finite, one per axis of the points;
     /// empty: any. Between two cuts `upper - lower >= min_width` holds as doubles compute it. On a

@@ -121,6 +121,7 @@ class GhostOptions(Structure):
         ("upper", c_void_p),
         ("ranks_of_parts", c_void_p),
         ("num_parts", c_size_t),
+        ("needs", c_int),
     ]
 
 
@@ -149,6 +150,35 @@ class GhostPlan(Structure):
         ("num_receive_ranks", c_size_t),
         ("receive", POINTER(RankCount)),
         ("shifts", c_void_p),
+    ]
+
+
+class VerifyOptions(Structure):
+    """rrcb_verify_options."""
+
+    _fields_ = [
+        ("sample", c_size_t),
+        ("radius", c_double),
+        ("radii", c_void_p),
+        ("num_ids", c_size_t),
+        ("ids", c_void_p),
+        ("num_ids_before", c_size_t),
+        ("ids_before", c_void_p),
+    ]
+
+
+class Verification(Structure):
+    """rrcb_verification."""
+
+    _fields_ = [
+        ("num_pairs", c_int64),
+        ("num_faults", c_int64),
+        ("num_missing", c_size_t),
+        ("missing", c_void_p),
+        ("num_twice", c_size_t),
+        ("twice", c_void_p),
+        ("num_strangers", c_size_t),
+        ("strangers", c_void_p),
     ]
 
 
@@ -181,6 +211,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "ghosts_get_plan": (c_void_p, POINTER(GhostPlan)),
     "ghosts_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_accumulate": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "ghosts_verify": (c_void_p, POINTER(Points), POINTER(VerifyOptions), POINTER(Verification)),
     "ghosts_apply_shifts": (c_void_p, c_int, c_size_t, Address),
     "controller_create_fortran": (c_int, HANDLE),
     "controller_step": (c_void_p, c_double, POINTER(c_int)),

@@ -24,6 +24,7 @@ module rrcb_c_functions
     type(c_ptr) :: radii = c_null_ptr
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
     integer(c_size_t) :: num_parts = 0
+    integer(c_int) :: needs = 0
   end type
 
   type, bind(c) :: c_ghost_plan
@@ -33,6 +34,26 @@ module rrcb_c_functions
     type(c_ptr) :: send_indices = c_null_ptr
     integer(c_size_t) :: num_receive_ranks = 0
     type(c_ptr) :: receive = c_null_ptr, shifts = c_null_ptr
+  end type
+
+  type, bind(c) :: c_verify_options
+    integer(c_size_t) :: sample = 1000
+    real(c_double) :: radius = 0
+    type(c_ptr) :: radii = c_null_ptr
+    integer(c_size_t) :: num_ids = 0
+    type(c_ptr) :: ids = c_null_ptr
+    integer(c_size_t) :: num_ids_before = 0
+    type(c_ptr) :: ids_before = c_null_ptr
+  end type
+
+  type, bind(c) :: c_verification
+    integer(c_int64_t) :: num_pairs = 0, num_faults = 0
+    integer(c_size_t) :: num_missing = 0
+    type(c_ptr) :: missing = c_null_ptr
+    integer(c_size_t) :: num_twice = 0
+    type(c_ptr) :: twice = c_null_ptr
+    integer(c_size_t) :: num_strangers = 0
+    type(c_ptr) :: strangers = c_null_ptr
   end type
 
   type, bind(c) :: c_rank_count
@@ -230,6 +251,13 @@ module rrcb_c_functions
       import
       type(c_ptr), value :: handle
       type(c_ghost_plan), intent(inout) :: plan
+    end function
+    integer(c_int) function c_ghosts_verify(handle, points, options, seen) bind(c, name="rrcb_ghosts_verify")
+      import
+      type(c_ptr), value :: handle
+      type(rrcb_points), intent(in) :: points
+      type(c_verify_options), intent(in) :: options
+      type(c_verification), intent(inout) :: seen
     end function
     integer(c_int) function c_ghosts_apply_shifts(handle, type, length, positions) &
       bind(c, name="rrcb_ghosts_apply_shifts")

@@ -23,6 +23,8 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                  Participant& self);
+Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,
+                    Participant& self);
 void move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
 void move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_ghosts,

@@ -92,6 +92,7 @@ std::vector<NamedCall> all_calls() {
              std::vector<double> sums(in.points.count);
              accumulate(in.near, column(in.of_ghosts), column(sums), world);
          }},
+        {"verify", [](Input& in) { verify(in.near, in.points, {.sample = 5}, world); }},
         {"groups", [](Input& in) { groups(in.points, in.keys, world); }},
         {"fetch of groups",
          [](Input& in) { fetch(in.clusters, column(in.clusters.weights), world); }},

@@ -252,6 +252,13 @@ program module_test
   end do
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=0*moved_weights)
   call expect(error == rrcb_ok, "ghosts by radii")
+  call ghosts%destroy()
+  ! Rank 0 needs two points of the next part, which needs none.
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, &
+    radii=moved_weights*merge(1, 0, rank == 0), needs=rrcb_needs_receiver)
+  call expect(error == rrcb_ok, "ghosts within radii of receivers")
+  call ghosts%get_plan(ghost_plan, error)
+  call expect(ghost_plan%num_ghosts == merge(2, 0, rank == 0), "number of ghosts within radii of receivers")
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radius=2.0_c_double)
   call expect_text("ghosts is null; give the address of a pointer (in Fortran: destroy what was")
   call ghosts%destroy()

@@ -17,6 +17,7 @@ RENAMED = {
     "fetch": "rrcb_ghosts_fetch",
     "accumulate": "rrcb_ghosts_accumulate",
     "apply_shifts": "rrcb_ghosts_apply_shifts",
+    "verify": "rrcb_ghosts_verify",
     "groups": "rrcb_groups_create",
     "sums": "rrcb_groups_sums",
 }

@@ -268,10 +268,17 @@ MUTATIONS = [
         ("mpi_ghosts",),
     ),
     Mutation(
+        "the places of points with great radii are not noted",
+        "src/cuts/ball_search.hpp",
+        "const bool is_great = radius > of(end) / 2;",
+        "const bool is_great = false;",
+        ("mpi_ghosts_needs",),
+    ),
+    Mutation(
         "cuts that a rank lacks are not asked for",
         "src/cuts/ball_search.hpp",
-        "is_unknown(entry) ? lack(unknown_node(entry)) : visit(entry);",
-        "is_unknown(entry) ? void() : visit(entry);",
+        "if (is_unknown(entry)) return lack(unknown_node(entry));",
+        "if (is_unknown(entry)) return;",
         ("mpi_spread_ghosts",),
     ),
 ]

@@ -143,6 +143,8 @@ RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* p
 
 /** Writes the region of a part; sides without a cut are +-infinity. Not collective.
  *
+ * With rrcb_set("axes.plain", "ON") it contains its lower faces and not its upper ones, see
+ * rrcb::box_of.
  * @param balancer with cuts
  * @param part     0 ... num_parts - 1
  * @param lower    gets the lower end, of length 3

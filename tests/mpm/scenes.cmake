@@ -158,8 +158,6 @@ mpm_add_scene(elastic_structure RANKS 2 BALANCER rrcb-exact CELL_SIZE 0.25 END_T
               POINTS 384)
 mpm_add_scene(submarine_slide RANKS 3 BALANCER rrcb CELL_SIZE 2.5 END_TIME 1 VTK_EVERY 50 POINTS 4096)
 mpm_add_scene(torpedo_anchor RANKS 3 BALANCER rrcb CELL_SIZE 0.375 END_TIME 0.1 VTK_EVERY 20 POINTS 4288)
-mpm_add_scene(anchor_plate RANKS 4 BALANCER rrcb-exact CELL_SIZE 0.5 END_TIME 0.2 VTK_EVERY 40
-              POINTS 3888)
 mpm_add_scene(axial_bar RANKS 2 BALANCER none CELL_SIZE 1 END_TIME 0.5 VTK_EVERY 40 POINTS 100)
 mpm_add_scene(granular_column RANKS 2 BALANCER rrcb-cells CELL_SIZE 0.2 END_TIME 0.3 VTK_EVERY 40
               POINTS 800)
@@ -167,7 +165,6 @@ mpm_add_scene(vertical_cut RANKS 3 BALANCER rrcb CELL_SIZE 0.5 END_TIME 0.2 VTK_
 mpm_add_scene(two_disks RANKS 4 BALANCER rrcb CELL_SIZE 0.05 END_TIME 0.2 VTK_EVERY 40 POINTS 1624)
 mpm_add_scene(hydrostatic_column RANKS 2 BALANCER root-rcb CELL_SIZE 0.0125 END_TIME 0.02 VTK_EVERY 40
               POINTS 512)
-mpm_add_scene(falling_body RANKS 2 BALANCER rrcb CELL_SIZE 0.25 END_TIME 0.3 VTK_EVERY 40 POINTS 64)
 mpm_add_scene(dam_break RANKS 4 BALANCER rrcb CELL_SIZE 0.2 END_TIME 1.4 VTK_EVERY 200 POINTS 800)
 mpm_add_scene(incline_block RANKS 3 BALANCER rrcb-sampled CELL_SIZE 0.25 END_TIME 0.5 VTK_EVERY 40
               POINTS 128)

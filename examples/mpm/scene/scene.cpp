@@ -3,6 +3,7 @@
 
 #include <mpm/scene.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -53,6 +54,11 @@ void check_plane(const Scene& scene, const Plane& plane) {
 }
 
 }  // namespace
+
+const Effect* find_effect(const Scene& scene, const std::string& name) {
+    const auto found = std::ranges::find(scene.effects, name, &Effect::name);
+    return found == scene.effects.end() ? nullptr : &*found;
+}
 
 void validate(const Scene& scene) {
     check_grid(scene);

@@ -18,17 +18,9 @@ std::string written(double number) {
     return text.str();
 }
 
-/// An effect of this kind; null if the scene names none.
-const Effect* effect_of(const Scene& scene, const std::string& kind) {
-    const auto found = std::ranges::find_if(scene.effects, [&](const Effect& effect) {
-        return (effect.kind.empty() ? effect.name : effect.kind) == kind;
-    });
-    return found == scene.effects.end() ? nullptr : &*found;
-}
-
 /// Stress that the scene's own weight can cause, Pa; 0 without gravity.
 double weight_stress(const Scene& scene, double density) {
-    const Effect* gravity = effect_of(scene, "gravity");
+    const Effect* gravity = find_effect(scene, "gravity");
     if (gravity == nullptr) return 0;
     double most = 0;
     for (const double along : std::get<std::vector<double>>(gravity->parameters.at("acceleration")))
@@ -52,7 +44,7 @@ void check_material(const Scene& scene, const Material& material, Warnings& warn
     const double angle = values.number("friction_angle");
     if (angle > 0 && angle < 1.6)
         warnings.push_back(place + "the friction_angle " + written(angle) + " must be in degrees");
-    if (angle > 0 && effect_of(scene, "locking_cure") == nullptr)
+    if (angle > 0 && find_effect(scene, "locking_cure") == nullptr)
         warnings.push_back(place +
                            "frictional soil without dilation is too strong by a tenth or "
                            "more, as cells lock; name the effect locking_cure");

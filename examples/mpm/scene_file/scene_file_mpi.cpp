@@ -249,9 +249,9 @@ SceneFile read_list(const List& list, const std::string& name) {
     }
     for (const List& one : list.lists_in("bodies"))
         scene.bodies.push_back(read_body(one, dimension));
-    for (List& one : list.lists_in("effects")) {
-        const std::string kind = take_word("kind", one);
-        scene.effects.push_back({one.name, one.parameters, kind});
+    for (const List& one : list.lists_in("effects")) {
+        one.check_lists({});
+        scene.effects.push_back({one.name, one.parameters});
     }
     for (const List& one : list.lists_in("probes"))
         scene.probes.push_back(

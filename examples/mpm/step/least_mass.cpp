@@ -15,9 +15,7 @@ double layers_of(const Body& body, int dimension) {
 /// of locking, which replaces them by those of a centre.
 bool vanish_at_the_rim(const Scene& scene) {
     return scene.shape_function == ShapeFunction::quadratic &&
-           std::ranges::none_of(scene.effects, [](const Effect& effect) {
-               return effect.name == "locking_cure" || effect.kind == "locking_cure";
-           });
+           find_effect(scene, "locking_cure") == nullptr;
 }
 
 /// Scene::least_node_mass, or the least share that keeps layers of points stable.

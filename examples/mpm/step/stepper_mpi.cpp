@@ -39,8 +39,7 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
     add_walls<D>(ground, stages);
     add_plane_friction<D>(ground, wave_speed, particles, stages);
     for (const NamedEffect& effect : effects_of(scene)) {
-        const EffectBuilder<D> builder{scene,     effect.name, effect.values,
-                                       particles, stages,      wave_speed};
+        const EffectBuilder<D> builder{scene, effect.values, particles, stages, wave_speed};
         if constexpr (D == 2)
             effect.kind->build_2(builder);
         else

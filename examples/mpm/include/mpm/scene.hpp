@@ -76,9 +76,8 @@ struct Plane {
 
 /// An effect, with its parameters; see effect.hpp.
 struct Effect {
-    std::string name;  ///< of its kind, where that is not given
+    std::string name;
     Parameters parameters;
-    std::string kind = {};  ///< a scene may have several tractions
 };
 
 /// The point nearest to a position at the start, whose motion and stress are recorded.
@@ -115,6 +114,9 @@ struct Scene {
     double least_node_mass = 0;
     double end_time = 0;  ///< s
 };
+
+/// An effect of a scene by name; null if the scene does not name it.
+const Effect* find_effect(const Scene& scene, const std::string& name);
 
 /// Checks a scene. Throws std::invalid_argument that names its fault.
 void validate(const Scene& scene);

@@ -76,8 +76,6 @@ void validate(const Scene& scene) {
                     "probe '" + probe.name + "' must have a finite position");
     require(scene.courant_number > 0 && scene.courant_number <= 1,
             "the Courant number must lie in 0 ... 1");
-    require(scene.least_node_mass >= 0 && scene.least_node_mass < 1,
-            "the least mass of a node must lie in 0 ... 1");
     effects_of(scene);
 }
 

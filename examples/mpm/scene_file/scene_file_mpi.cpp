@@ -203,13 +203,11 @@ Plane read_plane(const List& list, int dimension) {
 
 void read_method(const List& list, int dimension, Scene& scene) {
     const Values values = list.values({choice("shape_function", {"linear", "quadratic"}),
-                                       within("courant_number", "", 1e-6, 1, scene.courant_number),
-                                       within("least_node_mass", "", 0, 0.5, 0.0)},
+                                       within("courant_number", "", 1e-6, 1, scene.courant_number)},
                                       dimension);
     if (values.word("shape_function") == "quadratic")
         scene.shape_function = ShapeFunction::quadratic;
     scene.courant_number = values.number("courant_number");
-    scene.least_node_mass = values.number("least_node_mass");
 }
 
 OutputPlan read_output(const List& list, int dimension) {

@@ -48,7 +48,7 @@ struct Material {
 /// A side of the domain.
 struct Wall {
     enum Kind {
-        open,       ///< free; a point that reaches it has left the grid, which is an error
+        open,       ///< free; a point that passes it leaves the scene
         roller,     ///< no velocity across the wall
         fixed,      ///< no velocity
         frictional  ///< none into the wall, and Coulomb friction along it
@@ -107,12 +107,8 @@ struct Scene {
     std::vector<Probe> probes = {};
 
     ShapeFunction shape_function = ShapeFunction::linear;
-    double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing
-    /// Share of a full node's mass below which a node's acceleration strains points less
-    /// (move_nodes). 0: the least at which the time step is stable, and at least 0.01; none with
-    /// quadratic functions.
-    double least_node_mass = 0;
-    double end_time = 0;  ///< s
+    double courant_number = 0.4;  ///< time step * (wave speed + fastest speed) / grid spacing
+    double end_time = 0;          ///< s
 };
 
 /// An effect of a scene by name; null if the scene does not name it.

@@ -11,7 +11,7 @@ namespace {
 struct End {
     double energy;  ///< kinetic and elastic
     Vector way{};   ///< of the centre
-    double front;   ///< behind which 99 % of the points are; the largest x is that of one grain
+    double front;   ///< behind which 95 % of the points are; single grains lie beyond
 };
 
 End end_of(Scene scene, double end_time, double courant_number) {
@@ -25,7 +25,7 @@ End end_of(Scene scene, double end_time, double courant_number) {
     for (std::size_t a = 0; a < 2; ++a)
         end.way[a] = totals.center[a] - start[a] - totals.momentum[a] / totals.mass * late;
     std::vector<double> x = gathered(simulation, "x", MPI_COMM_WORLD);
-    const auto front = x.begin() + std::ssize(x) * 99 / 100;
+    const auto front = x.begin() + std::ssize(x) * 95 / 100;
     std::ranges::nth_element(x, front);
     end.front = *front;
     return end;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <numbers>
 #include <sstream>
 
 namespace mpm {
@@ -30,6 +31,22 @@ double weight_stress(const Scene& scene, double density) {
 
 using Warnings = std::vector<std::string>;
 
+/// The cone is inside Mohr-Coulomb's pyramid where both lateral stresses are equal.
+void check_rest(const Scene& scene, const Values& soil, const std::string& place, double weight,
+                Warnings& warnings) {
+    const Effect* geostatic = find_effect(scene, "geostatic");
+    if (geostatic == nullptr) return;
+    const auto given = geostatic->parameters.find("lateral_ratio");
+    const double ratio = given == geostatic->parameters.end() ? 1 : std::get<double>(given->second);
+    const double angle = soil.number("friction_angle") * std::numbers::pi / 180;
+    const double sine = std::sin(angle), root = std::numbers::sqrt3;
+    const double strength = soil.number("cohesion") * std::cos(angle);
+    if ((1 - ratio) / root * weight - sine * (1 + 2 * ratio) / 3 * weight > strength)
+        warnings.push_back("effects / geostatic: at the lateral_ratio " + written(ratio) + ", " +
+                           place + "yields at rest; without cohesion it needs " +
+                           written((root - sine) / (root + 2 * sine)));
+}
+
 void check_material(const Scene& scene, const Material& material, Warnings& warnings) {
     const Values values = values_of(material, scene.dimension);
     const std::string place = "materials / " + material.name + ": ";
@@ -48,6 +65,7 @@ void check_material(const Scene& scene, const Material& material, Warnings& warn
         warnings.push_back(place +
                            "frictional soil without dilation is too strong by a tenth or "
                            "more, as cells lock; name the effect locking_cure");
+    check_rest(scene, values, place, weight, warnings);
 }
 
 void check_bounds(const Scene& scene, const Body& body, Warnings& warnings) {

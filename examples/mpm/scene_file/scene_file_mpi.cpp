@@ -81,6 +81,7 @@ Shape polygon_shape(const List& list, const std::vector<double>& rows) {
         list.refuse("corners", "must be 3 or more rows (x, y)");
     std::vector<Vector> corners;
     for (std::size_t k = 0; k < rows.size(); k += 2) corners.push_back({rows[k], rows[k + 1]});
+    if (crosses_itself(corners)) list.refuse("corners", "must be in order: two edges cross");
     Shape polygon{polygon_region(corners)};
     for (std::size_t a = 0; a < 2; ++a) {
         const auto along = [a](const Vector& corner) { return corner[a]; };

@@ -93,7 +93,7 @@ void check_probe(const Scene& scene, const Probe& probe, Warnings& warnings) {
 }  // namespace
 
 double stable_courant_number(const Scene& scene) {
-    return scene.shape_function == ShapeFunction::linear ? 0.6 : 0.7;
+    return scene.shape_function == ShapeFunction::linear ? 0.4 : 0.6;
 }
 
 std::vector<std::string> scene_warnings(const Scene& scene) {

@@ -139,6 +139,12 @@ add_test(NAME mpm_warning COMMAND rrcb_mpm --scene=${CMAKE_CURRENT_BINARY_DIR}/l
 set_tests_properties(mpm_warning PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
                                             "warning: .*light.yaml: materials / .*kg/m.3")
 
+# A log that is no terminal gets a line for each tenth.
+add_test(NAME mpm_log COMMAND rrcb_mpm --scene=${PROJECT_SOURCE_DIR}/examples/mpm/scenes/two_disks.yaml
+                              --end-time=0.02 --out=${CMAKE_CURRENT_BINARY_DIR}/log)
+set_tests_properties(mpm_log PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
+                                        "1[0-9].. %[^\n]*\n *2[0-9].. %.*90.. %.*\n100.0 % of 0.02 s")
+
 # Cells beyond the memory: all ranks end with an error, and none aborts. Sanitizers need more of it.
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   file(READ ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/two_disks.yaml wide)

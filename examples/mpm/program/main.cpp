@@ -163,11 +163,11 @@ class Progress {
         if (!is_due && !(is_last && is_terminal_)) return;
         shown_ = now;
         num_tenths_ = static_cast<int>(10 * share + 1e-9);
-        std::fprintf(stderr, "%s%5.1f %% of %.4g s, step %lld", is_terminal_ ? "\r" : "",
-                     100 * share, to_, static_cast<long long>(simulation.step_count()));
-        if (share > 0)
-            std::fprintf(stderr, ", %.0f s left   ", (now - begin_) * (1 - share) / share);
-        if (is_last || !is_terminal_) std::fprintf(stderr, "\n");
+        const double left = share > 0 ? (now - begin_) * (1 - share) / share : 0;
+        std::fprintf(stderr, "%s%5.1f %% of %.4g s, step %lld, %.0f s left%s",
+                     is_terminal_ ? "\r" : "", 100 * share, to_,
+                     static_cast<long long>(simulation.step_count()), left,
+                     is_last || !is_terminal_ ? "\n" : "   ");
     }
 
   private:

@@ -12,9 +12,9 @@ struct Centre {
     static constexpr std::size_t num_nodes = power(Shape::num_nodes, D);
     using Slopes = std::array<Components<D>, num_nodes>;  ///< per cell
 
-    static Slopes slopes_at(const Components<D>& u) {
+    static Slopes slopes_at(const Shape& shape, const Components<D>& u) {
         std::array<Weights<Shape::num_nodes>, D> weights;
-        for (std::size_t a = 0; a < D; ++a) weights[a] = Shape().at(u[a]);
+        for (std::size_t a = 0; a < D; ++a) weights[a] = shape.at(u[a]);
         Slopes slopes;
         unrolled<num_nodes>([&](auto n) {
             unrolled<D>(
@@ -26,7 +26,7 @@ struct Centre {
     static Slopes slopes() {
         Components<D> centre;
         centre.fill(0.5 * (Shape::num_nodes - 1));
-        return slopes_at(centre);
+        return slopes_at(Shape(), centre);
     }
 };
 
@@ -58,7 +58,8 @@ GradientKernel<D> average_kernel(Column volume) {
 /// Forces whose work is that of the stress in these strains: the mean of the stresses along the
 /// axes acts at the centre, not at the point.
 template <int D, class Shape>
-ScatterKernel<D> force_kernel(const MotionColumns& motion, const StressColumns<D>& stress) {
+ScatterKernel<D> force_kernel(const Shape& shape, const MotionColumns& motion,
+                              const StressColumns<D>& stress) {
     return [=, slopes = Centre<D, Shape>::slopes()](
                const Particles& particles, std::span<const CellRun<D>> runs, GridPatch<D>& patch) {
         const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
@@ -72,7 +73,7 @@ ScatterKernel<D> force_kernel(const MotionColumns& motion, const StressColumns<D
                     u[a] = (particles[motion.position[a]][p] - run.corner[a]) / patch.shape.spacing;
                 }
                 pull *= particles[motion.volume][p] / patch.shape.spacing;
-                const auto own = Centre<D, Shape>::slopes_at(u);
+                const auto own = Centre<D, Shape>::slopes_at(shape, u);
                 for (std::size_t n = 0; n < own.size(); ++n)
                     for (std::size_t a = 0; a < D; ++a)
                         patch.sums[run.node + offsets[n]].force[a] -=
@@ -85,7 +86,8 @@ template <int D, class Shape>
 void add(const EffectBuilder<D>& builder) {
     const MotionColumns motion = add_motion_columns(builder.particles, D);
     const StressColumns<D> stress = add_stress_columns<D>(builder.particles);
-    builder.stages.scatters.push_back({"locking_cure", force_kernel<D, Shape>(motion, stress)});
+    builder.stages.scatters.push_back(
+        {"locking_cure", force_kernel<D>(Shape(builder.scene.courant_number), motion, stress)});
     builder.stages.gradients.push_back({"locking_cure", average_kernel<D, Shape>(motion.volume)});
 }
 

@@ -19,18 +19,14 @@ struct NodeField {
     int component = -1;  ///< of a vector, which the mirror image in a wall turns; -1: a scalar
 };
 
-/// Share of a load that is there at a time, if it grows along a straight line over `ramp` s.
-inline double share_at(double ramp, double time) {
-    return time < ramp ? time / ramp : 1;
-}
-
 /// Acceleration of weight, buoyancy included, at its full strength, m/s^2.
 template <int D>
 struct Gravity {
     Components<D> acceleration{};
     double ramp = 0;  ///< s
 
-    double share_at(double time) const { return mpm::share_at(ramp, time); }
+    /// Share of it that is there at a time: it grows along a straight line over the ramp.
+    double share_at(double time) const { return time < ramp ? time / ramp : 1; }
 };
 
 /// A number for the history from an effect, the same on all ranks.

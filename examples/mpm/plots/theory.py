@@ -71,16 +71,6 @@ def axial_bar(axes: Axes, folder: Path, scene: str) -> None:
     axes.set(xlabel="x at the start, m", ylabel="stress, Pa (tension positive)")
 
 
-def falling_body(axes: Axes, folder: Path, scene: str) -> None:
-    density, water = number_in(scene, "density"), number_in(scene, "water_density")
-    terminal = np.sqrt(2 * (density - water) * G / (water * number_in(scene, "drag_coefficient")))
-    tau = density * terminal / ((density - water) * G)
-    history = history_of(folder)
-    time, y = history["time"], history["center_y"]
-    compare(axes, time, y, y[0] - terminal * tau * np.log(np.cosh(time / tau)), "centre")
-    axes.set(xlabel="time, s", ylabel="height, m")
-
-
 def incline_block(axes: Axes, folder: Path, scene: str) -> None:
     sine, cosine = list_in(scene, "normal")
     pull = G * (sine - number_in(scene, "friction") * cosine)
@@ -99,7 +89,7 @@ def incline_block(axes: Axes, folder: Path, scene: str) -> None:
 
 DRAWINGS = {
     drawing.__name__: drawing
-    for drawing in (hydrostatic_column, axial_bar, falling_body, incline_block)
+    for drawing in (hydrostatic_column, axial_bar, incline_block)
 }
 
 

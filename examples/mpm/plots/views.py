@@ -107,7 +107,6 @@ VIEWS = {
         **STRAIN, most=2, is_mirrored=True, space=6.2, backdrop=anchor_in_water
     ),
     "elastic_structure": View(backdrop=clamped_feet),
-    "anchor_plate": View(space=4.2, backdrop=anchor),
     # Shear draws the rows of points apart: squares of 2.2 spacings fill a layer as dense as at first.
     "granular_column": View(marker=2.2),
 }

@@ -10,12 +10,13 @@
 
 #include <mpm/simulation.hpp>
 
+#include <limits>
 #include <optional>
 #include <span>
 
 namespace mpm {
 
-/// Least mass of the nodes of a scene (Scene::least_node_mass). Where bodies differ in density it
+/// Least mass of the nodes of a scene under a cure of locking. Where bodies differ in density it
 /// adds a field of the nodes, so that each node goes by the points that touch it.
 template <int D>
 LeastMass add_least_mass(const Scene& scene, Column mass, Stages<D>& stages);
@@ -95,7 +96,9 @@ class Stepper final : public Simulation::Model {
     std::optional<Column> material_column_;  ///< where the scene has several materials
     Stages<D> stages_;
     LeastMass least_mass_;
-    double fingerprint_;  ///< of the points at the start
+    double lightest_point_ = std::numeric_limits<double>::infinity();  ///< of all ranks, kg
+    double fastest_node_ = 0;  ///< of this rank in the last step, m/s; see move_nodes
+    double fingerprint_;       ///< of the points at the start
 
     Ownership ownership_;
     GridPatch<D> patch_;

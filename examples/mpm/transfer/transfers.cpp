@@ -10,7 +10,7 @@ namespace {
 template <int D, class Shape>
 class TransfersOf final : public Transfers<D> {
   public:
-    explicit TransfersOf(Particles& particles) {
+    TransfersOf(double courant_number, Particles& particles) : shape_(courant_number) {
         columns_.motion = add_motion_columns(particles, D);
         columns_.stress = add_stress_columns<D>(particles);
     }
@@ -136,13 +136,13 @@ class TransfersOf final : public Transfers<D> {
 }  // namespace
 
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles) {
-    if (shape == ShapeFunction::linear)
-        return std::make_unique<TransfersOf<D, LinearShape>>(particles);
-    return std::make_unique<TransfersOf<D, QuadraticShape>>(particles);
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles) {
+    if (scene.shape_function == ShapeFunction::linear)
+        return std::make_unique<TransfersOf<D, LinearShape>>(scene.courant_number, particles);
+    return std::make_unique<TransfersOf<D, QuadraticShape>>(scene.courant_number, particles);
 }
 
-template std::unique_ptr<Transfers<2>> make_transfers<2>(ShapeFunction, Particles&);
-template std::unique_ptr<Transfers<3>> make_transfers<3>(ShapeFunction, Particles&);
+template std::unique_ptr<Transfers<2>> make_transfers<2>(const Scene&, Particles&);
+template std::unique_ptr<Transfers<3>> make_transfers<3>(const Scene&, Particles&);
 
 }  // namespace mpm

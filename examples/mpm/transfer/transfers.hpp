@@ -160,8 +160,8 @@ class Transfers {
                          std::vector<double>& field) const = 0;
 };
 
-/// Transfers with a shape function; adds the columns they need.
+/// Transfers with the shape function of a scene; adds the columns they need.
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles);
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles);
 
 }  // namespace mpm

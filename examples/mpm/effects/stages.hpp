@@ -56,6 +56,7 @@ struct Stages {
     /// state contains them.
     std::vector<double*> kept;
     std::optional<Gravity<D>> gravity;  ///< for the potential energy
+    VolumeChange volume_change = VolumeChange::own;
 };
 
 }  // namespace mpm

@@ -107,7 +107,7 @@ void Stepper<D>::divide_by(Decomposition next, MPI_Comm comm) {
 template <int D>
 void Stepper<D>::advance_nodes() {
     transfers_->find_runs(particles, patch_, runs_);
-    transfers_->p2g(particles, runs_, patch_);
+    transfers_->p2g(particles, runs_, stages_.volume_change, patch_);
     for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
         std::ranges::fill(patch_.fields[f], 0.0);
         const NodeField& field = stages_.fields[f];
@@ -132,7 +132,7 @@ void Stepper<D>::advance_points() {
         block.block_begin = block.begin;
         block.end = std::min(block.begin + block_size, particles.size());
         const std::size_t first_run = run;
-        run = transfers_->g2p(particles, patch_, runs_, run, block);
+        run = transfers_->g2p(particles, patch_, runs_, run, stages_.volume_change, block);
         for (const auto& effect : stages_.gradients)
             effect.kernel(particles, patch_, std::span(runs_).subspan(first_run, run - first_run),
                           block);

@@ -48,15 +48,21 @@ class TransfersOf final : public Transfers<D> {
         particles.reorder(order);
     }
 
-    void p2g(Particles& particles, const std::vector<CellRun<D>>& runs,
+    void p2g(Particles& particles, const std::vector<CellRun<D>>& runs, VolumeChange change,
              GridPatch<D>& patch) const override {
-        points_to_grid<D, Shape>(particles, columns_, shape_, runs, patch);
+        const auto transfer = change == VolumeChange::own
+                                  ? points_to_grid<D, Shape, VolumeChange::own>
+                                  : points_to_grid<D, Shape, VolumeChange::shared>;
+        transfer(particles, columns_, shape_, runs, patch);
     }
 
     std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
-                    const std::vector<CellRun<D>>& runs, std::size_t first_run,
+                    const std::vector<CellRun<D>>& runs, std::size_t first_run, VolumeChange change,
                     const PointBlock<D>& block) const override {
-        return grid_to_points<D, Shape>(particles, columns_, shape_, patch, runs, first_run, block);
+        const auto transfer = change == VolumeChange::own
+                                  ? grid_to_points<D, Shape, VolumeChange::own>
+                                  : grid_to_points<D, Shape, VolumeChange::shared>;
+        return transfer(particles, columns_, shape_, patch, runs, first_run, block);
     }
 
     void scatter(const Particles& particles, Column column, int axis,

@@ -96,7 +96,11 @@ if(RRCB_PYTHON)
   add_test(NAME mpm_absence_bits COMMAND ${compare} --bits-only)
   if(RRCB_VALGRIND AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     add_test(NAME mpm_absence_counts COMMAND ${compare} axial_bar)
-    set_tests_properties(mpm_absence_counts PROPERTIES TIMEOUT 60 LABELS mpm)
+    add_test(NAME mpm_costs
+             COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/absence/costs.py
+                     ${PROJECT_BINARY_DIR}/tests/mpm/absence
+                     ${PROJECT_SOURCE_DIR}/examples/mpm/scenes)
+    set_tests_properties(mpm_absence_counts mpm_costs PROPERTIES TIMEOUT 60 LABELS mpm)
   endif()
   set_tests_properties(mpm_absence_bits PROPERTIES TIMEOUT 60 LABELS mpm)
 endif()

@@ -1,6 +1,7 @@
 #include "transfer/transfers.hpp"
 
 #include "transfer/g2p.hpp"
+#include "transfer/scatter.hpp"
 
 namespace mpm {
 
@@ -66,30 +67,18 @@ class TransfersOf final : public Transfers<D> {
     }
 
     void scatter(const Particles& particles, Column column, int axis,
-                 const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
+                 std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
                  std::vector<double>& field) const override {
-        constexpr std::size_t N = Shape::num_nodes;
         const auto at = positions(particles);
-        const std::span<const double> values = particles[column];
-        const auto offsets = node_offsets<D, N>(patch);
-        const double inverse_spacing = 1 / patch.shape.spacing;
-        for (const CellRun<D>& run : runs)
-            for (std::size_t p = run.begin; p < run.end; ++p) {
-                if (values[p] == 0) continue;  // as forces on most points are
-                std::array<Weights<N>, D> weights;
-                for (std::size_t a = 0; a < D; ++a) {
-                    weights[a] = shape_.at((at[a][p] - run.corner[a]) * inverse_spacing);
-                    if (static_cast<int>(a) != axis) continue;
-                    for (std::size_t i = 0; i < N; ++i)
-                        weights[a].value[i] = inverse_spacing * weights[a].slope[i];
-                }
-                unrolled<power(N, D)>([&](auto n) {
-                    const double weight = axis == squared_slopes
-                                              ? squared_slope_of<D, N, n>(weights)
-                                              : weight_of<D, N, n>(weights);
-                    field[run.node + offsets[n]] += weight * values[p];
-                });
-            }
+        const auto add = [&]<int kind>(std::integral_constant<int, kind>) {
+            scatter_column<D, Shape, kind>(at, particles[column], shape_, runs, patch,
+                                           field.data());
+        };
+        if (axis == squared_slopes) return add(std::integral_constant<int, squared_slopes>{});
+        if (axis < 0) return add(std::integral_constant<int, -1>{});
+        unrolled<D>([&](auto a) {
+            if (axis == static_cast<int>(a)) add(std::integral_constant<int, int{a}>{});
+        });
     }
 
   private:
@@ -140,6 +129,28 @@ class TransfersOf final : public Transfers<D> {
 };
 
 }  // namespace
+
+template <int D>
+void find_runs_at(const std::vector<double>& field, std::span<const std::size_t> shared,
+                  const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
+                  std::vector<CellRun<D>>& found) {
+    std::vector<char> has_field(field.size());
+    for (std::size_t n = 0; n < field.size(); ++n) has_field[n] = field[n] > 0;
+    for (const std::size_t n : shared) has_field[n] = 1;
+    found.clear();
+    for (const CellRun<D>& run : runs) {
+        char any = 0;
+        visit_run_nodes<D>(patch, run, [&](std::size_t n) { any |= has_field[n]; });
+        if (any != 0) found.push_back(run);
+    }
+}
+
+template void find_runs_at<2>(const std::vector<double>&, std::span<const std::size_t>,
+                              const GridPatch<2>&, std::span<const CellRun<2>>,
+                              std::vector<CellRun<2>>&);
+template void find_runs_at<3>(const std::vector<double>&, std::span<const std::size_t>,
+                              const GridPatch<3>&, std::span<const CellRun<3>>,
+                              std::vector<CellRun<3>>&);
 
 template <int D>
 std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles) {

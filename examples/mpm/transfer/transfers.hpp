@@ -162,9 +162,16 @@ class Transfers {
     /// Adds a column of the points to a field of the nodes, weighted by the shape functions, by
     /// their derivatives along `axis` where that is not -1, or by squared_slopes.
     virtual void scatter(const Particles& particles, Column column, int axis,
-                         const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
+                         std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
                          std::vector<double>& field) const = 0;
 };
+
+/// Finds the runs that reach a node with a field above 0, or a shared node: before the sum over the
+/// ranks it may have the field from another rank.
+template <int D>
+void find_runs_at(const std::vector<double>& field, std::span<const std::size_t> shared,
+                  const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
+                  std::vector<CellRun<D>>& found);
 
 /// Transfers with a shape function; adds the columns they need.
 template <int D>

@@ -2,6 +2,7 @@
 #include "parallel/communicator_mpi.hpp"
 #include "particles/vectors.hpp"
 #include "step/stepper.hpp"
+#include "transfer/scatter.hpp"
 
 #include <algorithm>
 #include <cmath>

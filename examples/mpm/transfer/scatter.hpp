@@ -8,6 +8,23 @@
 
 namespace mpm {
 
+/// Finds the runs that reach a node with a field above 0, or a shared node: before the sum over the
+/// ranks it may have the field from another rank.
+template <int D>
+void find_runs_at(const std::vector<double>& field, std::span<const std::size_t> shared,
+                  const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
+                  std::vector<CellRun<D>>& found) {
+    std::vector<char> has_field(field.size());
+    for (std::size_t n = 0; n < field.size(); ++n) has_field[n] = field[n] > 0;
+    for (const std::size_t n : shared) has_field[n] = 1;
+    found.clear();
+    for (const CellRun<D>& run : runs) {
+        char any = 0;
+        visit_run_nodes<D>(patch, run, [&](std::size_t n) { any |= has_field[n]; });
+        if (any != 0) found.push_back(run);
+    }
+}
+
 /// Consecutive points that are skipped together if a column is 0 on all of them.
 inline constexpr std::size_t skipped_together = 32;
 

@@ -131,28 +131,6 @@ class TransfersOf final : public Transfers<D> {
 }  // namespace
 
 template <int D>
-void find_runs_at(const std::vector<double>& field, std::span<const std::size_t> shared,
-                  const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
-                  std::vector<CellRun<D>>& found) {
-    std::vector<char> has_field(field.size());
-    for (std::size_t n = 0; n < field.size(); ++n) has_field[n] = field[n] > 0;
-    for (const std::size_t n : shared) has_field[n] = 1;
-    found.clear();
-    for (const CellRun<D>& run : runs) {
-        char any = 0;
-        visit_run_nodes<D>(patch, run, [&](std::size_t n) { any |= has_field[n]; });
-        if (any != 0) found.push_back(run);
-    }
-}
-
-template void find_runs_at<2>(const std::vector<double>&, std::span<const std::size_t>,
-                              const GridPatch<2>&, std::span<const CellRun<2>>,
-                              std::vector<CellRun<2>>&);
-template void find_runs_at<3>(const std::vector<double>&, std::span<const std::size_t>,
-                              const GridPatch<3>&, std::span<const CellRun<3>>,
-                              std::vector<CellRun<3>>&);
-
-template <int D>
 std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles) {
     if (shape == ShapeFunction::linear)
         return std::make_unique<TransfersOf<D, LinearShape>>(particles);

@@ -166,13 +166,6 @@ class Transfers {
                          std::vector<double>& field) const = 0;
 };
 
-/// Finds the runs that reach a node with a field above 0, or a shared node: before the sum over the
-/// ranks it may have the field from another rank.
-template <int D>
-void find_runs_at(const std::vector<double>& field, std::span<const std::size_t> shared,
-                  const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
-                  std::vector<CellRun<D>>& found);
-
 /// Transfers with a shape function; adds the columns they need.
 template <int D>
 std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles);

@@ -96,7 +96,11 @@ if(RRCB_PYTHON)
   add_test(NAME mpm_absence_bits COMMAND ${compare} --bits-only)
   if(RRCB_VALGRIND AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     add_test(NAME mpm_absence_counts COMMAND ${compare} axial_bar)
-    set_tests_properties(mpm_absence_counts PROPERTIES TIMEOUT 60 LABELS mpm)
+    add_test(NAME mpm_costs
+             COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/absence/costs.py
+                     ${PROJECT_BINARY_DIR}/tests/mpm/absence
+                     ${PROJECT_SOURCE_DIR}/examples/mpm/scenes)
+    set_tests_properties(mpm_absence_counts mpm_costs PROPERTIES TIMEOUT 180 LABELS mpm)
   endif()
   set_tests_properties(mpm_absence_bits PROPERTIES TIMEOUT 60 LABELS mpm)
 endif()
@@ -175,12 +179,30 @@ mpm_add_scene(dam_break RANKS 4 BALANCER rrcb CELL_SIZE 0.2 END_TIME 1.4 VTK_EVE
 mpm_add_scene(incline_block RANKS 3 BALANCER rrcb-sampled CELL_SIZE 0.25 END_TIME 0.5 VTK_EVERY 40
               POINTS 128)
 
+# Units of axes stand in brackets, as in comparisons.
+add_test(NAME mpm_labels COMMAND sh -c [[! grep -nE '"[a-z ]+, (m|s|.?Pa|.s)\b' "$0"/*.py]]
+                                 ${PROJECT_SOURCE_DIR}/examples/mpm/plots)
+set_tests_properties(mpm_labels PROPERTIES TIMEOUT 60 LABELS mpm)
+
+# The command that compares errors and instructions, in its coarsest cells.
+if(has_matplotlib AND RRCB_VALGRIND AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  add_test(NAME mpm_accuracy
+           COMMAND ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/accuracy.py
+                   $<TARGET_FILE:rrcb_mpm> ${CMAKE_CURRENT_BINARY_DIR}/accuracy.png --quick)
+  set_tests_properties(
+    mpm_accuracy
+    PROPERTIES TIMEOUT 180 LABELS mpm PASS_REGULAR_EXPRESSION
+               "disks [^%]*linear [^%]* [0-9.]+ %.*disks [^%]*quadratic [^%]* [0-9.]+ %")
+endif()
 if(has_matplotlib)
-  add_test(NAME mpm_draw
-           COMMAND ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/draw.py
-                   ${CMAKE_CURRENT_BINARY_DIR}/two_disks ${CMAKE_CURRENT_BINARY_DIR}/disks.png)
-  set_tests_properties(mpm_draw PROPERTIES FIXTURES_REQUIRED mpm_scene_two_disks TIMEOUT 60
-                                           LABELS mpm)
+  foreach(scene two_disks dam_break)
+    add_test(NAME mpm_draw_${scene}
+             COMMAND ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/draw.py
+                     ${CMAKE_CURRENT_BINARY_DIR}/${scene} ${CMAKE_CURRENT_BINARY_DIR}/${scene}.png
+                     ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/${scene}.yaml)
+    set_tests_properties(mpm_draw_${scene} PROPERTIES FIXTURES_REQUIRED mpm_scene_${scene}
+                                                      TIMEOUT 60 LABELS mpm)
+  endforeach()
   set(ending_of_draw png)
   set(ending_of_animate gif)
   foreach(kind draw animate)

@@ -17,6 +17,8 @@ struct NodeField {
     /// Weighted by the shape functions' derivatives along it; -1: by themselves; squared_slopes.
     int axis = -1;
     int component = -1;  ///< of a vector, which the mirror image in a wall turns; -1: a scalar
+    /// Number of a field before it. Nodes where that is not above 0 need no sum. -1: all nodes do.
+    int where = -1;
 };
 
 /// Acceleration of weight, buoyancy included, at its full strength, m/s^2.
@@ -52,6 +54,7 @@ struct Stages {
     /// state contains them.
     std::vector<double*> kept;
     std::optional<Gravity<D>> gravity;  ///< for the potential energy
+    VolumeChange volume_change = VolumeChange::own;
 };
 
 }  // namespace mpm

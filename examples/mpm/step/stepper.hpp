@@ -78,6 +78,7 @@ class Stepper final : public Simulation::Model {
     void load_state(const std::string& path);
     void append_own(std::span<const double> rows);
     void divide_by(Decomposition next, MPI_Comm comm);
+    void sum_fields();
     void advance_nodes();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
@@ -104,7 +105,7 @@ class Stepper final : public Simulation::Model {
     GridPatch<D> patch_;
     std::vector<NodeRange<D>> patches_;  ///< of all ranks
     std::optional<GhostNodes<D>> ghosts_;
-    std::vector<CellRun<D>> runs_;
+    std::vector<CellRun<D>> runs_, field_runs_;
     std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();
     std::size_t num_out_of_order_ = 0;
     int steps_since_sort_ = 0;

@@ -2,6 +2,7 @@
 #include "parallel/communicator_mpi.hpp"
 #include "particles/vectors.hpp"
 #include "step/stepper.hpp"
+#include "transfer/scatter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,15 +107,27 @@ void Stepper<D>::divide_by(Decomposition next, MPI_Comm comm) {
     ghosts_.emplace(patches_, comm_);
 }
 
+/// Sums the fields of effects. Those with the same `where` follow one another.
+template <int D>
+void Stepper<D>::sum_fields() {
+    int found = -1;  // the field that field_runs_ are for
+    for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
+        const NodeField& field = stages_.fields[f];
+        if (field.where >= 0 && field.where != found)
+            find_runs_at<D>(patch_.fields[static_cast<std::size_t>(field.where)], ghosts_->shared(),
+                            patch_, runs_, field_runs_);
+        found = field.where;
+        std::ranges::fill(patch_.fields[f], 0.0);
+        transfers_->scatter(particles, field.column, field.axis,
+                            field.where < 0 ? runs_ : field_runs_, patch_, patch_.fields[f]);
+    }
+}
+
 template <int D>
 void Stepper<D>::advance_nodes() {
     transfers_->find_runs(particles, patch_, runs_);
-    transfers_->p2g(particles, runs_, patch_);
-    for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
-        std::ranges::fill(patch_.fields[f], 0.0);
-        const NodeField& field = stages_.fields[f];
-        transfers_->scatter(particles, field.column, field.axis, runs_, patch_, patch_.fields[f]);
-    }
+    transfers_->p2g(particles, runs_, stages_.volume_change, patch_);
+    sum_fields();
     for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
     work.pause();
     ghosts_->sum(patch_);
@@ -134,7 +147,7 @@ void Stepper<D>::advance_points() {
         block.block_begin = block.begin;
         block.end = std::min(block.begin + block_size, particles.size());
         const std::size_t first_run = run;
-        run = transfers_->g2p(particles, patch_, runs_, run, block);
+        run = transfers_->g2p(particles, patch_, runs_, run, stages_.volume_change, block);
         for (const auto& effect : stages_.gradients)
             effect.kernel(particles, patch_, std::span(runs_).subspan(first_run, run - first_run),
                           block);

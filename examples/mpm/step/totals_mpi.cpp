@@ -20,7 +20,12 @@ void append_names(const Kernels& kernels, std::vector<std::string>& names) {
 
 template <int D>
 std::vector<std::string> Stepper<D>::kernels() const {
-    std::vector<std::string> names{"p2g"};
+    std::vector<std::string> names;
+    const auto append_transfer = [&](const std::string& name) {
+        names.push_back(name);
+        if (stages_.volume_change == VolumeChange::shared) names.push_back("locking_cure");
+    };
+    append_transfer("p2g");
     append_names(stages_.fields, names);
     append_names(stages_.scatters, names);
     names.push_back("ghost_nodes");
@@ -28,7 +33,7 @@ std::vector<std::string> Stepper<D>::kernels() const {
     append_names(stages_.constraints, names);
     names.push_back("move_nodes");
     append_names(stages_.moved, names);
-    names.push_back("g2p");
+    append_transfer("g2p");
     append_names(stages_.gradients, names);
     for (const MaterialModel<D>& material : materials_) append_names(material.kernels, names);
     append_names(stages_.after_materials, names);

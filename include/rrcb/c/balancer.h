@@ -42,7 +42,7 @@ typedef struct rrcb_report {
     int rounds;                 /**< of counting, for the refinement */
     int coincident_cuts;        /**< that would divide points which no allowed cut separates */
     int all_weights_zero;       /**< 1: balanced by count instead */
-    int surplus_parts;          /**< parts that must stay empty: more parts than points */
+    int surplus_parts;          /**< parts that stay empty: more than points, or by min_points */
 } rrcb_report;
 
 /** Makes a balancer with the default options and no cuts. Collective.

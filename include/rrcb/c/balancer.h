@@ -117,6 +117,20 @@ RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
  * @param cuts     the same on all ranks, which rrcb_rebalance checks */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
+/** Shows the cuts as bytes, as rrcb::save. Not collective.
+ *
+ * @param balancer owns the bytes until the next call; fails as rrcb_get_cuts
+ * @param bytes    gets their address
+ * @param size     gets their number */
+RRCB_API int rrcb_save_cuts(rrcb_balancer* balancer, const void** bytes, size_t* size);
+
+/** Copies saved cuts into the balancer, as rrcb::load. Not collective.
+ *
+ * @param balancer for rrcb_rebalance and look-ups
+ * @param bytes    of rrcb_save_cuts
+ * @param size     number of them */
+RRCB_API int rrcb_load_cuts(rrcb_balancer* balancer, const void* bytes, size_t size);
+
 /** Writes the part of a position, as rrcb::part_of. Not collective.
  *
  * @param balancer with cuts

@@ -38,7 +38,8 @@ enum class CallName : std::uint8_t {
     cost_model,
     cost_model_step,
     save,
-    load
+    load,
+    join_keys
 };
 inline constexpr int most_call_names = 32;
 

@@ -2,10 +2,10 @@
 
 #include "collective/handles.hpp"
 #include "collective/participant.hpp"
+#include "collective/saved_state.hpp"
 #include "controller/point_cost.hpp"
 #include "controller/rebalance_rule.hpp"
 #include "controller/step_record.hpp"
-#include "lists/saved_state.hpp"
 
 #include <rrcb/controller.hpp>
 

@@ -1,9 +1,9 @@
 #include "arithmetic/non_stop.hpp"
 #include "collective/agreement_mpi.hpp"
+#include "collective/saved_state_mpi.hpp"
 #include "controller/controller_state_mpi.hpp"
 #include "controller/restart_mpi.hpp"
 #include "cost/cost_rule.hpp"
-#include "lists/saved_state_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/cost.hpp>

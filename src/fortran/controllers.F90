@@ -139,6 +139,7 @@ contains
   end subroutine
 
   !> Makes a controller that continues from saved bytes. Collective over the communicator.
+  !> @param comm  may be freed before the controller
   !> @param bytes the same on every rank
   subroutine controller_load(self, comm, bytes, error)
     class(rrcb_controller), intent(inout), target :: self
@@ -163,6 +164,7 @@ contains
   end subroutine
 
   !> Makes a model that continues from saved bytes. Collective over the communicator.
+  !> @param comm       may be freed before the model
   !> @param bytes      the same on every rank
   !> @param controller loaded before, is destroyed later
   subroutine cost_model_load(self, comm, bytes, error, controller)

@@ -1,4 +1,4 @@
-#include "lists/saved_state_mpi.hpp"
+#include "collective/saved_state_mpi.hpp"
 
 #include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"

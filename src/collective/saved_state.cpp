@@ -1,4 +1,4 @@
-#include "lists/saved_state.hpp"
+#include "collective/saved_state.hpp"
 
 #include "arithmetic/mix.hpp"
 #include "options/rejection.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/participant.hpp"
-#include "lists/saved_state.hpp"
+#include "collective/saved_state.hpp"
 
 #include <array>
 #include <cstddef>

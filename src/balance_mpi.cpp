@@ -299,8 +299,8 @@ Ranks ranks_of(Participant& self) {
     return {mpi::size_of(self.comm), machines.num_ranks, machines.dealt};
 }
 
-Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
-                Participant& self, std::vector<Part> memory) {
+Balance balance_once(const Points& points, const Options& options, const Cuts* previous,
+                     bool may_keep, Participant& self, std::vector<Part> memory) {
     Balance result =
         previous
             ? balance_from_earlier(points, options, *previous, may_keep, self, std::move(memory))

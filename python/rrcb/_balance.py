@@ -32,7 +32,7 @@ class Report:
     rounds: int  #: of counting, to correct the cuts
     coincident_cuts: int  #: that would divide points which no allowed cut separates
     all_weights_zero: bool  #: balanced by count instead
-    surplus_parts: int  #: parts that must stay empty: more parts than points
+    surplus_parts: int  #: parts that stay empty: more than points, or by min_points
 
     def __repr__(self) -> str:
         values = dataclasses.asdict(self)

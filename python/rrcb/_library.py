@@ -200,6 +200,8 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "get_report": (c_void_p, POINTER(Report)),
     "get_cuts": (c_void_p, POINTER(Cuts)),
     "set_cuts": (c_void_p, POINTER(Cuts)),
+    "save_cuts": (c_void_p, POINTER(c_void_p), POINTER(c_size_t)),
+    "load_cuts": (c_void_p, c_char_p, c_size_t),
     "assign": (c_void_p, POINTER(Points), Address),
     "assign_all": (c_void_p, POINTER(Points), Address),
     "box_of": (c_void_p, c_int32, Address, Address),
@@ -218,6 +220,10 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "controller_step_weight": (c_void_p, c_double, c_double, POINTER(c_int)),
     "controller_due": (c_void_p, POINTER(c_int)),
     "controller_rebalanced": (c_void_p, POINTER(Report), c_double),
+    "controller_save": (c_void_p, POINTER(c_void_p), POINTER(c_size_t)),
+    "controller_load_fortran": (c_int, c_char_p, c_size_t, HANDLE),
+    "cost_model_save": (c_void_p, POINTER(c_void_p), POINTER(c_size_t)),
+    "cost_model_load_fortran": (c_int, HANDLE, c_char_p, c_size_t, HANDLE),
     "cost_model_create_fortran": (c_int, HANDLE, c_int, HANDLE),
     "cost_model_step": (c_void_p, c_double, c_size_t, Address),
     "cost_model_weights": (c_void_p, c_size_t, c_size_t, Address, Address),
@@ -330,6 +336,13 @@ def call(function: str, *arguments: Any) -> None:
     code = getattr(library, "rrcb_" + function)(*arguments)
     if code:
         raise Error(text(library.rrcb_last_error()), CODES[min(code, len(CODES) - 1)])
+
+
+def saved(function: str, handle: Handle) -> bytes:
+    """Returns the bytes that a function shows."""
+    address, size = c_void_p(), c_size_t()
+    call(function, handle, ctypes.byref(address), ctypes.byref(size))
+    return ctypes.string_at(address, size.value)
 
 
 class Handle:

@@ -16,8 +16,9 @@ std::string_view name_of(CallName call) {
                                "assign_all",     "rrcb_create (Python: balance, assign)",
                                "Controller",     "Controller::step",
                                "CostModel",      "CostModel::step",
-                               "verify"};
-    static_assert(names.size() == static_cast<std::size_t>(CallName::verify) + 1 &&
+                               "verify",         "save",
+                               "load",           "join_keys"};
+    static_assert(names.size() == static_cast<std::size_t>(CallName::join_keys) + 1 &&
                   names.size() <= most_call_names);
     return names.at(static_cast<std::size_t>(call));
 }

@@ -37,7 +37,10 @@ enum class CallName : std::uint8_t {
     controller_step,
     cost_model,
     cost_model_step,
-    verify
+    verify,
+    save,
+    load,
+    join_keys
 };
 inline constexpr int most_call_names = 32;
 

@@ -98,6 +98,12 @@ module rrcb_c_functions
       type(c_ptr), value :: part_weights, part_sizes
       real(c_double), intent(inout) :: result
     end function
+    integer(c_int) function save_state(handle, bytes, length) bind(c)
+      import
+      type(c_ptr), value :: handle
+      type(c_ptr), intent(out) :: bytes
+      integer(c_size_t), intent(out) :: length
+    end function
     integer(c_int) function ask(handle, due) bind(c)
       import
       type(c_ptr), value :: handle
@@ -127,6 +133,9 @@ module rrcb_c_functions
   procedure(move), bind(c, name="rrcb_groups_fetch") :: c_groups_fetch
   procedure(measure), bind(c, name="rrcb_imbalance") :: c_imbalance
   procedure(measure), bind(c, name="rrcb_worst_load_unbalance_percent") :: c_worst_load_unbalance_percent
+  procedure(save_state), bind(c, name="rrcb_save_cuts") :: c_save_cuts
+  procedure(save_state), bind(c, name="rrcb_controller_save") :: c_controller_save
+  procedure(save_state), bind(c, name="rrcb_cost_model_save") :: c_cost_model_save
   procedure(ask), bind(c, name="rrcb_controller_due") :: c_controller_due
   procedure(ask), bind(c, name="rrcb_cost_model_uses_costs") :: c_cost_model_uses_costs
 
@@ -313,6 +322,36 @@ module rrcb_c_functions
       integer(c_int), value :: comm, num_columns
       type(c_ptr), intent(in), optional :: controller
       type(c_ptr), value :: handle
+    end function
+    integer(c_int) function c_load_cuts(handle, bytes, length) bind(c, name="rrcb_load_cuts")
+      import
+      type(c_ptr), value :: handle
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: length
+    end function
+    integer(c_int) function c_controller_load(comm, bytes, length, handle) &
+      bind(c, name="rrcb_controller_load_fortran")
+      import
+      integer(c_int), value :: comm
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: length
+      type(c_ptr), value :: handle
+    end function
+    integer(c_int) function c_cost_model_load(comm, controller, bytes, length, handle) &
+      bind(c, name="rrcb_cost_model_load_fortran")
+      import
+      integer(c_int), value :: comm
+      type(c_ptr), intent(in), optional :: controller
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: length
+      type(c_ptr), value :: handle
+    end function
+    integer(c_int) function c_join_keys(handle, count, keys_per_point, keys, joined) &
+      bind(c, name="rrcb_join_keys")
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: count, keys_per_point
+      type(c_ptr), value :: keys, joined
     end function
     integer(c_int) function c_cost_model_step(handle, seconds, num_columns, columns) &
       bind(c, name="rrcb_cost_model_step")

@@ -1,9 +1,8 @@
-#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "lists/duplicated_mpi.hpp"
-#include "lists/outgoing_mpi.hpp"
+#include "lists/notices_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
@@ -178,8 +177,7 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
         local = groups_here(points, keys, place);
         for (const LocalIndex group : local.by_key) {
             const std::uint64_t key = local.keys[group];
-            to_homes.add(static_cast<int>(mix(key) % static_cast<std::uint64_t>(num_ranks)),
-                         {key, group});
+            to_homes.add(home_of(key, num_ranks), {key, group});
         }
     });
     std::vector<Arrived<KeyNotice>> at_home =

@@ -1,7 +1,7 @@
 #include "collective/duplicate.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
-#include "lists/outgoing_mpi.hpp"
+#include "lists/notices_mpi.hpp"
 #include "lists/periodic_images.hpp"
 #include "lists/radii.hpp"
 #include "options/validation.hpp"

@@ -103,7 +103,7 @@ SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory,
 }
 
 void sort_rest(SortedPoints& points) {
-    for (std::uint8_t& mark : points.is_sorted) mark = 1 - mark;
+    for (std::uint8_t& mark : points.is_sorted) mark = mark == 0 ? 1 : 0;
     scatter(*points.binned, points);
     points.is_sorted.clear();
 }

@@ -49,6 +49,34 @@ def check_balance(balance, x, weights=None, tolerance=1.01, num_parts=RANKS):
     assert np.array_equal(balance.cuts.part_of(x), balance.parts)
 
 
+def test_continues_from_saved_bytes():
+    x = cloud(2)
+    made = rrcb.balance(x, num_parts=5, comm=comm)
+    loaded = rrcb.Cuts.load(made.cuts.save())
+    assert (loaded.part_of(x) == made.cuts.part_of(x)).all()
+    same_error(lambda: rrcb.Cuts.load(made.cuts.save()[:-8]), "pass all bytes")
+    controller = rrcb.Controller(comm)
+    model = rrcb.CostModel(2, controller, comm)
+    for step in range(30):
+        cells = 10 + 20 * ME + step % 7
+        model.step(100 + 5 * cells, [100, cells])
+    again = rrcb.Controller.load(controller.save(), comm)
+    model_again = rrcb.CostModel.load(model.save(), again, comm)
+    assert model_again.report() == model.report()
+    assert (model_again.costs == model.costs).all()
+    assert again.due == controller.due
+    same_error(lambda: rrcb.Controller.load(model.save(), comm), "not of a Controller")
+    again.free()
+    controller.free()
+
+
+def test_leaves_parts_empty_for_the_least_number_of_points():
+    x = cloud(2, count=5)
+    made = rrcb.balance(x, num_parts=4, min_points=len(everywhere(x)), comm=comm)
+    assert (made.parts == 0).all()
+    assert made.report.surplus_parts == 3
+
+
 def test_balances_in_each_dimension_and_dtype():
     for dimension, dtype in itertools.product((1, 2, 3), (np.float64, np.float32)):
         for empty in (None, 0, RANKS - 1):

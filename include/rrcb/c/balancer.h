@@ -42,7 +42,7 @@ typedef struct rrcb_report {
     int rounds;                 /**< of counting, for the refinement */
     int coincident_cuts;        /**< that would divide points which no allowed cut separates */
     int all_weights_zero;       /**< 1: balanced by count instead */
-    int surplus_parts;          /**< parts that must stay empty: more parts than points */
+    int surplus_parts;          /**< parts that stay empty: more than points, or by min_points */
 } rrcb_report;
 
 /** Makes a balancer with the default options and no cuts. Collective.
@@ -116,6 +116,20 @@ RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
  * @param balancer for rrcb_rebalance and look-ups
  * @param cuts     the same on all ranks, which rrcb_rebalance checks */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
+
+/** Shows the cuts as bytes, as rrcb::save. Not collective.
+ *
+ * @param balancer owns the bytes until the next call; fails as rrcb_get_cuts
+ * @param bytes    gets their address
+ * @param size     gets their number */
+RRCB_API int rrcb_save_cuts(rrcb_balancer* balancer, const void** bytes, size_t* size);
+
+/** Copies saved cuts into the balancer, as rrcb::load. Not collective.
+ *
+ * @param balancer for rrcb_rebalance and look-ups
+ * @param bytes    of rrcb_save_cuts
+ * @param size     number of them */
+RRCB_API int rrcb_load_cuts(rrcb_balancer* balancer, const void* bytes, size_t size);
 
 /** Writes the part of a position, as rrcb::part_of. Not collective.
  *

@@ -1,9 +1,12 @@
 #pragma once
 
+#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/exchange_mpi.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <initializer_list>
 #include <span>
@@ -11,6 +14,11 @@
 #include <vector>
 
 namespace rrcb {
+
+/// Returns the rank that collects all that ranks know of a key.
+inline int home_of(std::uint64_t key, int num_ranks) {
+    return static_cast<int>(mix(key) % static_cast<std::uint64_t>(num_ranks));
+}
 
 /// A record and the rank that it comes from.
 template <class Record>

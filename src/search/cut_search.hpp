@@ -2,8 +2,8 @@
 
 #include "arithmetic/position_order.hpp"
 #include "cuts/cut_limits.hpp"
-#include "search/bins.hpp"
-#include "search/histogram.hpp"
+#include "passes/bins.hpp"
+#include "passes/histogram.hpp"
 
 #include <rrcb/cuts.hpp>
 

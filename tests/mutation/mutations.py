@@ -115,9 +115,9 @@ MUTATIONS = [
     ),
     Mutation(
         "the refinement counts points, not weights",
-        "src/search/fragments.cpp",
-        "weight += points.weights[i];",
-        "weight += 1;",
+        "src/passes/count.cpp",
+        "weights[slot] += points.weight(i);",
+        "weights[slot] += 1;",
         ("mpi_refinement", "properties.balance"),
     ),
     Mutation(

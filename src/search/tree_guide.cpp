@@ -42,13 +42,19 @@ std::vector<Bracket> TreeSearch::intervals() const {
     std::vector<Bracket> found(guide_->cuts.tree.size(), {-infinity, infinity});
     const auto find = [&](const auto& self, const Descent& at, int depth) -> void {
         if (at.is_part()) return;
+        self(self, at.lower(), depth + 1);
+        self(self, at.upper(), depth + 1);
+        const double share = tree_.rule.share_below(at);
+        if (!(share > 0 && share < 1)) return;
         const auto sums = guide_->sums.sums();
         Bracket& interval = found[at.node];
         interval = bracket_of(at, depth, weight_of(at, sums),
                               guide_->is_counted ? weight_of(at.lower(), sums) : not_counted);
-        interval.upper = std::max(interval.upper, std::nextafter(interval.lower, infinity));
-        self(self, at.lower(), depth + 1);
-        self(self, at.upper(), depth + 1);
+        // The cut may stay, and points at it may be on either side.
+        const Cut& cut = guide_->cuts.tree[at.node];
+        const double value = cut.at[cut.axis];
+        interval.lower = std::min(interval.lower, value);
+        interval.upper = std::max(interval.upper, std::nextafter(value, infinity));
     };
     if (!guide_->limits) find(find, root_of(guide_->cuts), 0);
     return found;

@@ -50,7 +50,8 @@ struct Loop {
             // Costs of 2 ms and 10 ms, and a noise of 1 %.
             std::mt19937_64 engine(static_cast<unsigned>(step * 64 + rank()));
             const double drift = (rebalances_too ? step - last : 0) * (rank() == 0 ? 0.04 : -0.002);
-            const std::vector<double> columns{100 * (1 + drift), 10.0 + 5 * (rank() % 3) + step % 7};
+            const std::vector<double> columns{100 * (1 + drift),
+                                              10.0 + 5 * (rank() % 3) + step % 7};
             const double seconds = 0.002 * columns[0] + 0.01 * columns[1];
             model.step(seconds * test::uniform(engine, 0.99, 1.01), columns);
             for (const double cost : model.costs())

@@ -10,6 +10,12 @@
 
 namespace rrcb {
 
+namespace {
+
+constexpr double largest = std::numeric_limits<double>::max();
+
+}  // namespace
+
 void TreeSearch::start_from_guide(Node& node) {
     const Descent& at = node.at;
     if (node.content.are_parts_counted) node.below = weight_of(at.lower(), guide_->sums.sums());
@@ -23,9 +29,9 @@ void TreeSearch::start_from_guide(Node& node) {
     } else {
         const Bracket& interval = points_.interval(at.node);
         const bool is_inside = bracket.lower < interval.upper && bracket.upper > interval.lower;
-        bracket = is_inside ? Bracket{std::max(bracket.lower, interval.lower),
-                                      std::min(bracket.upper, interval.upper)}
-                            : interval;
+        if (!is_inside) bracket = {-largest, infinity};
+        bracket.lower = std::max(bracket.lower, interval.lower);
+        bracket.upper = std::min(bracket.upper, interval.upper);
     }
     node.search = search_across(axis, bracket, node.content.weight);
     take_known(node);
@@ -64,7 +70,6 @@ std::vector<Bracket> TreeSearch::intervals() const {
 /// a cut that is far off is found in as many rounds. If the cut is known to be off in one
 /// direction, because the weight below was counted, the bracket is on that side.
 Bracket TreeSearch::bracket_of(const Descent& at, int depth, double weight, double below) const {
-    constexpr double largest = std::numeric_limits<double>::max();
     constexpr double caution = 2;
     double widths = 4;
     Bracket bracket = guide_->brackets[at.node];

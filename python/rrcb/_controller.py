@@ -177,8 +177,10 @@ class CostModel(Owner):
         given, data = prepare(chosen, lambda: (address_of(controller), bytes(saved)))
         made._make("cost_model_load_fortran", chosen, controller, given, data, len(data))
         # The first word after the head, in the byte order of the head.
-        order = "big" if data.startswith(b"RRCBstat") else "little"
-        made.num_columns = int.from_bytes(data[40:48], order)
+        columns = data[40:48]
+        if not data.startswith(b"RRCBstat"):
+            columns = columns[::-1]
+        made.num_columns = int.from_bytes(columns, "big")
         return made
 
     def step(self, seconds: float, columns: Any) -> None:

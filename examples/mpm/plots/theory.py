@@ -52,7 +52,7 @@ def hydrostatic_column(axes: Axes, folder: Path, scene: str) -> None:
     compare(axes, depth, points["stress_yy"] / 1e3, -weight * depth, "vertical")
     axes.plot(depth, points["stress_xx"] / 1e3, ".", ms=3, color="C1", label="horizontal")
     axes.axhline(0, lw=1, color="C1", label="horizontal, theory")
-    axes.set(xlabel="depth, m", ylabel="stress, kPa (tension positive)")
+    axes.set(xlabel="depth [m]", ylabel="stress [kPa], tension positive")
 
 
 def axial_bar(axes: Axes, folder: Path, scene: str) -> None:
@@ -68,7 +68,7 @@ def axial_bar(axes: Axes, folder: Path, scene: str) -> None:
         phase = np.sin(wave_number * wave_speed * time)
         theory = modulus * speed / wave_speed * np.cos(wave_number * start) * phase
         compare(axes, start, points["stress_xx"], theory, f"{time:.3g} s")
-    axes.set(xlabel="x at the start, m", ylabel="stress, Pa (tension positive)")
+    axes.set(xlabel="x at the start [m]", ylabel="stress [Pa], tension positive")
 
 
 def incline_block(axes: Axes, folder: Path, scene: str) -> None:
@@ -84,7 +84,7 @@ def incline_block(axes: Axes, folder: Path, scene: str) -> None:
         time < ramp, time**3 / (6 * ramp), late**2 / 2 - ramp * late / 2 + ramp**2 / 6
     )
     compare(axes, time, way, theory, "way along the plane")
-    axes.set(xlabel="time, s", ylabel="way, m")
+    axes.set(xlabel="time [s]", ylabel="way [m]")
 
 
 DRAWINGS = {

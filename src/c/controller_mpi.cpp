@@ -1,5 +1,6 @@
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/controller.hpp>
@@ -53,7 +54,9 @@ int make_model(MPI_Comm comm, rrcb_controller* const* controller, CallName call,
             made->model.emplace(make(comm));
         else
             made->model.emplace(make(*(*controller)->controller));
-        made->num_columns = made->model->costs().size();
+        // No rank may fail alone from here on.
+        self.attempt([&] { made->num_columns = made->model->costs().size(); });
+        rrcb::agree(self);
         *model = made.release();
     });
 }

@@ -33,8 +33,8 @@ Collected emptied(Collected memory, const Points& points) {
     memory.dimension = points.dimension;
     resize(0, points, memory);
     memory.weights.clear();
-    memory.settled_weights.clear();
-    memory.settled_counts.clear();
+    memory.settled_weights = std::vector<double>();
+    memory.settled_counts = std::vector<double>();
     return memory;
 }
 

@@ -130,19 +130,27 @@ Total CollectedTree::total_in(const Descent& at) const {
 
 std::pair<Entries, Entries> CollectedTree::divide(Entries&& entries, const Cut& cut,
                                                   const Lot& lot) const {
-    std::pair<Entries, Entries> halves;
     double sum = 0;
     const bool divides = lot.below > 0;
     if (divides) std::ranges::sort(entries);
-    for (const LocalIndex i : entries) {
+    std::vector<char> sides(entries.size());
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        const LocalIndex i = entries[k];
         const Vector position = collected_.position(i);
         bool above = rrcb::is_above(cut, position, collected_.dimension);
         if (divides && is_at(cut, position, collected_.dimension)) {
             above = lot.is_above(sum, collected_.weight(i));
             sum += collected_.weight(i);
         }
-        (above ? halves.second : halves.first).push_back(i);
+        sides[k] = above ? 1 : 0;
     }
+    // Exact lengths, because the entries may be all points of the rank.
+    const auto num_above = static_cast<std::size_t>(std::ranges::count(sides, 1));
+    std::pair<Entries, Entries> halves;
+    halves.first.reserve(entries.size() - num_above);
+    halves.second.reserve(num_above);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+        (sides[k] != 0 ? halves.second : halves.first).push_back(entries[k]);
     return halves;
 }
 

@@ -63,7 +63,8 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
         if (log == nullptr)
             log = mpi::Attribute<TransferLog>::keep(std::make_unique<TransferLog>(), self.comm);
     });
-    log->add(plan, deliver(delivery, columns, limits, report, self));
+    const bool moves = deliver(delivery, columns, limits, report, self);
+    log->add(plan, moves);
 }
 
 void detail::move(const Plan& plan, std::span<const ByteColumn> columns,

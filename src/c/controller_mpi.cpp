@@ -1,6 +1,5 @@
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
-#include "collective/agreement_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/controller.hpp>
@@ -22,7 +21,6 @@ struct rrcb_controller {
 struct rrcb_cost_model {
     static constexpr const char* name = "model";
     std::optional<rrcb::CostModel> model{};
-    std::size_t num_columns = 0;
     std::string report{};
     std::vector<std::byte> saved{};
 };
@@ -54,9 +52,6 @@ int make_model(MPI_Comm comm, rrcb_controller* const* controller, CallName call,
             made->model.emplace(make(comm));
         else
             made->model.emplace(make(*(*controller)->controller));
-        // No rank may fail alone from here on.
-        self.attempt([&] { made->num_columns = made->model->costs().size(); });
-        rrcb::agree(self);
         *model = made.release();
     });
 }
@@ -84,8 +79,9 @@ void save(Handle& own, const Object& object, const void** bytes, size_t* size) {
 }
 
 void check_columns(const rrcb_cost_model& own, std::size_t num_columns) {
-    if (num_columns != own.num_columns)
-        rrcb::reject("the cost model has " + std::to_string(own.num_columns) + " columns, not " +
+    const std::size_t expected = own.model->costs().size();
+    if (num_columns != expected)
+        rrcb::reject("the cost model has " + std::to_string(expected) + " columns, not " +
                      std::to_string(num_columns) + "; give as many");
 }
 
@@ -190,12 +186,12 @@ int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_col
                             const double* columns, double* weights) {
     return guarded(model, [&](auto& own) {
         check_columns(own, num_columns);
-        if (count > PTRDIFF_MAX / sizeof(double) / own.num_columns)
+        if (count > PTRDIFF_MAX / sizeof(double) / num_columns)
             rrcb::reject(
                 "count and columns exceed the memory; count is the number of points of this rank");
         rrcb::c::require_array(count, columns, "columns");
         rrcb::c::require_array(count, weights, "weights");
-        std::ranges::copy(own.model->weights(view(columns, count * own.num_columns)), weights);
+        std::ranges::copy(own.model->weights(view(columns, count * num_columns)), weights);
     });
 }
 

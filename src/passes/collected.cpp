@@ -99,9 +99,8 @@ std::vector<std::size_t> collect_more(const Points& points, std::span<const Want
         for (LocalIndex i = 0; i < points.count; ++i) {
             const Part part = parts[i];
             if (part < 0 || wanted_of[part] == wanted.size()) continue;
-            const double value = x(i, wanted[wanted_of[part]].axis);
-            const Bracket& interval = wanted[wanted_of[part]].interval;
-            if (value >= interval.lower && value < interval.upper) {
+            const Wanted& node = wanted[wanted_of[part]];
+            if (node.contains(x(i, node.axis))) {
                 open.push_back(i);
                 found.push_back(wanted_of[part]);
                 parts[i] = no_part;

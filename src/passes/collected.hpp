@@ -46,10 +46,13 @@ Collected collect_all(const Points& points, Collected memory = {});
 
 /// A node whose cut may end in another interval.
 struct Wanted {
-    int axis;
-    Bracket interval;
+    std::size_t node;
     Part first_part;
     int num_parts;
+    int axis;
+    Bracket interval;
+
+    bool contains(double x) const { return x >= interval.lower && x < interval.upper; }
 };
 
 /// Collects settled points in the intervals of these nodes, and takes them from the totals and out

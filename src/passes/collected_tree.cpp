@@ -41,19 +41,17 @@ void CollectedTree::add_steps(const Descent& at, const Cuts& cuts,
     add_steps(at.upper(), cuts, intervals);
 }
 
-std::vector<Entries> CollectedTree::collect_more(std::span<const Wanted> wanted,
-                                                 std::span<const std::size_t> nodes) {
+std::vector<Entries> CollectedTree::collect_more(std::span<const Wanted> wanted) {
     std::vector<Entries> found(wanted.size());
     LocalIndex next = collected_.count();
     for (const std::size_t k : rrcb::collect_more(points_, wanted, parts_, collected_))
         found[k].push_back(next++);
     for (std::size_t k = 0; k < wanted.size(); ++k) {
-        const auto& [axis, interval, first_part, num_parts] = wanted[k];
-        steps_[nodes[k]].interval = interval;
-        for (int below = 1; below + 1 < num_parts; ++below)
-            std::erase_if(waiting_[nodes[k] + static_cast<std::size_t>(below)], [&](LocalIndex i) {
-                const double x = collected_.coordinate(i, axis);
-                const bool is_inside = x >= interval.lower && x < interval.upper;
+        const Wanted& at = wanted[k];
+        steps_[at.node].interval = at.interval;
+        for (int below = 1; below + 1 < at.num_parts; ++below)
+            std::erase_if(waiting_[at.node + static_cast<std::size_t>(below)], [&](LocalIndex i) {
+                const bool is_inside = at.contains(collected_.coordinate(i, at.axis));
                 if (is_inside) found[k].push_back(i);
                 return is_inside;
             });

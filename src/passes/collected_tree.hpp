@@ -88,8 +88,7 @@ class CollectedTree {
 
     /// Takes new intervals of nodes, and collects the points there once more. Returns the entries
     /// of each node that are new to it.
-    std::vector<Entries> collect_more(std::span<const Wanted> wanted,
-                                      std::span<const std::size_t> nodes);
+    std::vector<Entries> collect_more(std::span<const Wanted> wanted);
 
     /// Returns the entries below and above the cut of a node.
     std::pair<Entries, Entries> divide(Entries&& entries, const Cut& cut, const Lot& lot) const;

@@ -34,7 +34,6 @@ void TreeSearch::start_from_guide(Node& node) {
         bracket.upper = std::min(bracket.upper, interval.upper);
     }
     node.search = search_across(axis, bracket, node.content.weight);
-    take_known(node);
 }
 
 /// Takes the points of this rank that are known to be on either side of a node's cut.
@@ -99,17 +98,15 @@ void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
 /// Collects the points of nodes whose cuts have left their intervals.
 void TreeSearch::collect_more() {
     std::vector<Wanted> wanted;
-    std::vector<std::size_t> numbers;
     for (const Node& node : nodes_) {
         if (!node.is_wide) continue;
-        const Bracket interval = node.search.chosen == 0
-                                     ? Bracket{-infinity, points_.interval(node.at.node).lower}
-                                     : Bracket{points_.interval(node.at.node).upper, infinity};
-        wanted.push_back({node.search.cut.axis, interval, node.at.first_part, node.at.num_parts});
-        numbers.push_back(node.at.node);
+        const Bracket& before = points_.interval(node.at.node);
+        wanted.push_back({node.at.node, node.at.first_part, node.at.num_parts, node.search.cut.axis,
+                          node.search.chosen == 0 ? Bracket{-infinity, before.lower}
+                                                  : Bracket{before.upper, infinity}});
     }
     if (wanted.empty()) return;
-    std::vector<Entries> found = points_.collect_more(wanted, numbers);
+    std::vector<Entries> found = points_.collect_more(wanted);
     auto next = found.begin();
     for (Node& node : nodes_) {
         if (!std::exchange(node.is_wide, false)) continue;

@@ -26,6 +26,7 @@ void TreeSearch::ask(Butterfly& butterfly) {
 void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     if (node.question == Question::parts) return count_parts(node, payload);
     if (node.search.stage == CutSearch::centring) {
+        if (std::ranges::max(node.gap) == -infinity) return;
         payload.push_back(mark_of_gap);
         payload.insert(payload.end(), node.gap.begin(),
                        node.gap.begin() + 2 * node.search.num_axes);
@@ -50,14 +51,13 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
 
 /// Returns whether this rank has points in a node.
 bool TreeSearch::has_points(const Node& node) const {
-    if (!node.content.entries.empty()) return true;
-    return is_central() && points_.total_in(node.at).count > 0;
+    return !node.content.entries.empty() || node.below_here.count + node.above_here.count > 0;
 }
 
 /// Counts this rank's points in the bins of a search.
 void TreeSearch::count_points(const Node& node, std::span<double> histogram) const {
     const CutSearch& search = node.search;
-    const bool is_first = search.stage == CutSearch::over_fragments;
+    const bool is_first = search.stage == CutSearch::over_points;
     clear_histogram(histogram);
     rrcb::count(points_.points(), is_first ? node.content.entries : node.candidates,
                 current_axis(search), bins_of(search, layout_), layout_, histogram);
@@ -136,7 +136,7 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
 void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<const double> more) {
     const CutSearch before = std::exchange(node.search, next);
     if (before.stage == CutSearch::centring) return note(node.at.node, next.cut);
-    if (before.stage == CutSearch::over_fragments) {
+    if (before.stage == CutSearch::over_points) {
         node.content.is_counted = true;
         if (!is_central()) node.content.box = read<Box>(more);
     }
@@ -151,7 +151,7 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     if (is_done && !(next.lot_below > 0)) return end_at_cut(std::move(node), {});
     if (is_done) {
         node.question = Question::lot;
-    } else if (next.stage != CutSearch::over_fragments) {
+    } else if (next.stage != CutSearch::over_points) {
         keep_chosen(before, node);
     }
     nodes_.push_back(std::move(node));
@@ -162,7 +162,7 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
 void TreeSearch::keep_chosen(const CutSearch& before, Node& node) {
     const int slot = node.search.chosen;
     const Bins bins = bins_of(before, layout_);
-    const bool is_first = before.stage == CutSearch::over_fragments;
+    const bool is_first = before.stage == CutSearch::over_points;
     node.candidates =
         between(slot == 0 ? -infinity : bins.edge(slot - 1),
                 slot > layout_.num_bins ? infinity : bins.edge(slot), current_axis(before),

@@ -102,6 +102,7 @@ Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double
 
 void TreeSearch::add_node(const Descent& at, Content&& content, Question question) {
     Node& node = nodes_.emplace_back(Node{at, std::move(content), question});
+    if (is_central()) take_known(node);
     if (question != Question::cut) return;
     if (is_central()) return start_from_guide(node);
     node.search = first_search(at, node.content.box, node.content.weight);

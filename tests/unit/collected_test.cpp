@@ -83,9 +83,8 @@ TEST(CollectedTree, collects_more_where_a_cut_leaves_its_interval) {
         CollectedTree tree = made.tree(0.05);
         const Descent root = root_of(made.cuts);
         const Entries before = tree.admit(root, {});
-        const Wanted wanted{0, {-infinity, 0.45}, 0, 4};
-        const std::size_t node = root.node;
-        const Entries more = tree.collect_more({&wanted, 1}, {&node, 1})[0];
+        const Wanted wanted{root.node, 0, 4, 0, {-infinity, 0.45}};
+        const Entries more = tree.collect_more({&wanted, 1})[0];
         EXPECT_NEAR(tree.weight_of(before) + tree.weight_of(more), made.weight_in(0, 0.55, 0, 1),
                     1e-9);
         EXPECT_NEAR(tree.total_in(root.lower()).weight, 0, 1e-9);

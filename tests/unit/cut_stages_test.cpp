@@ -30,14 +30,14 @@ std::vector<double> histogram_of(std::vector<double> weights, double count, doub
 const std::vector<double> slot_weights{2, 3, 5.25, 4, 1, 0};
 
 TEST(CountInBins, ends_at_the_edge_that_is_near_enough) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(10, 0.5);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.stage, CutSearch::done);
     EXPECT_EQ(search.cut.at[0], 2);  // below it 2 + 3 + 5.25
     EXPECT_EQ(search.below, 10.25);
 
-    search = search_in(CutSearch::over_fragments);
+    search = search_in(CutSearch::over_points);
     target = target_of(5.25, 0.5);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.cut.at[0], 1);  // the lower edge of the slot is nearer
@@ -45,7 +45,7 @@ TEST(CountInBins, ends_at_the_edge_that_is_near_enough) {
 }
 
 TEST(CountInBins, ends_at_once_where_nothing_belongs_below) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(0);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.stage, CutSearch::done);
@@ -53,7 +53,7 @@ TEST(CountInBins, ends_at_once_where_nothing_belongs_below) {
 }
 
 TEST(Narrow, goes_on_in_the_slot_of_the_target) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(8);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.stage, CutSearch::over_candidates);
@@ -66,14 +66,14 @@ TEST(Narrow, goes_on_in_the_slot_of_the_target) {
 }
 
 TEST(Narrow, reaches_to_the_outermost_point_beyond_the_bracket) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(1);
     decide_by_bins(search, target, layout, histogram_of({2, 1}, many, -7, 9));
     EXPECT_EQ(search.chosen, 0);
     EXPECT_EQ(search.lower, -7);
     EXPECT_EQ(search.upper, 0);
 
-    search = search_in(CutSearch::over_fragments);
+    search = search_in(CutSearch::over_points);
     target = target_of(4);
     decide_by_bins(search, target, layout, histogram_of({2, 0, 0, 0, 0, 4}, many, -7, 9));
     EXPECT_EQ(search.chosen, 5);
@@ -90,7 +90,7 @@ TEST(Narrow, takes_bins_by_bits_where_bins_of_equal_width_do_not_help) {
 }
 
 TEST(Narrow, gathers_candidates_once_they_are_few) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(8);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, few));
     EXPECT_EQ(search.stage, CutSearch::gathering);
@@ -196,7 +196,7 @@ TEST(Count, adds_up_points_and_settled_ones_and_keeps_those_of_a_slot) {
     const auto sums = [](const std::vector<double>& histogram) {
         return std::vector<double>(histogram.begin() + layout.num_extents, histogram.end());
     };
-    const CutSearch before = search_in(CutSearch::over_fragments);
+    const CutSearch before = search_in(CutSearch::over_points);
     std::vector<double> all = counted(before, {0, 1, 2, 3});
     EXPECT_EQ(sums(all), (std::vector<double>{0, 1, 5, 0, 4, 0, 0, 1, 2, 0, 1, 0}));
     EXPECT_EQ(all[0], -0.5);

@@ -12,13 +12,11 @@ namespace rrcb {
 
 namespace {
 
-/// Corrections beyond this number are not worth their messages: the rest is due to points that
-/// share coordinates, not to cuts that move together.
-constexpr int most_corrections = 4;
-
-/// With more parts a correction of earlier cuts sends up to 1.8 times the bytes of a search by
-/// levels, in 3 to 11 % fewer messages.
-constexpr int most_parts_at_once = 128;
+/// Returns the length of the histograms that a search of so many cuts sends, one for each cut. More
+/// corrections than fit in it are not worth their messages.
+std::size_t length_of_search(std::size_t num_cuts) {
+    return num_cuts * HistogramLayout{}.length();
+}
 
 /// Returns the intervals of slabs. Points at a cut that stays may be on either side.
 std::vector<Bracket> intervals_of(std::span<const Slab> slabs) {
@@ -32,11 +30,11 @@ std::vector<Bracket> intervals_of(std::span<const Slab> slabs) {
 }  // namespace
 
 Correction::Correction(const Descent& top, bool is_root, Collected& memory) : points_(memory) {
-    if (top.num_parts > most_parts_at_once) return;
     const SlabTotals most = most_slabs(top);
+    const std::size_t length = std::min(most.counts, length_of_search(most.moving)) + 1;
     slabs_.resize(most.moving);
-    here_ = std::make_unique_for_overwrite<double[]>(most.counts + 1);
-    if (is_root) joined_ = std::make_unique_for_overwrite<double[]>(most.counts + 1);
+    here_ = std::make_unique_for_overwrite<double[]>(length);
+    if (is_root) joined_ = std::make_unique_for_overwrite<double[]>(length);
     values_.resize(most.moving + 1);
     expected_.resize(top.num_parts);
 }
@@ -44,9 +42,11 @@ Correction::Correction(const Descent& top, bool is_root, Collected& memory) : po
 int Correction::run(const TargetRule& rule, const Points& points, std::span<const Bracket> brackets,
                     Cuts& cuts, std::span<Part> parts, PartSums& sums, double& imbalance,
                     Participant& self) {
-    if (slabs_.empty() || !rule.are_points_light()) return 0;
+    if (!rule.are_points_light()) return 0;
     totals_ = lay_slabs(rule, cuts, brackets, sums.sums(), slabs_);
-    if (totals_.moving == 0) return 0;
+    const std::size_t most_sent = length_of_search(totals_.moving);
+    std::size_t sent = totals_.counts;
+    if (totals_.moving == 0 || sent > most_sent) return 0;
     self.attempt([&] {
         points_ = collect(points, cuts, intervals_of(slabs_), true, parts, std::move(points_));
         assign_collected(cuts, points_, parts_, parts, sums.here());
@@ -59,8 +59,8 @@ int Correction::run(const TargetRule& rule, const Points& points, std::span<cons
         self.attempt([&] { assign_collected(cuts, points_, parts_, parts, sums.here()); });
         imbalance = sums.add_up(rule.part_sizes, self);
         rounds += 2;
-    } while (imbalance > rule.tolerance && rounds < 2 * most_corrections &&
-             imbalance - 1 < (before - 1) / 2);
+        sent += totals_.counts;
+    } while (imbalance > rule.tolerance && sent <= most_sent && imbalance - 1 < (before - 1) / 2);
     return rounds;
 }
 

@@ -35,7 +35,7 @@ class Correction {
     void move(Cuts& cuts) const;
 
     SlabTotals totals_;
-    std::vector<Slab> slabs_;  ///< of all cuts; empty if there are too many cuts
+    std::vector<Slab> slabs_;  ///< of all cuts
     Collected& points_;
     std::vector<Part> parts_;           ///< of the collected points
     std::unique_ptr<double[]> here_;    ///< weights in bins of slabs, then 1 if this rank failed

@@ -62,7 +62,10 @@ Refined Refinement::refine(Estimate&& estimate, const Points& points, const Box&
     const bool is_known = estimate_.is_counted || (is_exact && !are_cuts_limited(options_));
     has_parts_ = estimate_.is_counted || !is_known;
     const bool is_accepted = !is_known && accept_estimate(points, parts, self);
-    if (is_exact || !(is_accepted || correct(points, parts, self))) {
+    // A search that would miss the tolerance, and be repeated exactly, is exact at once.
+    const bool may_miss = !tree_.rule.is_attainable() && !limits_ && !estimate_.is_earlier;
+    tree_.rule.is_exact = is_exact || (may_miss && !is_accepted);
+    if (tree_.rule.is_exact || !(is_accepted || correct(points, parts, self))) {
         search(points, parts, self);
     } else if (refined_.imbalance <= options_.imbalance_tolerance) {
         search_exactly(points, parts, self);

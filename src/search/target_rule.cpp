@@ -53,6 +53,11 @@ bool TargetRule::are_within(const Descent& at, std::span<const double> part_weig
     return true;
 }
 
+bool TargetRule::is_attainable() const {
+    const Descent top = root_of(static_cast<int>(part_sizes.size()), {});
+    return heaviest <= (tolerance - 1) * smallest_weight(top);
+}
+
 bool TargetRule::are_points_light() const {
     constexpr double several = 4;
     const Descent top = root_of(static_cast<int>(part_sizes.size()), {});

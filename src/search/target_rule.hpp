@@ -34,6 +34,9 @@ struct TargetRule {
     /// has one entry per part of the whole tree.
     bool are_within(const Descent& at, std::span<const double> part_weights) const;
 
+    /// Returns whether the smallest part may have any of the points more than it should.
+    bool is_attainable() const;
+
     /// Returns whether the smallest part holds several of the heaviest points within the tolerance,
     /// so that weights in bins determine the cuts.
     bool are_points_light() const;

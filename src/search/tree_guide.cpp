@@ -65,22 +65,19 @@ std::vector<Bracket> TreeSearch::intervals() const {
     return found;
 }
 
-/// Returns the bracket of a node's cut. With a tolerance it is wider than for an exact cut, so that
-/// a cut that is far off is found in as many rounds. If the cut is known to be off in one
-/// direction, because the weight below was counted, the bracket is on that side.
+/// Returns the bracket of a node's cut. If the cut is known to be off in one direction, because the
+/// weight below was counted, the bracket is on that side, and wide enough to find it.
 Bracket TreeSearch::bracket_of(const Descent& at, int depth, double weight, double below) const {
     constexpr double caution = 2;
-    double widths = 4;
     Bracket bracket = guide_->brackets[at.node];
-    if (tree_.rule.is_exact || guide_->limits) return bracket;
+    if (tree_.rule.is_exact || guide_->limits || below == not_counted || !(weight > 0))
+        return bracket;
     const Cut& cut = guide_->cuts.tree[at.node];
     const double value = std::clamp(cut.at[cut.axis], bracket.lower, bracket.upper);
-    if (below != not_counted && weight > 0) {
-        const double error = (tree_.rule.target_of(at, weight, below).target - below) / weight;
-        widths *= std::max(1.0, caution * std::abs(error) / expected_error(depth));
-        if (error < 0) bracket.upper = std::nextafter(value, infinity);
-        if (error > 0) bracket.lower = value;
-    }
+    const double error = (tree_.rule.target_of(at, weight, below).target - below) / weight;
+    const double widths = std::max(1.0, caution * std::abs(error) / expected_error(depth));
+    if (error < 0) bracket.upper = std::nextafter(value, infinity);
+    if (error > 0) bracket.lower = value;
     return {std::max(std::lerp(value, bracket.lower, widths), -largest),
             std::lerp(value, bracket.upper, widths)};
 }

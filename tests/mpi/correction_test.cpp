@@ -98,6 +98,28 @@ TEST(Correction, of_estimates_that_miss_takes_one_round_more_in_most_clouds) {
     EXPECT_GE(num_corrected_once, (num_missed + 1) / 2);
 }
 
+/// The first count of the parts, which exact calls do not need, and a correction that fails.
+constexpr int rounds_more_than_exact = 3;
+
+TEST(Tolerance, takes_no_more_rounds_than_exact_cuts_but_for_the_first_counts) {
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        const HeldPoints all = clusters(2 + static_cast<int>(seed % 2), seed);
+        const Share mine(all);
+        for (const int num_parts : {16, 64}) {
+            Options exact = with_parts(num_parts, 1);
+            exact.refine = Refine::exact;
+            const Report of_exact = balance(mine.points(), exact, MPI_COMM_WORLD).report;
+            for (const double tolerance : {1.1, 1.02, 1.003, 1.001}) {
+                const Options options = with_parts(num_parts, tolerance);
+                const Report report = balance(mine.points(), options, MPI_COMM_WORLD).report;
+                EXPECT_LE(report.details.rounds, of_exact.details.rounds + rounds_more_than_exact)
+                    << seed << ", " << num_parts << " parts to " << tolerance;
+                EXPECT_LE(report.imbalance, std::max(tolerance, of_exact.imbalance));
+            }
+        }
+    }
+}
+
 TEST(Correction, of_earlier_cuts_moves_them_along) {
     for (unsigned seed = 1; seed <= 6; ++seed) {
         HeldPoints all = clusters(2 + static_cast<int>(seed % 2), seed);

@@ -37,6 +37,15 @@ TEST(TargetRule, of_exact_cuts_leaves_half_a_point_of_slack) {
     EXPECT_EQ(rule.target_of({0, 0, 2}, 200).slack, 0);
 }
 
+TEST(TargetRule, knows_tolerances_below_the_weight_of_a_point) {
+    const std::vector<double> sizes{1, 1};  // each to weigh 100
+    TargetRule rule = rule_of(sizes, 1.0625);
+    rule.heaviest = 6.25;
+    EXPECT_TRUE(rule.is_attainable());
+    rule.heaviest = 6.5;
+    EXPECT_FALSE(rule.is_attainable());
+}
+
 TEST(TargetRule, of_exact_cuts_prefers_the_side_that_a_point_takes_the_least_beyond_its_size) {
     // Of 10 points of weight 1 the sides are to have 1.6 and 8.4. With 2 and 8 the lower one has
     // 1.25 times its own, with 1 and 9 the upper one has 1.07 times.

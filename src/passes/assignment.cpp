@@ -69,6 +69,13 @@ struct SettledBounds {
     }
 };
 
+/// Marks the points beyond the bounds of their part along one axis.
+RRCB_VECTOR_CLONES void mark_open(const double* x, const double* least, const double* beyond,
+                                  const Part* parts, LocalIndex length, std::int32_t* is_open) {
+    for (LocalIndex i = 0; i < length; ++i)
+        is_open[i] |= (x[i] < least[parts[i]] ? 1 : 0) | (x[i] >= beyond[parts[i]] ? 1 : 0);
+}
+
 /// Finds the parts of points block by block. Bins are the ends of the tree.
 class Assigner {
   public:
@@ -108,9 +115,8 @@ class Assigner {
     void drop_open(int dimension, LocalIndex length, Part* parts) {
         std::array<std::int32_t, block_length> is_open{};
         for (int a = 0; a < dimension; ++a)
-            for (LocalIndex i = 0; i < length; ++i)
-                is_open[i] |= (columns_[a][i] < bounds_->least[a][parts[i]] ? 1 : 0) |
-                              (columns_[a][i] >= bounds_->beyond[a][parts[i]] ? 1 : 0);
+            mark_open(columns_[a].data(), bounds_->least[a].data(), bounds_->beyond[a].data(),
+                      parts, length, is_open.data());
         static_assert(no_part == -1);
         for (LocalIndex i = 0; i < length; ++i) parts[i] |= -is_open[i];
     }

@@ -1,5 +1,6 @@
 #include "passes/collected.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "arithmetic/running_sums.hpp"
 #include "passes/assignment.hpp"
 #include "passes/point_layout.hpp"
@@ -47,19 +48,21 @@ void append(const Layout& x, const Points& points, std::span<const LocalIndex> i
         copy(x, points, indices[k], before + k, collected);
 }
 
-/// Copies the points without a part.
-void copy_open(const Points& points, std::span<const Part> parts, Collected& collected) {
+/// Calls `visit(layout, indices)` with the points of each block for which `is_found(layout,
+/// index)`.
+template <class Test, class Visit>
+void visit_in_blocks(const Points& points, const Test& is_found, Visit&& visit) {
     constexpr LocalIndex points_in_block = 512;
-    std::array<LocalIndex, points_in_block> open;
+    std::array<LocalIndex, points_in_block> found;
     visit_layout(points, [&](const auto& x) {
         in_ranges(points.count, points_in_block, [&](LocalIndex first, LocalIndex last) {
             // Without branches, because the points come in any order.
-            std::size_t num_open = 0;
+            std::size_t num_found = 0;
             for (LocalIndex i = first; i < last; ++i) {
-                open[num_open] = i;
-                num_open += parts[i] < 0 ? 1 : 0;
+                found[num_found] = i;
+                num_found += is_found(x, i) ? 1 : 0;
             }
-            append(x, points, std::span(open).first(num_open), collected);
+            visit(x, std::span<const LocalIndex>(found).first(num_found));
         });
     });
 }
@@ -72,7 +75,10 @@ Collected collect(const Points& points, const Cuts& cuts, std::span<const Bracke
     PartTotals totals = assign_settled(cuts, intervals, points, has_parts, parts);
     collected.settled_weights = std::move(totals.weights);
     collected.settled_counts = std::move(totals.counts);
-    copy_open(points, parts, collected);
+    const auto is_open = [&](const auto&, LocalIndex i) { return parts[i] < 0; };
+    visit_in_blocks(points, is_open, [&](const auto& x, std::span<const LocalIndex> open) {
+        append(x, points, open, collected);
+    });
     return collected;
 }
 
@@ -85,36 +91,64 @@ Collected collect_all(const Points& points, Collected memory) {
     return collected;
 }
 
+namespace {
+
+/// What the points of a part are collected for; none if the interval is empty.
+struct WantedOfPart {
+    double lower = infinity;
+    double upper = -infinity;
+    int axis = 0;
+    std::size_t wanted = 0;
+};
+
+/// Returns an entry for each part, behind one for points without a part.
+std::vector<WantedOfPart> wanted_of_parts(std::span<const Wanted> wanted, std::size_t num_parts) {
+    std::vector<WantedOfPart> of_parts(num_parts + 1);
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+        std::fill_n(
+            of_parts.begin() + wanted[k].first_part + 1, wanted[k].num_parts,
+            WantedOfPart{wanted[k].interval.lower, wanted[k].interval.upper, wanted[k].axis, k});
+    return of_parts;
+}
+
+/// Weighs once more the points that are left in parts.
+void weigh_again(const Points& points, std::span<const Part> parts,
+                 std::span<const WantedOfPart> of_parts, std::vector<double>& part_weights) {
+    RunningSums<double> weights(of_parts.size());
+    in_ranges(points.count, weights.interval(), [&](LocalIndex first, LocalIndex last) {
+        for (LocalIndex i = first; i < last; ++i) weights[parts[i] + 1] += points.weights[i];
+        weights.empty();
+    });
+    for (std::size_t p = 0; p < part_weights.size(); ++p)
+        if (of_parts[p + 1].lower < of_parts[p + 1].upper)
+            part_weights[p] = weights.totals()[p + 1];
+}
+
+}  // namespace
+
 std::vector<std::size_t> collect_more(const Points& points, std::span<const Wanted> wanted,
                                       std::span<Part> parts, Collected& collected) {
-    const std::size_t num_parts = collected.settled_weights.size();
-    std::vector<std::size_t> wanted_of(num_parts, wanted.size());
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-        std::fill_n(wanted_of.begin() + wanted[k].first_part, wanted[k].num_parts, k);
-    RunningSums<double> weights(num_parts);
-    LocalIndex num_added = 0;
-    std::vector<LocalIndex> open;
+    const std::vector<WantedOfPart> of_parts =
+        wanted_of_parts(wanted, collected.settled_weights.size());
     std::vector<std::size_t> found;
-    visit_layout(points, [&](const auto& x) {
-        for (LocalIndex i = 0; i < points.count; ++i) {
-            const Part part = parts[i];
-            if (part < 0 || wanted_of[part] == wanted.size()) continue;
-            const Wanted& node = wanted[wanted_of[part]];
-            if (node.contains(x(i, node.axis))) {
-                open.push_back(i);
-                found.push_back(wanted_of[part]);
-                parts[i] = no_part;
-                collected.settled_counts[part] -= 1;
-            } else {
-                weights[part] += points.weight(i);
-                if (++num_added % weights.interval() == 0) weights.empty();
-            }
+    const auto is_found = [&](const auto& x, LocalIndex i) {
+        const WantedOfPart& node = of_parts[parts[i] + 1];
+        const double value = x(i, node.axis);
+        return value >= node.lower && value < node.upper;
+    };
+    visit_in_blocks(points, is_found, [&](const auto& x, std::span<const LocalIndex> open) {
+        for (const LocalIndex i : open) {
+            const Part part = std::exchange(parts[i], no_part);
+            found.push_back(of_parts[part + 1].wanted);
+            collected.settled_counts[part] -= 1;
         }
         append(x, points, open, collected);
     });
-    weights.empty();
-    for (std::size_t p = 0; p < num_parts; ++p)
-        if (wanted_of[p] < wanted.size()) collected.settled_weights[p] = weights.totals()[p];
+    if (points.weights.empty()) {
+        collected.settled_weights = collected.settled_counts;
+    } else {
+        weigh_again(points, parts, of_parts, collected.settled_weights);
+    }
     return found;
 }
 

@@ -11,7 +11,7 @@
 namespace rrcb {
 
 /// Indices of collected points.
-using Entries = std::vector<LocalIndex>;
+using Entries = Uninitialized<LocalIndex>;
 
 /// Weight and number of points.
 struct Total {

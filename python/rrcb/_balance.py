@@ -165,10 +165,8 @@ def balance(
             cuts_from(previous).give(own)
         return points, np.empty(points.count, dtype=np.int32)
 
-    function = "balance" if previous is None else "rebalance"
-
     def collective(points: Any = None, parts: Any = None) -> Balance:
-        c.call(function, own, points, parts)
+        c.call("balance", own, points, parts)
         return Balance(chosen, own, parts)
 
     return together(chosen, local, collective)

@@ -196,7 +196,6 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "set": (c_void_p, c_char_p, c_char_p),
     "set_part_sizes": (c_void_p, c_size_t, Address),
     "balance": (c_void_p, POINTER(Points), Address),
-    "rebalance": (c_void_p, POINTER(Points), Address),
     "get_report": (c_void_p, POINTER(Report)),
     "get_cuts": (c_void_p, POINTER(Cuts)),
     "set_cuts": (c_void_p, POINTER(Cuts)),

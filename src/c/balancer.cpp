@@ -171,6 +171,13 @@ int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts) {
     });
 }
 
+int rrcb_clear_cuts(rrcb_balancer* balancer) {
+    return guarded(balancer, [](auto& own) {
+        own.cuts = {};
+        own.least_count = rrcb_balancer::no_count;
+    });
+}
+
 int rrcb_save_cuts(rrcb_balancer* balancer, const void** bytes, size_t* size) {
     return guarded(balancer, [&](auto& own) {
         require(bytes, "bytes");

@@ -17,7 +17,6 @@ namespace rrcb {
 enum class CallName : std::uint8_t {
     none,
     balance,
-    rebalance,
     balance_as_in_paper,
     plan,
     remap,

@@ -26,7 +26,6 @@ RENAMED = {
 # Functions in C++ alone; a class stands for its methods.
 ONLY_CPP = {
     "balance_into": "rrcb_balance keeps memory with the balancer",
-    "rebalance_into": "rrcb_rebalance keeps memory with the balancer",
     "column": "rrcb_column is a struct",
     "columns": "an array of rrcb_column",
     "member_points": "rrcb_points has a stride in bytes",
@@ -43,7 +42,7 @@ ONLY_CPP = {
 }
 # Functions in C alone: a handle holds what is an argument or a result in C++.
 ONLY_C = {
-    "rrcb_create", "rrcb_destroy", "rrcb_set", "rrcb_set_part_sizes", "rrcb_set_cuts",
+    "rrcb_create", "rrcb_destroy", "rrcb_set", "rrcb_set_part_sizes", "rrcb_set_cuts", "rrcb_clear_cuts",
     "rrcb_get_cuts", "rrcb_get_plan", "rrcb_get_report", "rrcb_ghosts_destroy",
     "rrcb_ghosts_get_plan", "rrcb_groups_destroy",
     "rrcb_groups_fetch",  # an overload

@@ -37,7 +37,7 @@ Scene make_scene() {
     const Points all = interleaved_points(scene.positions, 2);
     Options options;
     options.num_parts = num_ranks();
-    const Balance whole = balance(all, options, MPI_COMM_SELF);
+    const Balance whole = balance(all, options, {}, MPI_COMM_SELF);
     std::vector<double> here;
     for (std::size_t i = 0; i < num_points; ++i) {
         if (whole.parts[i] != rank()) continue;

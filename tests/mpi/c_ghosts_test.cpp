@@ -38,7 +38,7 @@ class CGhosts : public testing::Test {
         ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
         in_c = rrcb_interleaved_points(RRCB_DOUBLE, 3, count, coordinates.data(), weights.data());
         ASSERT_EQ(rrcb_balance(balancer, &in_c, parts.data()), RRCB_OK) << rrcb_last_error();
-        cuts = rrcb::balance(points(), {}, MPI_COMM_WORLD).cuts;
+        cuts = rrcb::balance(points(), {}, {}, MPI_COMM_WORLD).cuts;
         forget_points();
     }
     void TearDown() override {

@@ -74,19 +74,17 @@ RRCB_API int rrcb_set(rrcb_balancer* balancer, const char* option, const char* v
  * @param sizes    0 or more, not all 0 */
 RRCB_API int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes);
 
-/** Divides the points of all ranks into parts and keeps the cuts, as rrcb::balance. Collective.
+/** Divides the points of all ranks into parts, as rrcb::balance; starts from the cuts of the
+ * balancer, if it has any, and keeps the new ones. Collective.
  *
  * @param balancer with the options; gets the cuts and the report
  * @param points   of this rank; without points arrays may be null, but the dimension is set
  * @param parts    gets the part of each point; may be null without points */
 RRCB_API int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
 
-/** Divides points that moved little, from the cuts of the balancer; as rrcb::rebalance. Collective.
- *
- * @param balancer with cuts of the same dimension and number of parts; gets new ones
- * @param points   as for rrcb_balance
- * @param parts    as for rrcb_balance */
-RRCB_API int rrcb_rebalance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
+/** Forgets the cuts: the next rrcb_balance starts from scratch. Not collective, but on all ranks.
+ */
+RRCB_API int rrcb_clear_cuts(rrcb_balancer* balancer);
 
 /** Frees the buffers that calls on the communicator keep for the next ones, as
  * rrcb::release_buffers. Not collective. */
@@ -113,8 +111,8 @@ RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
 
 /** Copies cuts into the balancer, such as those of an earlier run. Not collective.
  *
- * @param balancer for rrcb_rebalance and look-ups
- * @param cuts     the same on all ranks, which rrcb_rebalance checks */
+ * @param balancer for rrcb_balance and look-ups
+ * @param cuts     the same on all ranks, which rrcb_balance checks */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
 /** Shows the cuts as bytes, as rrcb::save. Not collective.
@@ -126,7 +124,7 @@ RRCB_API int rrcb_save_cuts(rrcb_balancer* balancer, const void** bytes, size_t*
 
 /** Copies saved cuts into the balancer, as rrcb::load. Not collective.
  *
- * @param balancer for rrcb_rebalance and look-ups
+ * @param balancer for rrcb_balance and look-ups
  * @param bytes    of rrcb_save_cuts
  * @param size     number of them */
 RRCB_API int rrcb_load_cuts(rrcb_balancer* balancer, const void* bytes, size_t size);

@@ -44,7 +44,7 @@ columns = np.zeros((len(x), 2))
 heaviest = total = 0.0
 rebalances = 0
 balance = None
-with rrcb.Controller(comm) as controller, rrcb.CostModel(2, controller, comm) as model:
+with rrcb.Controller(comm) as controller, rrcb.CostModel(controller, 2, comm) as model:
     for step in range(100):
         if step == 0 or controller.due:
             balance = rrcb.balance(x, weights=model.weights(columns), comm=comm, previous=balance)
@@ -52,7 +52,7 @@ with rrcb.Controller(comm) as controller, rrcb.CostModel(2, controller, comm) as
             rebalances += 1
             x = balance.distribute(x)
         else:
-            x = rrcb.assign(x, balance.cuts, comm).distribute(x)
+            x = rrcb.assign_all(x, balance.cuts, comm).distribute(x)
         ghosts = balance.ghosts(x, RADIUS)
         neighbours = count_neighbours(np.concatenate([x, ghosts.fetch(x)]), len(x))
         columns = np.stack([np.ones(len(x)), neighbours], axis=1)

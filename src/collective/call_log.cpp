@@ -21,7 +21,7 @@ std::string_view name_of(CallName call) {
                                "moved_fraction",
                                "gather_cuts",
                                "assign_all",
-                               "rrcb_create (Python: balance, assign)",
+                               "rrcb_create (Python: balance, assign_all)",
                                "Controller",
                                "Controller::step",
                                "CostModel",

@@ -37,7 +37,7 @@ module rrcb_balancers
     procedure :: assign_all
     procedure :: box_of
     procedure :: parts_touching
-    procedure :: make_plan
+    procedure :: plan => make_plan
     procedure :: get_plan
     procedure :: transfer => transfer_columns
     procedure :: remap
@@ -279,7 +279,7 @@ contains
   !> Copies the lists of the plan. Not collective.
   subroutine get_plan(self, plan, error)
     class(rrcb_balancer), intent(in) :: self
-    type(rrcb_plan), intent(inout) :: plan
+    type(rrcb_plan_lists), intent(inout) :: plan
     integer, intent(out), optional :: error
     type(c_plan) :: from
     call settle(c_get_plan(self%handle, from), error)

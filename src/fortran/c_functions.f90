@@ -194,7 +194,7 @@ module rrcb_c_functions
       integer(c_int32_t), intent(inout) :: parts(*)
       integer(c_size_t), intent(inout) :: count
     end function
-    integer(c_int) function c_make_plan(handle, count, parts) bind(c, name="rrcb_make_plan")
+    integer(c_int) function c_make_plan(handle, count, parts) bind(c, name="rrcb_plan")
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: count

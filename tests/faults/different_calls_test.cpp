@@ -115,7 +115,7 @@ std::vector<NamedCall> all_calls() {
          [](Input&) {
              CostModel{world, 1};
          }},
-        {"rrcb_create (Python: balance, assign)",
+        {"rrcb_create (Python: balance, assign_all)",
          [](Input&) {
              rrcb_balancer* made = nullptr;
              if (rrcb_create(world, &made) != RRCB_OK)
@@ -204,7 +204,7 @@ TEST_F(DifferentCalls, give_a_c_program_the_code_and_the_text) {
     rrcb_balancer* balancer = nullptr;
     ASSERT_EQ(rrcb_create(world, &balancer), RRCB_OK);
     EXPECT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
-    const int code = rank() == 1 ? rrcb_make_plan(balancer, parts.size(), parts.data())
+    const int code = rank() == 1 ? rrcb_plan(balancer, parts.size(), parts.data())
                                  : rrcb_balance(balancer, &points, parts.data());
     EXPECT_EQ(code, RRCB_MPI_ERROR);
     EXPECT_STREQ(rrcb_last_error(),

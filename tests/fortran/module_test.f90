@@ -17,7 +17,7 @@ program module_test
   type(rrcb_rank_range) :: no_ranks(0)
   type(rrcb_cuts) :: no_cuts
   type(rrcb_groups) :: groups
-  type(rrcb_plan) :: plan
+  type(rrcb_plan_lists) :: plan
   type(rrcb_ghost_plan) :: ghost_plan
   type(rrcb_report) :: report
   type(rrcb_transfer_report) :: messages
@@ -69,8 +69,8 @@ program module_test
   call expect(error == rrcb_ok, "balance")
   ! Of sizes 1, 3 and 2: points 1 to 50, 51 to 200 and the rest.
   call expect(all(parts == merge(0, merge(1, 2, numbers <= 200), numbers <= 50)), "parts")
-  call balancer%make_plan(parts(:size(parts) - 1), error)
-  call expect(error == rrcb_invalid_argument, "make_plan of too few points")
+  call balancer%plan(parts(:size(parts) - 1), error)
+  call expect(error == rrcb_invalid_argument, "plan of too few points")
   call balancer%get_report(report, error)
   call expect(report%num_points == 300 .and. report%total_weight == 600, "report")
   call expect(report%imbalance == 1 .and. report%within_tolerance == 1, "imbalance")
@@ -194,8 +194,8 @@ program module_test
 
   call ghosts%create(balancer, rrcb_interleaved_points(x), error, radius=2.0_c_double)
   call expect(error == rrcb_invalid_argument, "ghosts before transfer")
-  call balancer%make_plan(parts, error)
-  call expect(error == rrcb_ok, "make_plan")
+  call balancer%plan(parts, error)
+  call expect(error == rrcb_ok, "plan")
   call balancer%get_plan(plan, error)
   num_points = counts(rank + 1)
   call expect(plan%num_points_after == num_points, "points after")
@@ -329,17 +329,17 @@ program module_test
   call balancer%balance(rrcb_interleaved_points(x), parts, error)
   call expect(error == rrcb_invalid_argument, "balance after free")
   call expect(.not. controller%due(), "due before create")
-  call model%create(MPI_COMM_WORLD, 2, error, controller)
+  call model%create(MPI_COMM_WORLD, controller, 2, error)
   call expect(error == rrcb_invalid_argument, "a cost model of a controller that was not made")
   call controller%create(MPI_COMM_WORLD, error)
   call expect(error == rrcb_ok, "create a controller")
-  call model%create(MPI_COMM_WORLD, 2, error, controller)
+  call model%create(MPI_COMM_WORLD, controller, 2, error)
   call expect(error == rrcb_ok, "create a cost model")
   call model%create(MPI_COMM_WORLD, 2, error)
   call expect_text("model is null; give the address of a pointer (in Fortran: destroy what was")
   call controller%create(MPI_COMM_WORLD, error)
   call expect_text("controller is null; give the address of a pointer (in Fortran: destroy what was")
-  call controller%rebalanced(0.5_c_double, error, report)
+  call controller%rebalanced(report, 0.5_c_double, error)
   call expect(error == rrcb_ok, "rebalanced")
   ! A point costs 2, a cell 5; ranks have different cells.
   do i = 1, 30
@@ -379,7 +379,7 @@ program module_test
 
   call controller%create(MPI_COMM_WORLD, error)
   call controller%step(1.0_c_double, error)
-  call controller%step(1.0_c_double, error, weight=10.0_c_double)
+  call controller%step(1.0_c_double, 10.0_c_double, error)
   call expect(error == rrcb_ok .and. .not. controller%due(), "step of the controller")
   call controller%destroy()
   call MPI_Finalize(error)

@@ -232,7 +232,7 @@ TEST_F(CGhosts, from_before_a_transfer_are_refused) {
     options.radius = 0.1;
     find(options);
     const std::vector<std::int32_t> to_next(weights.size(), (rank() + 1) % num_ranks());
-    ASSERT_EQ(rrcb_make_plan(balancer, to_next.size(), to_next.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_plan(balancer, to_next.size(), to_next.data()), RRCB_OK);
     ASSERT_EQ(rrcb_transfer(balancer, 0, nullptr, nullptr, nullptr), RRCB_OK);
     EXPECT_EQ(rrcb_ghosts_fetch(ghosts, 0, nullptr, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
     EXPECT_NE(std::string(rrcb_last_error()).find("the points were transferred since"),

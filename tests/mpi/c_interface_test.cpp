@@ -233,8 +233,8 @@ TEST_F(CInterface, makes_trees_of_the_shapes_of_cpp) {
 TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     const Cloud cloud(3);
     ASSERT_EQ(balance(cloud), RRCB_OK);
-    ASSERT_EQ(rrcb_make_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
-    rrcb_plan shown;
+    ASSERT_EQ(rrcb_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
+    rrcb_plan_lists shown;
     ASSERT_EQ(rrcb_get_plan(balancer, &shown), RRCB_OK);
 
     const Plan expected = plan(parts, num_ranks(), MPI_COMM_WORLD);
@@ -266,7 +266,7 @@ TEST_F(CInterface, refuses_a_plan_of_fewer_points_than_were_balanced) {
     const Cloud cloud(2);
     ASSERT_EQ(balance(cloud), RRCB_OK);
     const auto plan_of_first = [&](std::size_t count_on_first) {
-        return rrcb_make_plan(balancer, rank() == 0 ? count_on_first : cloud.count(), parts.data());
+        return rrcb_plan(balancer, rank() == 0 ? count_on_first : cloud.count(), parts.data());
     };
     expect_error_everywhere(plan_of_first(1), RRCB_INVALID_ARGUMENT,
                             "rank 0: count is 1, but 300 points were balanced");
@@ -313,7 +313,7 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     expect_error_everywhere(rrcb_balance(balancer, given, parts.data()), invalid, "points is null");
     for (const int code : {rrcb_assign_all(balancer, &points, none_there),
                            rrcb_balance(balancer, &points, none_there),
-                           rrcb_make_plan(balancer, cloud.count(), none_there),
+                           rrcb_plan(balancer, cloud.count(), none_there),
                            rrcb_moved_fraction(balancer, &points, none_there, &fraction)})
         expect_error_everywhere(code, invalid, "parts is null");
     expect_error_everywhere(rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr,
@@ -335,7 +335,7 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
     parts.resize(x.size());
     const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 1, x.size(), x.data(), nullptr);
     ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
-    ASSERT_EQ(rrcb_make_plan(balancer, x.size(), parts.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_plan(balancer, x.size(), parts.data()), RRCB_OK);
     std::vector<double> here(x.size());
     const rrcb_column right{RRCB_DOUBLE, 1, x.data(), here.data()};
     const auto move = [&](const rrcb_column& there) {
@@ -420,7 +420,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     };
     rrcb_report report;
     rrcb_cuts cuts;
-    rrcb_plan plan;
+    rrcb_plan_lists plan;
     Box box;
     std::int32_t part = 0;
     double x[] = {0.5, 0.5};
@@ -437,7 +437,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_assign(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_assign_all(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_gather_cuts(balancer), "cuts yet");
-    expect_missing(rrcb_make_plan(balancer, 1, &part), "cuts yet");
+    expect_missing(rrcb_plan(balancer, 1, &part), "cuts yet");
     expect_missing(rrcb_transfer(balancer, 1, &column, nullptr, nullptr), "plan yet");
     expect_missing(rrcb_part_of(balancer, x, &part), "cuts yet");
     expect_missing(rrcb_parts_touching(balancer, x, x, 1, &part, &count), "cuts yet");

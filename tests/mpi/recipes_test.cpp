@@ -92,8 +92,8 @@ TEST(TiltedBox, gives_all_pairs_in_c) {
     const std::vector<double> scattered = points_of(rank());
     Balancer balancer;
     const std::vector<std::int32_t> parts = balancer.balance(scattered);
-    ASSERT_EQ(rrcb_make_plan(balancer.handle, parts.size(), parts.data()), RRCB_OK);
-    rrcb_plan moves;
+    ASSERT_EQ(rrcb_plan(balancer.handle, parts.size(), parts.data()), RRCB_OK);
+    rrcb_plan_lists moves;
     ASSERT_EQ(rrcb_get_plan(balancer.handle, &moves), RRCB_OK);
     std::vector<double> here(2 * moves.num_points_after);
     const rrcb_column moved{RRCB_DOUBLE, 2, scattered.data(), here.data()};

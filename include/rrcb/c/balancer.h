@@ -183,13 +183,13 @@ RRCB_API int rrcb_parts_touching(const rrcb_balancer* balancer, const double* lo
  * @param balancer with the cuts of the parts; gets the plan
  * @param count    points of this rank, not fewer than were balanced, or assigned since
  * @param parts    the new part of each */
-RRCB_API int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
+RRCB_API int rrcb_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
 
 /** Shows the plan. Not collective.
  *
  * @param balancer owns the plan until it makes another; fails before the first
  * @param plan     gets a view of it */
-RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
+RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan_lists* plan);
 
 /** Moves columns along the plan, as rrcb::transfer: first the points that stay, then those that
  * come. Collective.

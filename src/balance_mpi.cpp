@@ -16,6 +16,7 @@
 #include "options/stage_scope.hpp"
 #include "passes/assignment.hpp"
 #include "settlement_mpi.hpp"
+#include "verbose_mpi.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -307,7 +308,7 @@ namespace {
 Balance balance_over(MPI_Comm comm, const Points& points, const Options& options,
                      const Cuts& previous, std::vector<Part> memory = {}) {
     Participant self = mpi::enter(comm, CallName::balance);
-    Balance result = balance(points, options, if_any(previous), true, self, std::move(memory));
+    Balance result = balance_aloud(points, options, previous, self, std::move(memory));
     self.throw_failed_message();
     return result;
 }

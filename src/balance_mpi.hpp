@@ -12,11 +12,6 @@ namespace rrcb {
 /// Returns the machines of the parts of a call. Collective as mpi::machines_of().
 Ranks ranks_of(Participant& self);
 
-/// Returns null for empty cuts, from which no call starts.
-inline const Cuts* if_any(const Cuts& cuts) {
-    return cuts.dimension == 0 && cuts.tree.empty() ? nullptr : &cuts;
-}
-
 /// Balances as the public functions do, over a communicator that is a duplicate already.
 ///
 /// `previous` may be null. An earlier failure on one rank is thrown on all. Points that are

@@ -1,10 +1,10 @@
-#include "balance_mpi.hpp"
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
 #include "cuts/cuts_mpi.hpp"
 #include "lists/assign_all_mpi.hpp"
 #include "options/request.hpp"
 #include "search/workspace_mpi.hpp"
+#include "verbose_mpi.hpp"
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ void balance(const rrcb_points* given, int32_t* parts, rrcb_balancer& own, Parti
         points = points_of(given);
         require_array(points.count, parts, "parts");
     });
-    Balance made = rrcb::balance(points, own.options, if_any(own.cuts), true, self,
+    Balance made = balance_aloud(points, own.options, own.cuts, self,
                                  workspace ? std::move(workspace->result) : std::vector<Part>());
     std::ranges::copy(made.parts, parts);
     own.cuts = std::move(made.cuts);

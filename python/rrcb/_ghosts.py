@@ -92,6 +92,19 @@ class Ghosts:
         c.call("ghosts_apply_shifts", self._own, kind, images.size, images)
         return tuple(images.T) if isinstance(x, tuple) else images.reshape(fetched.shape)
 
+    def reply(self, data: Any) -> Any:
+        """Returns rows that the ranks of the ghosts send back, such as answers. Collective.
+
+        `data` has a row for each ghost of this rank, as for Balance.distribute(). The result has one
+        for each row in `sent`, by ascending rank: np.concatenate([*ghosts.sent.values()]).
+        """
+        rows = sum(map(len, self.sent.values()))
+        columns = prepare(
+            self.comm, lambda: Columns(data, self.count, "ghosts", rows), Columns.signature
+        )
+        c.call("ghosts_reply", self._own, *columns.as_bytes(), None, None)
+        return columns.result()
+
     def accumulate(self, data: Any) -> Any:
         """Returns the sum of the ghosts' values for each point of this rank. Collective.
 

@@ -214,6 +214,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "ghosts_create": (c_void_p, POINTER(Points), POINTER(GhostOptions), HANDLE),
     "ghosts_get_plan": (c_void_p, POINTER(GhostPlan)),
     "ghosts_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "ghosts_reply": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_accumulate": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_verify": (c_void_p, POINTER(Points), POINTER(VerifyOptions), POINTER(Verification)),
     "ghosts_apply_shifts": (c_void_p, c_int, c_size_t, Address),

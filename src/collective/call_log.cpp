@@ -29,8 +29,9 @@ std::string_view name_of(CallName call) {
                                "verify",
                                "save",
                                "load",
-                               "join_keys"};
-    static_assert(names.size() == static_cast<std::size_t>(CallName::join_keys) + 1 &&
+                               "join_keys",
+                               "reply"};
+    static_assert(names.size() == static_cast<std::size_t>(CallName::reply) + 1 &&
                   names.size() <= most_call_names);
     return names.at(static_cast<std::size_t>(call));
 }

@@ -129,6 +129,7 @@ module rrcb_c_functions
   procedure(call_of), bind(c, name="rrcb_clear_cuts") :: c_clear_cuts
   procedure(move), bind(c, name="rrcb_transfer") :: c_transfer
   procedure(move), bind(c, name="rrcb_ghosts_fetch") :: c_ghosts_fetch
+  procedure(move), bind(c, name="rrcb_ghosts_reply") :: c_ghosts_reply
   procedure(move), bind(c, name="rrcb_ghosts_accumulate") :: c_ghosts_accumulate
   procedure(move), bind(c, name="rrcb_groups_fetch") :: c_groups_fetch
   procedure(measure), bind(c, name="rrcb_imbalance") :: c_imbalance

@@ -91,6 +91,7 @@ std::vector<NamedCall> all_calls() {
              std::vector<double> sums(in.points.count);
              accumulate(in.near, column(in.of_ghosts), column(sums), world);
          }},
+        {"reply", [](Input& in) { static_cast<void>(reply(in.near, in.of_ghosts, world)); }},
         {"verify", [](Input& in) { verify(in.near, in.points, {.sample = 5}, world); }},
         {"groups", [](Input& in) { groups(in.points, in.keys, world); }},
         {"fetch of groups",

@@ -26,7 +26,7 @@ program module_test
   type(rrcb_cuts) :: cuts
   real(c_double), allocatable, target :: x(:, :), weights(:), moved(:, :), moved_weights(:)
   real(c_float), allocatable, target :: short_x(:, :), short_positions(:)
-  real(c_float), allocatable, target :: short(:), moved_short(:)
+  real(c_float), allocatable, target :: short(:), moved_short(:), replies(:)
   integer(c_int32_t), allocatable, target :: numbers(:), moved_numbers(:)
   integer(c_int32_t), allocatable :: parts(:), again(:)
   integer(c_int32_t), allocatable, target :: parts_of_groups(:), parts_of_points(:)
@@ -250,6 +250,12 @@ program module_test
     moved_short = 0
     call ghosts%accumulate([rrcb_column(short, moved_short)], error)
     call expect(error == rrcb_ok .and. nint(sum(moved_short)) == sum(ghost_plan%send_counts), "accumulate")
+    short = [(real(rank, c_float), error=1, i)]
+    if (allocated(replies)) deallocate (replies)
+    allocate (replies(size(ghost_plan%send_indices)))
+    call ghosts%reply([rrcb_column(short, replies)], error)
+    call expect(error == rrcb_ok .and. nint(sum(replies)) == &
+      sum(ghost_plan%send_ranks*int(ghost_plan%send_counts)), "reply")
     call ghosts%accumulate([rrcb_column(short(2:), moved_short)], error)
     call expect(error == rrcb_invalid_argument, "accumulate from a short array")
     call ghosts%accumulate([rrcb_column(short, moved_short(2:))], error)

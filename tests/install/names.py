@@ -15,6 +15,7 @@ from symbols import bare
 RENAMED = {
     "ghosts": "rrcb_ghosts_create",
     "fetch": "rrcb_ghosts_fetch",
+    "reply": "rrcb_ghosts_reply",
     "accumulate": "rrcb_ghosts_accumulate",
     "apply_shifts": "rrcb_ghosts_apply_shifts",
     "verify": "rrcb_ghosts_verify",
@@ -60,7 +61,8 @@ OWN_OF_FORTRAN = {"rrcb_interleaved_points", "rrcb_column_points"}
 PYTHON = {
     "assign": "Cuts.part_of", "part_of": "Cuts.part_of",
     "box_of": "Cuts.boxes", "transfer": "Plan.distribute",
-    "ghosts": "Distribution.ghosts", "fetch": "Ghosts.fetch", "accumulate": "Ghosts.accumulate",
+    "ghosts": "Distribution.ghosts", "fetch": "Ghosts.fetch", "reply": "Ghosts.reply",
+    "accumulate": "Ghosts.accumulate",
     "apply_shifts": "Ghosts.fetch_positions", "verify": "Ghosts.verify",
     "sums": "Groups.sums", "remap": "Distribution.remap", "save": "Cuts.save",
     "load": "Cuts.load", "part_weights": "Distribution.part_weights",

@@ -117,6 +117,10 @@ class CGhosts : public testing::Test {
                        columns(column(coordinates, 3), start), MPI_COMM_WORLD);
         EXPECT_EQ(sums, sums_in_cpp);
         EXPECT_EQ(numbers, numbers_in_cpp);
+        std::vector<double> replies(3 * expected.send_indices.size());
+        const rrcb_column sent{RRCB_DOUBLE, 3, near.data(), replies.data()};
+        ASSERT_EQ(rrcb_ghosts_reply(ghosts, 1, &sent, nullptr, nullptr), RRCB_OK);
+        EXPECT_EQ(replies, reply(expected, column(near, 3), MPI_COMM_WORLD));
     }
 
     rrcb_balancer* balancer = nullptr;

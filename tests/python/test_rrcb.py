@@ -407,6 +407,10 @@ def test_accumulates_at_points():
         of_it = all_numbers == one
         assert np.allclose(sums["force"][k], all_forces[of_it].sum(axis=0), rtol=1e-14)
         assert sums["count"][k] == of_it.sum()
+    replies = ghosts.reply({"of": number, "by": np.full(ghosts.count, ME)})
+    rows = np.concatenate([np.zeros(0, dtype=np.uintp), *ghosts.sent.values()])
+    assert np.array_equal(replies["of"], here["id"][rows])
+    assert np.array_equal(replies["by"], np.repeat(list(ghosts.sent), [len(r) for r in ghosts.sent.values()]))
     for dtype in (np.int64, np.float32):
         one = ghosts.accumulate(np.ones(ghosts.count, dtype=dtype))
         assert one.dtype == dtype and np.array_equal(one, sums["count"])

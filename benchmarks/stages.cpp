@@ -48,7 +48,7 @@ double sum_of(const Points& points) {
 Balance balance_alone(const Points& points) {
     Options options;
     options.num_parts = num_parts;
-    return balance(points, options, MPI_COMM_SELF);
+    return balance(points, options, {}, MPI_COMM_SELF);
 }
 
 void sum(benchmark::State& state) {
@@ -95,7 +95,7 @@ void exact(benchmark::State& state) {
         Options options;
         options.num_parts = num_parts;
         options.refine = Refine::exact;
-        return balance(points, options, MPI_COMM_SELF);
+        return balance(points, options, {}, MPI_COMM_SELF);
     });
 }
 

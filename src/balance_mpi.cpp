@@ -16,6 +16,7 @@
 #include "options/stage_scope.hpp"
 #include "passes/assignment.hpp"
 #include "settlement_mpi.hpp"
+#include "verbose_mpi.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -305,32 +306,22 @@ Balance balance_once(const Points& points, const Options& options, const Cuts* p
 namespace {
 
 Balance balance_over(MPI_Comm comm, const Points& points, const Options& options,
-                     const Cuts* previous, std::vector<Part> memory = {}) {
-    Participant self =
-        mpi::enter(comm, previous != nullptr ? CallName::rebalance : CallName::balance);
-    Balance result = balance(points, options, previous, true, self, std::move(memory));
+                     const Cuts& previous, std::vector<Part> memory = {}) {
+    Participant self = mpi::enter(comm, CallName::balance);
+    Balance result = balance_aloud(points, options, previous, self, std::move(memory));
     self.throw_failed_message();
     return result;
 }
 
 }  // namespace
 
-Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
-    return balance_over(comm, points, options, nullptr);
+Balance balance(const Points& points, const Options& options, const Cuts& previous, MPI_Comm comm) {
+    return balance_over(comm, points, options, previous);
 }
 
-void balance_into(Balance& result, const Points& points, const Options& options, MPI_Comm comm) {
-    result = balance_over(comm, points, options, nullptr, std::exchange(result.parts, {}));
-}
-
-Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
-                  MPI_Comm comm) {
-    return balance_over(comm, points, options, &previous);
-}
-
-void rebalance_into(Balance& result, const Points& points, const Options& options,
-                    const Cuts& previous, MPI_Comm comm) {
-    result = balance_over(comm, points, options, &previous, std::exchange(result.parts, {}));
+void balance_into(Balance& result, const Points& points, const Options& options,
+                  const Cuts& previous, MPI_Comm comm) {
+    result = balance_over(comm, points, options, previous, std::exchange(result.parts, {}));
 }
 
 }  // namespace rrcb

@@ -210,7 +210,7 @@ Way by_rrcb(const Case& of, const Workload& workload, int num_ranks, int group_s
     rrcb::Options options;
     options.num_parts = of.num_parts();
     options.tree = {num_ranks == 1 || group_size == 1 ? group_size : 0};
-    rrcb::Balance made = rrcb::balance(workload.points(), options, MPI_COMM_WORLD);
+    rrcb::Balance made = rrcb::balance(workload.points(), options, {}, MPI_COMM_WORLD);
     const std::int64_t bytes = num_ranks == 1 ? -1 : bytes_of_fetch(of, made, workload);
     return {std::move(made.parts), bytes};
 }

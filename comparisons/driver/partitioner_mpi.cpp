@@ -68,8 +68,7 @@ class ArraysPartitioner : public Partitioner {
 
     int partition() override {
         try {
-            balance_ = cuts_ ? rrcb::rebalance(workload_.points(), options_, *cuts_, comm_)
-                             : rrcb::balance(workload_.points(), options_, comm_);
+            balance_ = rrcb::balance(workload_.points(), options_, cuts_, comm_);
             if (reuses_) cuts_ = balance_->cuts;
         } catch (const rrcb::Error&) {
             return ZOLTAN_FATAL;
@@ -88,7 +87,7 @@ class ArraysPartitioner : public Partitioner {
     const Workload& workload_;
     MPI_Comm comm_;
     std::optional<rrcb::Balance> balance_;
-    std::optional<rrcb::Cuts> cuts_;  ///< of the last call, if they are to be reused
+    rrcb::Cuts cuts_;  ///< of the last call, if they are to be reused
 };
 
 #ifdef RRCB_HAS_ZOLTAN2

@@ -197,11 +197,9 @@ bool answer(RCB& rcb, bool is_new, const rrcb::Points& points, const double* low
             const double* upper) try {
     rrcb::Balance& balance = session.balances[*rcb.world];
     const rrcb::Options options = options_of(points.dimension);
-    const rrcb::Cuts& cuts = balance.cuts;
-    if (is_new || cuts.num_parts != rcb.nprocs || cuts.dimension != points.dimension)
-        rrcb::balance_into(balance, points, options, *rcb.world);
-    else
-        rrcb::rebalance_into(balance, points, options, cuts, *rcb.world);
+    rrcb::Cuts& cuts = balance.cuts;
+    if (is_new || cuts.num_parts != rcb.nprocs || cuts.dimension != points.dimension) cuts = {};
+    rrcb::balance_into(balance, points, options, cuts, *rcb.world);
     rrcb::Box box;
     std::copy(lower, lower + 3, box.lower.begin());
     std::copy(upper, upper + 3, box.upper.begin());

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     const std::vector<double> coordinates = squares_of(rank);
 
     const rrcb::Points points = rrcb::interleaved_points(coordinates, 2);
-    const rrcb::Balance balance = rrcb::balance(points, rrcb::Options{}, MPI_COMM_WORLD);
+    const rrcb::Balance balance = rrcb::balance(points, {}, {}, MPI_COMM_WORLD);
     const rrcb::Plan plan = rrcb::plan(balance, MPI_COMM_WORLD);
 
     // Columns of the points in this rank's box, and copies of others within 0.05 of it.

@@ -39,9 +39,9 @@ int main(int argc, char** argv) {
     check(rrcb_set(balancer, "imbalance_tolerance", "1.02"));
     const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 2, count, coordinates, NULL);
     check(rrcb_balance(balancer, &points, parts));
-    check(rrcb_make_plan(balancer, count, parts));
+    check(rrcb_plan(balancer, count, parts));
 
-    rrcb_plan plan;
+    rrcb_plan_lists plan;
     check(rrcb_get_plan(balancer, &plan));
     double* here = malloc(2 * plan.num_points_after * sizeof *here);
     const rrcb_column column = {RRCB_DOUBLE, 2, coordinates, here};

@@ -6,7 +6,7 @@ program quick_start
   implicit none
 
   type(rrcb_balancer) :: balancer
-  type(rrcb_plan) :: plan
+  type(rrcb_plan_lists) :: plan
   type(rrcb_report) :: report
   real(c_double), allocatable, target :: coordinates(:, :), here(:, :)
   integer(c_int32_t), allocatable :: parts(:)
@@ -23,7 +23,7 @@ program quick_start
   call check(error)
   call balancer%balance(rrcb_interleaved_points(coordinates), parts, error)
   call check(error)
-  call balancer%make_plan(parts, error)
+  call balancer%plan(parts, error)
   call check(error)
 
   call balancer%get_plan(plan, error)

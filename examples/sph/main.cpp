@@ -21,7 +21,7 @@ Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
             for (double& x : own.positions) x -= std::floor(x);
             const rrcb::Points points = rrcb::interleaved_points(own.positions, 2);
             const bool is_due = step == 0 || controller.due();
-            if (is_due) balance = rrcb::balance(points, {}, comm);
+            if (is_due) balance = rrcb::balance(points, {}, balance.cuts, comm);
             if (is_due) controller.rebalanced(balance.report, cost);
             if (!is_due) balance.parts = rrcb::assign_all(balance.cuts, points, comm);
             const auto columns = rrcb::columns(column(own.positions, 2), column(own.velocities, 2),

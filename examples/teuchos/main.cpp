@@ -29,7 +29,7 @@ void balance_by(const char* file, int rank) {
     options.observer = &observer;
     const std::vector<double> coordinates = square_of(rank);
     const rrcb::Points points = rrcb::interleaved_points(coordinates, 2);
-    const rrcb::Balance balance = rrcb::balance(points, options, MPI_COMM_WORLD);
+    const rrcb::Balance balance = rrcb::balance(points, options, {}, MPI_COMM_WORLD);
     if (rank != 0) return;
     std::printf("%lld points in %d parts, imbalance %.4f\n",
                 static_cast<long long>(balance.report.details.num_points), balance.cuts.num_parts,

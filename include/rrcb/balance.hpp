@@ -52,59 +52,35 @@ struct Balance {
 
 /// Divides the points of all ranks into parts of equal, or given relative, weight; no point moves.
 ///
-///     const rrcb::Points points = rrcb::interleaved_points(xyz, 3);
-///     rrcb::Balance balance = rrcb::balance(points, {}, comm);  // one part per rank
+///     balance = rrcb::balance(points, {}, balance.cuts, comm);  // one part per rank
 ///
-/// Collective. Points are kept on their ranks if new cuts would gain too little (Report::kept).
-/// @param points  of this rank, also none; the same dimension on every rank
-/// @param options the same on every rank
-/// @param comm    duplicated by the first call; the duplicate is freed with it
-/// @return the cuts, the part of each point of this rank and a report; the same bits for the same
-/// input on the same ranks
+/// Collective. The same input on the same ranks gives the same bits.
+/// @param points   of this rank, also none; the same dimension on every rank
+/// @param options  the same on every rank
+/// @param previous cuts of an earlier call: few points change parts. Empty cuts, `{}`: from scratch
+/// @param comm     duplicated by the first call; the duplicate is freed with it
+/// @return the cuts, the part of each point of this rank and a report
 /// Throws Error on every rank alike: for unusable coordinates, weights or arrays, options out of
-/// range or different between ranks, limits without room for so many parts, or ranks that round
-/// differently. Cost: a pass over the points, a gathering of cells, a broadcast, and a reduction
-/// for each round of counting; see docs/design/how_it_works.md.
-RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm);
-
-/// Divides points that moved little since an earlier call, starting from its cuts.
-///
-///     balance = rrcb::rebalance(points, options, balance.cuts, comm);
-///
-/// Collective. The cuts are kept while the parts are within the tolerance, and always with
-/// Refine::none. Otherwise few points change parts; with Refine::exact all cuts are searched.
-/// Limits may move cuts to other axes than Axes::order.
-/// @param points   as for balance()
-/// @param options  as for balance()
-/// @param previous the same on every rank, or those that each rank got from a balance on `comm`; of
-/// the dimension and number of parts of this call
-/// @param comm     as for balance()
-/// @return as balance(); Report::kept and the estimate are set only if the cuts are made anew
-/// Throws Error as balance(), and for a `previous` that does not fit. Cost while the cuts are kept:
-/// one pass over the points, one reduction, one broadcast.
-RRCB_API Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
-                           MPI_Comm comm);
+/// range or different between ranks, `previous` of another dimension or number of parts, limits
+/// without room for so many parts, or ranks that round differently. Cost: a pass over the points, a
+/// gathering of cells, a broadcast, and a reduction for each round of counting; while `previous` is
+/// kept a pass, a reduction and a broadcast. See docs/design/how_it_works.md.
+RRCB_API Balance balance(const Points& points, const Options& options, const Cuts& previous,
+                         MPI_Comm comm);
 
 /// Replaces a result by that of balance(), and reuses the memory of its parts. Collective.
 ///
-/// @param result  has no parts if the call throws
-/// @param points  as for balance(); with as many as last time no memory is allocated for each
-/// @param options as for balance()
-/// @param comm    as for balance()
+/// @param result   has no parts if the call throws
+/// @param points   with as many as last time no memory is allocated for each
+/// @param options  the same on every rank
+/// @param previous the same on every rank, or those that each rank got from a balance on `comm`;
+/// may be `result.cuts`. They are kept while the parts are within the tolerance, and always with
+/// Refine::none; Refine::exact searches them all. Limits may move cuts to other axes than
+/// Axes::order. Report::kept and the estimate are set only if the cuts are made anew
+/// @param comm     as for balance()
 /// Throws Error as balance().
 RRCB_API void balance_into(Balance& result, const Points& points, const Options& options,
-                           MPI_Comm comm);
-
-/// Replaces a result by that of rebalance(), and reuses the memory of its parts. Collective.
-///
-/// @param result   has no parts if the call throws
-/// @param points   as for balance_into()
-/// @param options  as for rebalance()
-/// @param previous as for rebalance(); may be `result.cuts`
-/// @param comm     as for rebalance()
-/// Throws Error as rebalance().
-RRCB_API void rebalance_into(Balance& result, const Points& points, const Options& options,
-                             const Cuts& previous, MPI_Comm comm);
+                           const Cuts& previous, MPI_Comm comm);
 
 /// Frees the buffers that calls on `comm` keep for the next ones; otherwise they are freed with
 /// `comm`.

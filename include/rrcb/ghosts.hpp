@@ -155,6 +155,14 @@ RRCB_API void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_gh
                         std::span<const ByteColumn> of_points, const TransferLimits& limits,
                         TransferReport* report, MPI_Comm comm);
 
+/// Plan of ghosts whose ranks send rows back.
+struct Replies {
+    const GhostPlan& plan;
+};
+
+RRCB_API void move(const Replies& replies, std::span<const ByteColumn> columns,
+                   const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
+
 template <class T>
 void add_each(std::span<const LocalIndex> points, std::size_t components, const T* values,
               T* sums) {
@@ -214,6 +222,24 @@ template <class Columns>
 [[nodiscard]] auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
                          const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::moved(plan, columns, comm, limits, report);
+}
+
+/// Returns rows that the ranks of the ghosts send back, such as answers to queries. Collective.
+///
+///     const std::vector<double> answers = rrcb::reply(asked, answer_to_each_ghost, comm);
+///
+/// Ghosts by `radii` are queries: each point goes to the ranks of all parts that its ball touches.
+/// @param plan          of ghosts()
+/// @param ghost_columns one entry, or `components`, for each ghost, in the order of fetch()
+/// @param comm          that of the plan
+/// @param limits        as for transfer()
+/// @param report        as for transfer()
+/// @return a row for each of plan.send_indices, in that order: row k is for point send_indices[k]
+/// Throws Error as transfer(). Cost: that of fetch().
+template <class GhostColumns>
+[[nodiscard]] auto reply(const GhostPlan& plan, const GhostColumns& ghost_columns, MPI_Comm comm,
+                         const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+    return detail::moved(detail::Replies{plan}, ghost_columns, comm, limits, report);
 }
 
 /// Returns columns of the points with the values of their ghosts on other ranks added, such as

@@ -35,7 +35,7 @@ struct Groups {
     std::vector<LocalIndex> of_points{};
     GhostPlan plan{};  ///< between the ranks that share groups
 
-    /// Returns a view of the groups of this rank as points, for balance() and rebalance(). The
+    /// Returns a view of the groups of this rank as points, for balance(). The
     /// groups must outlive it. Not collective.
     Points points() const& { return interleaved_points(coordinates, dimension, weights); }
     Points points() const&& = delete;

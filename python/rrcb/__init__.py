@@ -9,10 +9,11 @@ The calls are collective over the communicator, and raise rrcb.Error on every ra
 """
 
 from . import _library
-from ._balance import Balance, Distribution, Report, assign, balance
+from ._balance import Balance, Distribution, Plan, Report, assign_all, balance, plan
 from ._controller import Controller, CostModel
 from ._cuts import Cuts
 from ._ghosts import Ghosts, Verification
+from ._groups import NO_GROUP, Groups, groups
 from ._library import Error
 
 __all__ = [
@@ -23,11 +24,16 @@ __all__ = [
     "Distribution",
     "Error",
     "Ghosts",
+    "Groups",
+    "NO_GROUP",
+    "Plan",
     "Report",
     "Verification",
-    "assign",
+    "assign_all",
     "balance",
     "build_info",
+    "groups",
+    "plan",
 ]
 __version__: str = _library.text(_library.library.rrcb_version())
 

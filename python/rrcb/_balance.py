@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import dataclasses
 import re
 from functools import cached_property
@@ -13,7 +14,7 @@ from mpi4py import MPI
 from . import _library as c
 from ._agreement import communicator, prepare, together
 from ._arrays import Array, Columns, Points, numbers_in
-from ._cuts import Cuts, cuts_of
+from ._cuts import CUT, Cuts, cuts_of
 from ._ghosts import Ghosts
 
 
@@ -45,8 +46,8 @@ class Report:
         )
 
 
-class Distribution:
-    """Parts of the points of this rank, by cuts; made by assign() and balance()."""
+class Plan:
+    """Parts of the points of this rank, to be moved to; made by plan()."""
 
     def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, parts: Array) -> None:
         self.comm = comm
@@ -56,7 +57,7 @@ class Distribution:
         self._num_points_after: int | None = None
 
     def __repr__(self) -> str:
-        return f"<rrcb.Distribution of {len(self.parts)} points to {self.cuts.num_parts} parts>"
+        return f"<rrcb.{type(self).__name__} of {len(self.parts)} points>"
 
     def __reduce__(self) -> str:
         raise TypeError("a balance belongs to its communicator: pickle or copy its cuts")
@@ -65,11 +66,6 @@ class Distribution:
     def parts(self) -> Array:
         """Part of each point of this rank, int32; read-only."""
         return self._parts
-
-    @cached_property
-    def cuts(self) -> Cuts:
-        """The tree of cuts."""
-        return cuts_of(self._own)
 
     def distribute(self, data: Any) -> Any:
         """Returns data with a row for each point that belongs on this rank. Collective.
@@ -85,6 +81,62 @@ class Distribution:
         c.call("transfer", self._own, *columns.as_bytes(), None, None)
         return columns.result()
 
+    def _plan(self) -> int:
+        if self._num_points_after is None:
+            communicator(self.comm)
+            c.call("plan", self._own, len(self.parts), self.parts)
+            shown = c.Plan()
+            c.call("get_plan", self._own, shown)
+            self._num_points_after = int(shown.num_points_after)
+        return self._num_points_after
+
+
+class Distribution(Plan):
+    """Parts of the points of this rank, by cuts; made by assign_all(), balance() and remap()."""
+
+    numbers: Array | None = None  #: after remap(), the number of each part of the cuts
+
+    @cached_property
+    def cuts(self) -> Cuts:
+        """The tree of cuts."""
+        return cuts_of(self._own)
+
+    def remap(self, previous: Any = None) -> Distribution:
+        """Returns the same parts under numbers with which many points stay. Collective.
+
+        `previous` has the part that each point was in; None: points stay on their ranks.
+        """
+        own = c.OwnedHandle("create_fortran", "destroy", self.comm.py2f())
+        numbers = np.empty(self.cuts.num_parts, dtype=np.int32)
+
+        def local() -> Array | None:
+            self.cuts.give(own)
+            return None if previous is None else parts_in(previous, len(self.parts))
+
+        before = prepare(self.comm, local)
+        count = len(self.parts)
+        c.call("remap", own, count, self.parts, before, None, len(numbers), numbers, None)
+        made = Distribution(self.comm, own, numbers[self.parts])
+        made.numbers = numbers
+        return made
+
+    def part_weights(self, weights: Any = None) -> Array:
+        """Returns the weight of each part over all ranks; weights of None are 1. Collective."""
+        found = np.empty(self.cuts.num_parts)
+        points = prepare(self.comm, lambda: self._weighed(weights))
+        c.call("part_weights", self._own, points, self.parts, len(found), found)
+        return found
+
+    def moved_fraction(self, weights: Any = None) -> float:
+        """Returns the share of the weight that changes its rank, 0 to 1. Collective."""
+        fraction = ctypes.c_double()
+        points = prepare(self.comm, lambda: self._weighed(weights))
+        c.call("moved_fraction", self._own, points, self.parts, fraction)
+        return fraction.value
+
+    def _weighed(self, weights: Any) -> Points:
+        return Points(np.zeros((len(self.parts), self.cuts.dimension)), weights)
+
     def ghosts(self, x: Any, radius: Any, period: Any = None, needs: str = "sender") -> Ghosts:
         """Finds the points that other ranks need within a radius. Collective.
 
@@ -94,16 +146,7 @@ class Distribution:
         (docs/loop.md). `period` is the length of a periodic box from 0, one number or one
         for each axis (infinity: not periodic), or its corners (lower, upper).
         """
-        return Ghosts(self.comm, self._own, x, radius, period, needs)
-
-    def _plan(self) -> int:
-        if self._num_points_after is None:
-            communicator(self.comm)
-            c.call("make_plan", self._own, len(self.parts), self.parts)
-            shown = c.Plan()
-            c.call("get_plan", self._own, shown)
-            self._num_points_after = int(shown.num_points_after)
-        return self._num_points_after
+        return Ghosts(self.comm, self._own, x, radius, period, needs, self.numbers)
 
 
 class Balance(Distribution):
@@ -165,16 +208,46 @@ def balance(
             cuts_from(previous).give(own)
         return points, np.empty(points.count, dtype=np.int32)
 
-    function = "balance" if previous is None else "rebalance"
-
     def collective(points: Any = None, parts: Any = None) -> Balance:
-        c.call(function, own, points, parts)
+        c.call("balance", own, points, parts)
         return Balance(chosen, own, parts)
 
     return together(chosen, local, collective)
 
 
-def assign(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) -> Distribution:
+def plan(parts: Any, num_parts: int | None = None, comm: MPI.Comm | None = None) -> Plan:
+    """Plans a move of points to the ranks of any parts. Collective over `comm`.
+
+    `parts` has the part of each point of this rank, 0 to num_parts - 1; `num_parts` is the number
+    of ranks by default, so that part p is rank p. distribute() of the result moves columns.
+    """
+    chosen = communicator(comm)
+    own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+
+    def local() -> Array:
+        number = chosen.size if num_parts is None else num_parts
+        Cuts(1, number, np.zeros(max(number, 1) - 1, dtype=CUT)).give(own)
+        return parts_in(parts).copy()
+
+    made = Plan(chosen, own, prepare(chosen, local, lambda _: f"num_parts = {num_parts}"))
+    made._plan()
+    return made
+
+
+def parts_in(given: Any, count: int | None = None) -> Array:
+    """Returns parts as the library takes them."""
+    numbers = np.asarray(given)
+    if numbers.dtype.kind not in "iu" and numbers.size:
+        raise c.Error(f"parts must be integers, not {numbers.dtype}")
+    if numbers.ndim != 1 or (count is not None and len(numbers) != count):
+        shape = "n" if count is None else count
+        raise c.Error(f"parts must have the shape ({shape},), not {numbers.shape}")
+    if numbers.size and not (0 <= numbers.min() and numbers.max() < 2**31):
+        raise c.Error("parts must be 0 or more, and below the number of parts")
+    return np.ascontiguousarray(numbers, dtype=np.int32)
+
+
+def assign_all(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) -> Distribution:
     """Assigns points to parts by earlier cuts, without balancing. Collective over `comm`."""
     chosen = communicator(comm)
     own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())

@@ -143,7 +143,7 @@ class CostModel(Owner):
     """
 
     def __init__(
-        self, num_columns: int, controller: Controller | None = None, comm: MPI.Comm | None = None
+        self, controller: Controller | None, num_columns: int, comm: MPI.Comm | None = None
     ) -> None:
         chosen = communicator(comm)
         self.num_columns, given = prepare(

@@ -50,11 +50,17 @@ class Ghosts:
         radius: Any,
         period: Any,
         needs: str = "sender",
+        numbers: Array | None = None,
     ) -> None:
         def local() -> tuple[Points, c.GhostOptions, Array, Array | None]:
             points = Points(x)
             radii, box = radius_of(radius, points.count), box_of(period, points.dimension)
-            return points, options_of(radii, box, needs), radii, box
+            options = options_of(radii, box, needs)
+            if numbers is not None:
+                self._ranges = ranges_of(numbers, self.comm.Get_size())
+                options.ranks_of_parts = ctypes.addressof(self._ranges)
+                options.num_parts = len(numbers)
+            return points, options, radii, box
 
         def collective(
             points: Any = None, options: Any = None, radii: Any = None, box: Any = None
@@ -85,6 +91,19 @@ class Ghosts:
         kind = FLOATS[images.dtype]
         c.call("ghosts_apply_shifts", self._own, kind, images.size, images)
         return tuple(images.T) if isinstance(x, tuple) else images.reshape(fetched.shape)
+
+    def reply(self, data: Any) -> Any:
+        """Returns rows that the ranks of the ghosts send back, such as answers. Collective.
+
+        `data` has a row for each ghost of this rank, as for Balance.distribute(). The result has one
+        for each row in `sent`, by ascending rank: np.concatenate([*ghosts.sent.values()]).
+        """
+        rows = sum(map(len, self.sent.values()))
+        columns = prepare(
+            self.comm, lambda: Columns(data, self.count, "ghosts", rows), Columns.signature
+        )
+        c.call("ghosts_reply", self._own, *columns.as_bytes(), None, None)
+        return columns.result()
 
     def accumulate(self, data: Any) -> Any:
         """Returns the sum of the ghosts' values for each point of this rank. Collective.
@@ -186,6 +205,14 @@ def radius_of(radius: Any, count: int) -> Array:
         raise c.Error(f"radius must be a number or have the shape ({count},), not {radii.shape}")
     # To the library a radius of 0 is none.
     return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii.copy()
+
+
+def ranges_of(numbers: Array, num_ranks: int) -> ctypes.Array[c.RankRange]:
+    """Returns the ranks of each part of the cuts, by its number."""
+    ranges = (c.RankRange * len(numbers))()
+    for number, ranks in zip(numbers, ranges):
+        c.call("ranks_of_part", int(number), len(numbers), num_ranks, ranks)
+    return ranges
 
 
 def options_of(radii: Array, box: Array | None, needs: str) -> c.GhostOptions:

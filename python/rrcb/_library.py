@@ -95,7 +95,7 @@ class Column(Structure):
 
 
 class Plan(Structure):
-    """rrcb_plan."""
+    """rrcb_plan_lists."""
 
     _fields_ = [
         ("num_points", c_size_t),
@@ -196,7 +196,6 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "set": (c_void_p, c_char_p, c_char_p),
     "set_part_sizes": (c_void_p, c_size_t, Address),
     "balance": (c_void_p, POINTER(Points), Address),
-    "rebalance": (c_void_p, POINTER(Points), Address),
     "get_report": (c_void_p, POINTER(Report)),
     "get_cuts": (c_void_p, POINTER(Cuts)),
     "set_cuts": (c_void_p, POINTER(Cuts)),
@@ -205,16 +204,24 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "assign": (c_void_p, POINTER(Points), Address),
     "assign_all": (c_void_p, POINTER(Points), Address),
     "box_of": (c_void_p, c_int32, Address, Address),
+    "part_weights": (c_void_p, POINTER(Points), Address, c_size_t, Address),
+    "moved_fraction": (c_void_p, POINTER(Points), Address, POINTER(c_double)),
+    "remap": (c_void_p, c_size_t, Address, Address, c_void_p, c_size_t, Address, c_void_p),
     "ranks_of_part": (c_int32, c_int, c_int, POINTER(RankRange)),
-    "make_plan": (c_void_p, c_size_t, Address),
+    "plan": (c_void_p, c_size_t, Address),
     "get_plan": (c_void_p, POINTER(Plan)),
     "transfer": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_create": (c_void_p, POINTER(Points), POINTER(GhostOptions), HANDLE),
     "ghosts_get_plan": (c_void_p, POINTER(GhostPlan)),
     "ghosts_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "ghosts_reply": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_accumulate": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_verify": (c_void_p, POINTER(Points), POINTER(VerifyOptions), POINTER(Verification)),
     "ghosts_apply_shifts": (c_void_p, c_int, c_size_t, Address),
+    "groups_create": (c_void_p, POINTER(Points), Address, c_int, HANDLE),
+    "groups_points": (c_void_p, POINTER(Points)),
+    "groups_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "groups_sums": (c_void_p, c_size_t, Address, Address),
     "controller_create_fortran": (c_int, HANDLE),
     "controller_step": (c_void_p, c_double, POINTER(c_int)),
     "controller_step_weight": (c_void_p, c_double, c_double, POINTER(c_int)),
@@ -230,7 +237,9 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "cost_model_costs": (c_void_p, c_size_t, Address),
     "cost_model_uses_costs": (c_void_p, POINTER(c_int)),
 }
-DESTROYED = ("destroy", "ghosts_destroy", "controller_destroy", "cost_model_destroy")
+DESTROYED = tuple(
+    handle + "destroy" for handle in ("", "ghosts_", "groups_", "controller_", "cost_model_")
+)
 
 
 class DlInfo(Structure):

@@ -18,7 +18,7 @@ from mpi4py import MPI
 from . import _library as c
 from ._agreement import communicator, prepare
 from ._arrays import Array, Columns
-from ._balance import Distribution, assign, balance
+from ._balance import Distribution, assign_all, balance
 from ._cuts import CUT, Cuts
 from ._ghosts import Ghosts
 
@@ -174,7 +174,7 @@ def distribute(
         return data
     if partition.balanced:
         x = prepare(partition.comm, lambda: positions_of(partition, box_size, data, coord_keys))
-        assigned = assign(x, partition.cuts, partition.comm)
+        assigned = assign_all(x, partition.cuts, partition.comm)
     else:
         assigned = partition.balance(box_size, data, coord_keys)
     moved: Data = assigned.distribute(data)

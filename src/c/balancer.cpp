@@ -86,7 +86,7 @@ void require_parts(const rrcb_balancer& own, std::size_t num_parts) {
 }
 
 void require_plan(const rrcb_balancer& own) {
-    if (!own.plan) reject("the balancer has no plan yet; call rrcb_make_plan");
+    if (!own.plan) reject("the balancer has no plan yet; call rrcb_plan");
 }
 
 }  // namespace rrcb::c
@@ -171,6 +171,13 @@ int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts) {
     });
 }
 
+int rrcb_clear_cuts(rrcb_balancer* balancer) {
+    return guarded(balancer, [](auto& own) {
+        own.cuts = {};
+        own.least_count = rrcb_balancer::no_count;
+    });
+}
+
 int rrcb_save_cuts(rrcb_balancer* balancer, const void** bytes, size_t* size) {
     return guarded(balancer, [&](auto& own) {
         require(bytes, "bytes");
@@ -242,7 +249,7 @@ int rrcb_release_buffers(rrcb_balancer* balancer) {
     return guarded(balancer, [](const auto& own) { rrcb::release_buffers(own.comm); });
 }
 
-int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan) {
+int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan_lists* plan) {
     return guarded(balancer, [&](const auto& own) {
         require(plan, "plan");
         require_plan(own);

@@ -1,10 +1,10 @@
-#include "balance_mpi.hpp"
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
 #include "cuts/cuts_mpi.hpp"
 #include "lists/assign_all_mpi.hpp"
 #include "options/request.hpp"
 #include "search/workspace_mpi.hpp"
+#include "verbose_mpi.hpp"
 
 #include <algorithm>
 
@@ -12,18 +12,16 @@ namespace rrcb::c {
 
 namespace {
 
-/// Balances from earlier cuts, or anew. Collective.
-void balance(const rrcb_points* given, const Cuts* previous, int32_t* parts, rrcb_balancer& own,
-             Participant& self) {
+/// Balances from the cuts of the balancer, if it has any. Collective.
+void balance(const rrcb_points* given, int32_t* parts, rrcb_balancer& own, Participant& self) {
     Points points;
     Workspace* workspace = nullptr;
     self.attempt([&] {
         workspace = &workspace_of(self.comm);
-        if (previous != nullptr) require_cuts(own);
         points = points_of(given);
         require_array(points.count, parts, "parts");
     });
-    Balance made = rrcb::balance(points, own.options, previous, true, self,
+    Balance made = balance_aloud(points, own.options, own.cuts, self,
                                  workspace ? std::move(workspace->result) : std::vector<Part>());
     std::ranges::copy(made.parts, parts);
     own.cuts = std::move(made.cuts);
@@ -57,13 +55,7 @@ int rrcb_create_fortran(int comm, rrcb_balancer** balancer) {
 
 int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
     return guarded_together(CallName::balance, balancer, [&](auto& own, Participant& self) {
-        rrcb::c::balance(points, nullptr, parts, own, self);
-    });
-}
-
-int rrcb_rebalance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded_together(CallName::rebalance, balancer, [&](auto& own, Participant& self) {
-        rrcb::c::balance(points, &own.cuts, parts, own, self);
+        rrcb::c::balance(points, parts, own, self);
     });
 }
 

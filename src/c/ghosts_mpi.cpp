@@ -189,6 +189,15 @@ int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_
     });
 }
 
+int rrcb_ghosts_reply(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_column* columns,
+                      const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
+    return guarded_together(CallName::reply, ghosts, [&](const auto& own, Participant& self) {
+        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+        call.move_by(rrcb::detail::Replies{own.plan}, rrcb::total(own.plan.receive),
+                     own.plan.send_indices.size(), self);
+    });
+}
+
 int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
                            const rrcb_column* columns, const rrcb_transfer_limits* limits,
                            rrcb_transfer_report* report) {

@@ -46,7 +46,7 @@ int rrcb_ranks_of_part(int32_t part, int num_parts, int num_ranks, rrcb_rank_ran
     });
 }
 
-int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) {
+int rrcb_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) {
     return guarded_together(CallName::plan, balancer, [&](auto& own, Participant& self) {
         self.attempt([&] {
             rrcb::c::require_cuts(own);

@@ -5,20 +5,33 @@
 namespace rrcb {
 
 std::string_view name_of(CallName call) {
-    constexpr std::array names{"no function",    "balance",
-                               "rebalance",      "balance_as_in_paper",
-                               "plan",           "remap",
-                               "transfer",       "ghosts",
-                               "fetch",          "accumulate",
-                               "groups",         "fetch of groups",
-                               "sums",           "part_weights",
-                               "moved_fraction", "gather_cuts",
-                               "assign_all",     "rrcb_create (Python: balance, assign)",
-                               "Controller",     "Controller::step",
-                               "CostModel",      "CostModel::step",
-                               "verify",         "save",
-                               "load",           "join_keys"};
-    static_assert(names.size() == static_cast<std::size_t>(CallName::join_keys) + 1 &&
+    constexpr std::array names{"no function",
+                               "balance",
+                               "balance_as_in_paper",
+                               "plan",
+                               "remap",
+                               "transfer",
+                               "ghosts",
+                               "fetch",
+                               "accumulate",
+                               "groups",
+                               "fetch of groups",
+                               "sums",
+                               "part_weights",
+                               "moved_fraction",
+                               "gather_cuts",
+                               "assign_all",
+                               "rrcb_create (Python: balance, assign_all)",
+                               "Controller",
+                               "Controller::step",
+                               "CostModel",
+                               "CostModel::step",
+                               "verify",
+                               "save",
+                               "load",
+                               "join_keys",
+                               "reply"};
+    static_assert(names.size() == static_cast<std::size_t>(CallName::reply) + 1 &&
                   names.size() <= most_call_names);
     return names.at(static_cast<std::size_t>(call));
 }

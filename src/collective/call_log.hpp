@@ -17,7 +17,6 @@ namespace rrcb {
 enum class CallName : std::uint8_t {
     none,
     balance,
-    rebalance,
     balance_as_in_paper,
     plan,
     remap,
@@ -40,7 +39,8 @@ enum class CallName : std::uint8_t {
     verify,
     save,
     load,
-    join_keys
+    join_keys,
+    reply
 };
 inline constexpr int most_call_names = 32;
 

@@ -24,12 +24,12 @@ module rrcb_balancers
     procedure :: set
     procedure :: set_part_sizes
     procedure :: balance
-    procedure :: rebalance
     procedure :: release_buffers
     procedure :: get_report
     procedure :: get_cuts
     procedure :: gather_cuts
     procedure :: set_cuts
+    procedure :: clear_cuts
     procedure :: save_cuts
     procedure :: load_cuts
     procedure :: part_of
@@ -37,7 +37,7 @@ module rrcb_balancers
     procedure :: assign_all
     procedure :: box_of
     procedure :: parts_touching
-    procedure :: make_plan
+    procedure :: plan => make_plan
     procedure :: get_plan
     procedure :: transfer => transfer_columns
     procedure :: remap
@@ -90,7 +90,8 @@ contains
     call settle(c_set_part_sizes(self%handle, size(sizes, kind=c_size_t), sizes), error)
   end subroutine
 
-  !> Divides the points of all ranks into parts and keeps the cuts. Collective.
+  !> Divides the points of all ranks into parts; starts from the cuts of the balancer, if it has any,
+  !> and keeps the new ones. Collective.
   !> @param points of this rank
   !> @param parts  gets the new part of each
   subroutine balance(self, points, parts, error)
@@ -99,17 +100,6 @@ contains
     integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
     integer, intent(out), optional :: error
     call settle(c_balance(self%handle, points, place_of(parts, points%count)), error)
-  end subroutine
-
-  !> Divides points that moved little, from the cuts of the balancer. Collective.
-  !> @param points of this rank
-  !> @param parts  gets the new part of each
-  subroutine rebalance(self, points, parts, error)
-    class(rrcb_balancer), intent(inout) :: self
-    type(rrcb_points), intent(in) :: points
-    integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
-    integer, intent(out), optional :: error
-    call settle(c_rebalance(self%handle, points, place_of(parts, points%count)), error)
   end subroutine
 
   !> Frees the buffers that calls on the communicator keep. Not collective.
@@ -165,6 +155,13 @@ contains
                    merge(1, 0, cuts%larger_below), cuts%dealt)
     if (size(tree) > 0) given%tree = c_loc(tree)
     call settle(c_set_cuts(self%handle, given), error)
+  end subroutine
+
+  !> Forgets the cuts: the next balance starts from scratch. Not collective, but on all ranks.
+  subroutine clear_cuts(self, error)
+    class(rrcb_balancer), intent(inout) :: self
+    integer, intent(out), optional :: error
+    call settle(c_clear_cuts(self%handle), error)
   end subroutine
 
   !> Returns the cuts as bytes. Not collective.
@@ -282,7 +279,7 @@ contains
   !> Copies the lists of the plan. Not collective.
   subroutine get_plan(self, plan, error)
     class(rrcb_balancer), intent(in) :: self
-    type(rrcb_plan), intent(inout) :: plan
+    type(rrcb_plan_lists), intent(inout) :: plan
     integer, intent(out), optional :: error
     type(c_plan) :: from
     call settle(c_get_plan(self%handle, from), error)

@@ -122,13 +122,14 @@ module rrcb_c_functions
   procedure(free), bind(c, name="rrcb_controller_destroy") :: c_controller_destroy
   procedure(free), bind(c, name="rrcb_cost_model_destroy") :: c_cost_model_destroy
   procedure(divide), bind(c, name="rrcb_balance") :: c_balance
-  procedure(divide), bind(c, name="rrcb_rebalance") :: c_rebalance
   procedure(divide), bind(c, name="rrcb_assign") :: c_assign
   procedure(divide), bind(c, name="rrcb_assign_all") :: c_assign_all
   procedure(call_of), bind(c, name="rrcb_release_buffers") :: c_release_buffers
   procedure(call_of), bind(c, name="rrcb_gather_cuts") :: c_gather_cuts
+  procedure(call_of), bind(c, name="rrcb_clear_cuts") :: c_clear_cuts
   procedure(move), bind(c, name="rrcb_transfer") :: c_transfer
   procedure(move), bind(c, name="rrcb_ghosts_fetch") :: c_ghosts_fetch
+  procedure(move), bind(c, name="rrcb_ghosts_reply") :: c_ghosts_reply
   procedure(move), bind(c, name="rrcb_ghosts_accumulate") :: c_ghosts_accumulate
   procedure(move), bind(c, name="rrcb_groups_fetch") :: c_groups_fetch
   procedure(measure), bind(c, name="rrcb_imbalance") :: c_imbalance
@@ -194,7 +195,7 @@ module rrcb_c_functions
       integer(c_int32_t), intent(inout) :: parts(*)
       integer(c_size_t), intent(inout) :: count
     end function
-    integer(c_int) function c_make_plan(handle, count, parts) bind(c, name="rrcb_make_plan")
+    integer(c_int) function c_make_plan(handle, count, parts) bind(c, name="rrcb_plan")
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: count

@@ -23,21 +23,27 @@ module rrcb_controllers
     procedure :: destroy => controller_destroy
     procedure :: save => controller_save
     procedure :: load => controller_load
-    procedure :: step => controller_step
+    procedure, private :: controller_step, controller_step_weight
+    generic :: step => controller_step
+    generic :: step => controller_step_weight
     procedure :: due => controller_due
-    procedure :: rebalanced => controller_rebalanced
+    procedure, private :: controller_rebalanced, controller_rebalanced_cost
+    generic :: rebalanced => controller_rebalanced
+    generic :: rebalanced => controller_rebalanced_cost
   end type
 
   !> Learns the costs of points. A copy is the same model; one of them is destroyed.
   type, public :: rrcb_cost_model
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
-    procedure, private :: cost_model_create
+    procedure, private :: cost_model_create, cost_model_create_alone
 #ifdef RRCB_MPI_F08
-    procedure, private :: cost_model_create_by_type
+    procedure, private :: cost_model_create_by_type, cost_model_create_alone_by_type
     generic :: create => cost_model_create_by_type
+    generic :: create => cost_model_create_alone_by_type
 #endif
     generic :: create => cost_model_create
+    generic :: create => cost_model_create_alone
     procedure :: destroy => cost_model_destroy
     procedure :: save => cost_model_save
     procedure :: load => cost_model_load
@@ -60,16 +66,27 @@ contains
   end subroutine
 
   !> Does the same with the type of `use mpi_f08`.
-  !> @param comm        as above
-  !> @param num_columns as above
-  !> @param controller  as above
-  subroutine cost_model_create_by_type(self, comm, num_columns, error, controller)
+  !> @param comm        may be freed before the model
+  !> @param controller  carries the sums with its steps: is destroyed later, has recorded none
+  !> @param num_columns the same on every rank
+  subroutine cost_model_create_by_type(self, comm, controller, num_columns, error)
+    class(rrcb_cost_model), intent(inout) :: self
+    type(MPI_Comm), intent(in) :: comm
+    class(rrcb_controller), intent(in) :: controller
+    integer, intent(in) :: num_columns
+    integer, intent(out), optional :: error
+    call self%create(comm%mpi_val, controller, num_columns, error)
+  end subroutine
+
+  !> Does the same with the type of `use mpi_f08`.
+  !> @param comm        may be freed before the model
+  !> @param num_columns the same on every rank
+  subroutine cost_model_create_alone_by_type(self, comm, num_columns, error)
     class(rrcb_cost_model), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
     integer, intent(in) :: num_columns
     integer, intent(out), optional :: error
-    class(rrcb_controller), intent(in), optional :: controller
-    call self%create(comm%mpi_val, num_columns, error, controller)
+    call self%create(comm%mpi_val, num_columns, error)
   end subroutine
 #endif
 
@@ -88,21 +105,25 @@ contains
     self%handle = c_null_ptr
   end subroutine
 
-  !> Records a step. Collective.
-  !> @param load   of this rank's own work, without waiting
-  !> @param weight of this rank's points: the sum of the weights balanced by, their number only
-  !> without weights; smooths the load
-  subroutine controller_step(self, load, error, weight)
+  !> Records a step that took this rank `load` of its own work, without waiting. Collective.
+  subroutine controller_step(self, load, error)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: load
     integer, intent(out), optional :: error
-    real(c_double), intent(in), optional :: weight
     integer(c_int) :: due
-    if (present(weight)) then
-      call settle(c_controller_step_weight(self%handle, load, weight, due), error)
-    else
-      call settle(c_controller_step(self%handle, load, due), error)
-    end if
+    call settle(c_controller_step(self%handle, load, due), error)
+  end subroutine
+
+  !> Records a step and smooths the load; prefer it for measured loads. Collective.
+  !> @param load   of this rank's own work, without waiting
+  !> @param weight of this rank's points: the sum of the weights balanced by, their number only
+  !> without weights
+  subroutine controller_step_weight(self, load, weight, error)
+    class(rrcb_controller), intent(inout) :: self
+    real(c_double), intent(in) :: load, weight
+    integer, intent(out), optional :: error
+    integer(c_int) :: due
+    call settle(c_controller_step_weight(self%handle, load, weight, due), error)
   end subroutine
 
   !> Returns whether to rebalance before the next step; false for a controller that was not created.
@@ -115,14 +136,22 @@ contains
   end function
 
   !> Records a rebalance. Called on all ranks, without communication.
-  !> @param cost   on this rank, in the unit of the loads
   !> @param report of the balance
-  subroutine controller_rebalanced(self, cost, error, report)
+  !> @param cost   on this rank, in the unit of the loads
+  subroutine controller_rebalanced(self, report, cost, error)
+    class(rrcb_controller), intent(inout) :: self
+    type(rrcb_report), intent(in) :: report
+    real(c_double), intent(in) :: cost
+    integer, intent(out), optional :: error
+    call settle(c_controller_rebalanced(self%handle, report, cost), error)
+  end subroutine
+
+  !> Records a rebalance by a balancer without a report. On all ranks, without communication.
+  subroutine controller_rebalanced_cost(self, cost, error)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: cost
     integer, intent(out), optional :: error
-    type(rrcb_report), intent(in), optional :: report
-    call settle(c_controller_rebalanced(self%handle, report, cost), error)
+    call settle(c_controller_rebalanced(self%handle, cost=cost), error)
   end subroutine
 
   !> Returns the state as bytes, the same on every rank. Collective.
@@ -182,18 +211,27 @@ contains
 
   !> Makes a model. Collective over the communicator.
   !> @param comm        may be freed before the model
-  !> @param num_columns the same on every rank
   !> @param controller  carries the sums with its steps: is destroyed later, has recorded none
-  subroutine cost_model_create(self, comm, num_columns, error, controller)
+  !> @param num_columns the same on every rank
+  subroutine cost_model_create(self, comm, controller, num_columns, error)
+    class(rrcb_cost_model), intent(inout), target :: self
+    integer, intent(in) :: comm
+    class(rrcb_controller), intent(in), target :: controller
+    integer, intent(in) :: num_columns
+    integer, intent(out), optional :: error
+    call settle(c_cost_model_create(int(comm, c_int), controller%handle, int(num_columns, c_int), &
+      room_for(self%handle)), error)
+  end subroutine
+
+  !> Makes a model without a controller, on a communicator of its own. Collective.
+  !> @param comm        may be freed before the model
+  !> @param num_columns the same on every rank
+  subroutine cost_model_create_alone(self, comm, num_columns, error)
     class(rrcb_cost_model), intent(inout), target :: self
     integer, intent(in) :: comm, num_columns
     integer, intent(out), optional :: error
-    class(rrcb_controller), intent(in), target, optional :: controller
-    type(c_ptr), pointer :: steps
-    steps => null()
-    if (present(controller)) steps => controller%handle
-    call settle(c_cost_model_create(int(comm, c_int), steps, int(num_columns, c_int), &
-      room_for(self%handle)), error)
+    call settle(c_cost_model_create(int(comm, c_int), num_columns=int(num_columns, c_int), &
+      handle=room_for(self%handle)), error)
   end subroutine
 
   !> Frees the model. Collective unless it was made with a controller.

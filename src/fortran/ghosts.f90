@@ -16,6 +16,7 @@ module rrcb_ghost_lists
     procedure :: destroy
     procedure :: get_plan
     procedure :: fetch
+    procedure :: reply
     procedure :: accumulate
     procedure :: verify
     generic :: apply_shifts => shift_doubles, shift_reals
@@ -108,6 +109,24 @@ contains
     code = c_ghosts_get_plan(self%handle, plan)
     call settle(c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), &
       columns_in_c(columns, plan%num_points, plan%num_ghosts), limit, report), error)
+  end subroutine
+
+  !> Fetches rows that the ranks of the ghosts send back: `from` has an entry for each ghost, `to` gets
+  !> one for each of send_indices of the plan. Collective.
+  !> @param columns the same in the same order on every rank
+  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param report  gets memory and messages
+  subroutine reply(self, columns, error, limit, report)
+    class(rrcb_ghosts), intent(in) :: self
+    type(rrcb_column), intent(in) :: columns(:)
+    integer, intent(out), optional :: error
+    integer(c_size_t), intent(in), optional :: limit
+    type(rrcb_transfer_report), intent(inout), optional :: report
+    type(c_ghost_plan) :: plan
+    integer(c_int) :: code
+    code = c_ghosts_get_plan(self%handle, plan)
+    call settle(c_ghosts_reply(self%handle, size(columns, kind=c_size_t), &
+      columns_in_c(columns, plan%num_ghosts, plan%num_sent), limit, report), error)
   end subroutine
 
   !> Adds columns of the ghosts, `from`, to those of their points, `to`. Collective.

@@ -64,7 +64,7 @@ module rrcb_types
   end type
 
   !> Lists of the points whose rank changes.
-  type, public :: rrcb_plan
+  type, public :: rrcb_plan_lists
     integer(c_size_t) :: num_points = 0, num_points_after = 0
     integer(c_size_t), allocatable :: export_indices(:), import_indices(:)
     integer(c_int), allocatable :: export_ranks(:), import_ranks(:)

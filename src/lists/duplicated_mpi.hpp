@@ -30,6 +30,8 @@ void move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
 void move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_ghosts,
                std::span<const detail::ByteColumn> of_points, const TransferLimits& limits,
                TransferReport* report, Participant& self);
+void move(const detail::Replies& replies, std::span<const detail::ByteColumn> columns,
+          const TransferLimits& limits, TransferReport* report, Participant& self);
 
 Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPlace place,
               Participant& self);

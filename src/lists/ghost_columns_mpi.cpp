@@ -80,6 +80,9 @@ void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
     self.attempt([&] {
         delivery.num_points = check(plan, self);
         delivery.overtaking = overtaking(plan, self.comm);
+        if (of_points.empty())
+            for (const ByteColumn& column : of_ghosts)
+                check_column(column, delivery.num_points, "ghosts of the plan");
         for (std::size_t k = 0; k < of_points.size(); ++k) {
             require(of_ghosts[k].components == of_points[k].components,
                     "columns of ghosts must have as many components as those of the points");
@@ -91,6 +94,11 @@ void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
         delivery.from = plan.send;
     });
     deliver(delivery, of_ghosts, limits, report, self);
+}
+
+void move(const detail::Replies& replies, std::span<const ByteColumn> columns,
+          const TransferLimits& limits, TransferReport* report, Participant& self) {
+    move_back(replies.plan, columns, {}, limits, report, self);
 }
 
 void move(const Groups& groups, std::span<const ByteColumn> columns, const TransferLimits& limits,
@@ -152,6 +160,12 @@ void detail::move_back(const GhostPlan& plan, std::span<const ByteColumn> of_gho
                        TransferReport* report, MPI_Comm user) {
     Participant self = mpi::enter(user, CallName::accumulate);
     rrcb::move_back(plan, of_ghosts, of_points, limits, report, self);
+}
+
+void detail::move(const Replies& replies, std::span<const ByteColumn> columns,
+                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
+    Participant self = mpi::enter(user, CallName::reply);
+    rrcb::move(replies, columns, limits, report, self);
 }
 
 void detail::move(const Groups& groups, std::span<const ByteColumn> columns,

@@ -213,11 +213,12 @@ void check_previous(const Cuts& previous, const Options& options, int dimension)
     if (previous.num_parts != options.num_parts)
         reject("previous cuts have " + std::to_string(previous.num_parts) + " parts, not " +
                std::to_string(options.num_parts) + "; set num_parts to " +
-               std::to_string(previous.num_parts) + ", or call balance without them");
+               std::to_string(previous.num_parts) +
+               ", or pass no cuts ({}; None; rrcb_clear_cuts)");
     require(
         previous.dimension == dimension && previous.shape == options.tree && has_its_cuts(previous),
         "previous cuts must have the dimension and the shape of tree asked for; "
-        "call balance without them");
+        "pass no cuts ({}; None; rrcb_clear_cuts)");
     require(has_legal_cuts(previous), illegal_cut);
 }
 

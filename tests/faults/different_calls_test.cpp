@@ -48,7 +48,7 @@ struct Input {
         points = interleaved_points(coordinates, 2);
         for (int r = 0; r < num_ranks(); ++r) ranks.push_back({r, 1});
         for (std::uint64_t i = 0; i < 40; ++i) keys.push_back(i / 2);
-        balanced = balance(points, {}, world);
+        balanced = balance(points, {}, {}, world);
         balanced.cuts.points = 0;  // the points stay where they are
         lists = plan(balanced, world);
         near = ghosts(balanced.cuts, points, {.radius = 0.1}, world);
@@ -79,8 +79,7 @@ struct NamedCall {
 /// Every collective function. Steps wait for those before, so two of them wait for all ranks.
 std::vector<NamedCall> all_calls() {
     return {
-        {"balance", [](Input& in) { balance(in.points, {}, world); }},
-        {"rebalance", [](Input& in) { rebalance(in.points, {}, in.balanced.cuts, world); }},
+        {"balance", [](Input& in) { balance(in.points, {}, {}, world); }},
         {"balance_as_in_paper", [](Input& in) { balance_as_in_paper(in.points, {}, world); }},
         {"plan", [](Input& in) { plan(in.balanced, world); }},
         {"remap", [](Input& in) { remap(in.balanced.parts, in.ranks, world); }},
@@ -92,6 +91,7 @@ std::vector<NamedCall> all_calls() {
              std::vector<double> sums(in.points.count);
              accumulate(in.near, column(in.of_ghosts), column(sums), world);
          }},
+        {"reply", [](Input& in) { static_cast<void>(reply(in.near, in.of_ghosts, world)); }},
         {"verify", [](Input& in) { verify(in.near, in.points, {.sample = 5}, world); }},
         {"groups", [](Input& in) { groups(in.points, in.keys, world); }},
         {"fetch of groups",
@@ -116,7 +116,7 @@ std::vector<NamedCall> all_calls() {
          [](Input&) {
              CostModel{world, 1};
          }},
-        {"rrcb_create (Python: balance, assign)",
+        {"rrcb_create (Python: balance, assign_all)",
          [](Input&) {
              rrcb_balancer* made = nullptr;
              if (rrcb_create(world, &made) != RRCB_OK)
@@ -157,7 +157,7 @@ TEST_F(DifferentCalls, get_an_error_on_every_rank_that_names_them_and_the_next_c
             in.make_controllers();
             expect_difference(others, odd, static_cast<int>(i % 2), in);
             ASSERT_FALSE(HasFatalFailure() || HasNonfatalFailure()) << others.name << odd.name;
-            EXPECT_EQ(balance(in.points, {}, world).parts, in.balanced.parts);
+            EXPECT_EQ(balance(in.points, {}, {}, world).parts, in.balanced.parts);
         }
 }
 
@@ -171,7 +171,7 @@ TEST_F(DifferentCalls, end_the_controllers_that_were_made_before) {
     const auto step = [&] { in.controller->step(1); };
     test::expect_same_error(step, "rank 1 calls plan", ErrorCode::mpi);
     test::expect_same_error(step, "make another controller", ErrorCode::mpi);
-    EXPECT_EQ(balance(in.points, {}, world).parts, in.balanced.parts);
+    EXPECT_EQ(balance(in.points, {}, {}, world).parts, in.balanced.parts);
 }
 
 TEST_F(DifferentCalls, are_found_although_a_step_was_left_out_before) {
@@ -180,7 +180,7 @@ TEST_F(DifferentCalls, are_found_although_a_step_was_left_out_before) {
     test::expect_same_error(
         [&] {
             if (rank() != 1) in.controller->step(1);
-            balance(in.points, {}, world);
+            balance(in.points, {}, {}, world);
         },
         "rank 0 calls Controller::step, rank 1 calls balance", ErrorCode::mpi);
 }
@@ -191,7 +191,7 @@ TEST_F(DifferentCalls, are_not_suspected_of_ranks_that_are_late) {
         std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
         EXPECT_EQ(plan(in.balanced, world).import_parts, in.lists.import_parts);
         std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
-        EXPECT_EQ(balance(in.points, {}, world).parts, in.balanced.parts);
+        EXPECT_EQ(balance(in.points, {}, {}, world).parts, in.balanced.parts);
         std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
         EXPECT_EQ(assign_all(in.balanced.cuts, in.points, world), in.balanced.parts);
     }
@@ -205,7 +205,7 @@ TEST_F(DifferentCalls, give_a_c_program_the_code_and_the_text) {
     rrcb_balancer* balancer = nullptr;
     ASSERT_EQ(rrcb_create(world, &balancer), RRCB_OK);
     EXPECT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
-    const int code = rank() == 1 ? rrcb_make_plan(balancer, parts.size(), parts.data())
+    const int code = rank() == 1 ? rrcb_plan(balancer, parts.size(), parts.data())
                                  : rrcb_balance(balancer, &points, parts.data());
     EXPECT_EQ(code, RRCB_MPI_ERROR);
     EXPECT_STREQ(rrcb_last_error(),

@@ -52,8 +52,8 @@ void fail_in_balance(const Options& options, const Cuts* previous = nullptr,
                      const std::vector<double>& coordinates = cloud_here(2)) {
     const Points points = interleaved_points(coordinates, 2);
     const auto call = [&] {
-        return previous ? rebalance(points, options, *previous, MPI_COMM_WORLD)
-                        : balance(points, options, MPI_COMM_WORLD);
+        return previous ? balance(points, options, *previous, MPI_COMM_WORLD)
+                        : balance(points, options, {}, MPI_COMM_WORLD);
     };
     const std::vector<Part> expected = call().parts;
     fail_in(call, [&](const Balance& result) { EXPECT_EQ(result.parts, expected); });
@@ -104,7 +104,8 @@ TEST(FailingMemory, in_parts_that_many_ranks_make) {
 TEST(FailingMemory, in_cuts_from_an_earlier_call) {
     const std::vector<double> coordinates = cloud_here(2);
     const Cuts good =
-        balance(interleaved_points(coordinates, 2), refining(Refine::exact), MPI_COMM_WORLD).cuts;
+        balance(interleaved_points(coordinates, 2), refining(Refine::exact), {}, MPI_COMM_WORLD)
+            .cuts;
     Cuts moved = good;
     for (Cut& cut : moved.tree) cut.at[static_cast<std::size_t>(cut.axis)] += 0.05;
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
@@ -122,7 +123,7 @@ TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
     options.imbalance_tolerance = 1.5;
     std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
-    Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
     cuts.points = 0;  // the points stay where they are
     for (double& x : coordinates) x = 1 - x;
     fail_in_balance(options, &cuts, coordinates);
@@ -164,10 +165,10 @@ TEST(FailingMemory, in_a_correction_of_all_cuts) {
     options.imbalance_tolerance = 1.1;
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
-    Cuts moved = balance(points, options, MPI_COMM_WORLD).cuts;
+    Cuts moved = balance(points, options, {}, MPI_COMM_WORLD).cuts;
     moved.tree[0].at[static_cast<std::size_t>(moved.tree[0].axis)] += 0.12;
     // A look at the cuts, one at what lies about them, one at them as they were moved.
-    ASSERT_EQ(rebalance(points, options, moved, MPI_COMM_WORLD).report.details.rounds, 3);
+    ASSERT_EQ(balance(points, options, moved, MPI_COMM_WORLD).report.details.rounds, 3);
     fail_in_balance(options, &moved, coordinates);
 }
 
@@ -253,7 +254,7 @@ TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
     const Points points = interleaved_points(coordinates, 2);
     Options options;
     options.num_parts = 2 * test::num_ranks();
-    Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
     cuts.points = 0;  // the points stay where they are
     const auto call = [&] {
         const GhostPlan lists = ghosts(cuts, points, {.radius = 0.1}, MPI_COMM_WORLD);
@@ -304,7 +305,7 @@ TEST(FailingMemory, in_functions_of_one_rank) {
     CostModel model(MPI_COMM_WORLD, 2);
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
-    const Cuts cuts = balance(points, refining(Refine::exact), MPI_COMM_WORLD).cuts;
+    const Cuts cuts = balance(points, refining(Refine::exact), {}, MPI_COMM_WORLD).cuts;
     const Box box = bounding_box(points);
     const SupportMesh mesh = make_support_mesh(box, 2, 4);
     const std::vector<CellMoments> cells = cell_moments(points, mesh);

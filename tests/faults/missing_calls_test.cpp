@@ -30,7 +30,7 @@ struct NamedCall {
 
 /// The calls begin with messages of different kinds.
 const std::vector<NamedCall> calls{
-    {"balance", [](MPI_Comm comm) { balance(points, {}, comm); }},
+    {"balance", [](MPI_Comm comm) { balance(points, {}, {}, comm); }},
     {"plan", [](MPI_Comm comm) { plan(parts, num_ranks(), comm); }},
     {"part_weights", [](MPI_Comm comm) { part_weights(points, parts, num_ranks(), comm); }},
 };
@@ -68,7 +68,7 @@ MPI_Comm fresh() {
 TEST(MissingCalls, are_named_on_the_ranks_that_wait_for_them) {
     for (const int i : {0, 1, 2}) {
         MPI_Comm comm = fresh();
-        balance(points, {}, comm);
+        balance(points, {}, {}, comm);
         expect_missing(i % 2, calls[static_cast<std::size_t>(i)], comm);
     }
 }
@@ -97,7 +97,7 @@ TEST(MissingCalls, of_a_step_are_named_by_the_steps_that_follow) {
 TEST(LateCalls, are_waited_for_up_to_the_limit) {
     if (std::getenv("RRCB_AGREE_SECONDS") != std::string("3")) GTEST_SKIP() << "needs 3 s";
     const MPI_Comm comm = fresh();
-    balance(points, {}, comm);
+    balance(points, {}, {}, comm);
     for (const int late : {0, 1}) {
         MPI_Barrier(MPI_COMM_WORLD);
         std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 2400 : 0));

@@ -38,7 +38,7 @@ int code_of_balance(MPI_Comm comm) {
     try {
         Options options;
         options.refine = Refine::exact;
-        balance(interleaved_points(coordinates, 2), options, comm);
+        balance(interleaved_points(coordinates, 2), options, {}, comm);
         return ok;
     } catch (const Error& error) {
         return static_cast<int>(error.code());

@@ -130,7 +130,7 @@ Options options_of(const Round& round) {
 }
 
 bool balances(const Round& round, MPI_Comm comm) {
-    return is_right(balance(round.mine().points(), options_of(round), comm), round);
+    return is_right(balance(round.mine().points(), options_of(round), {}, comm), round);
 }
 
 bool balances_as_in_paper(const Round& round, MPI_Comm comm) {
@@ -143,8 +143,8 @@ bool balances_as_in_paper(const Round& round, MPI_Comm comm) {
 bool balances_twice(const Round& round, MPI_Comm comm) {
     const Options options = options_of(round);
     const Points points = round.mine().points();
-    const Balance first = balance(points, options, comm);
-    return is_right(first, round) && is_right(rebalance(points, options, first.cuts, comm), round);
+    const Balance first = balance(points, options, {}, comm);
+    return is_right(first, round) && is_right(balance(points, options, first.cuts, comm), round);
 }
 
 bool plans(const Round& round, MPI_Comm comm) {
@@ -225,7 +225,7 @@ double square_apart(const Cuts& cuts, const Vector& x) {
 
 bool fetches_ghosts(const Round& round, MPI_Comm comm) {
     const Points points = round.mine().points();
-    Cuts cuts = balance(points, options_of(round), comm).cuts;
+    Cuts cuts = balance(points, options_of(round), {}, comm).cuts;
     cuts.points = 0;  // the points stay where they are
     const double radius = std::ldexp(static_cast<double>(round.drawn() % 8), -4);
     const GhostPlan lists = ghosts(cuts, points, {.radius = radius}, comm);

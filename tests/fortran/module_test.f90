@@ -17,7 +17,7 @@ program module_test
   type(rrcb_rank_range) :: no_ranks(0)
   type(rrcb_cuts) :: no_cuts
   type(rrcb_groups) :: groups
-  type(rrcb_plan) :: plan
+  type(rrcb_plan_lists) :: plan
   type(rrcb_ghost_plan) :: ghost_plan
   type(rrcb_report) :: report
   type(rrcb_transfer_report) :: messages
@@ -26,7 +26,7 @@ program module_test
   type(rrcb_cuts) :: cuts
   real(c_double), allocatable, target :: x(:, :), weights(:), moved(:, :), moved_weights(:)
   real(c_float), allocatable, target :: short_x(:, :), short_positions(:)
-  real(c_float), allocatable, target :: short(:), moved_short(:)
+  real(c_float), allocatable, target :: short(:), moved_short(:), replies(:)
   integer(c_int32_t), allocatable, target :: numbers(:), moved_numbers(:)
   integer(c_int32_t), allocatable :: parts(:), again(:)
   integer(c_int32_t), allocatable, target :: parts_of_groups(:), parts_of_points(:)
@@ -69,8 +69,8 @@ program module_test
   call expect(error == rrcb_ok, "balance")
   ! Of sizes 1, 3 and 2: points 1 to 50, 51 to 200 and the rest.
   call expect(all(parts == merge(0, merge(1, 2, numbers <= 200), numbers <= 50)), "parts")
-  call balancer%make_plan(parts(:size(parts) - 1), error)
-  call expect(error == rrcb_invalid_argument, "make_plan of too few points")
+  call balancer%plan(parts(:size(parts) - 1), error)
+  call expect(error == rrcb_invalid_argument, "plan of too few points")
   call balancer%get_report(report, error)
   call expect(report%num_points == 300 .and. report%total_weight == 600, "report")
   call expect(report%imbalance == 1 .and. report%within_tolerance == 1, "imbalance")
@@ -126,18 +126,18 @@ program module_test
   call other%set("tree.dealt", "0")
   call other%set("tolerance", "1.1", error)
   call expect_text("did you mean imbalance_tolerance?")
-  call other%rebalance(rrcb_interleaved_points(x), again, error)
-  call expect(error == rrcb_ok .and. all(again == parts), "rebalance")
-  call other%rebalance(rrcb_interleaved_points(x), again(2:), error)
+  call other%balance(rrcb_interleaved_points(x), again, error)
+  call expect(error == rrcb_ok .and. all(again == parts), "balance from the cuts")
+  call other%balance(rrcb_interleaved_points(x), again(2:), error)
   call expect(error == rrcb_invalid_argument, "too few parts")
-  call other%rebalance(rrcb_interleaved_points(x, sizes), again, error)
+  call other%balance(rrcb_interleaved_points(x, sizes), again, error)
   call expect(error == rrcb_invalid_argument, "weights of other points")
   call expect_text("rank 0: weights has 3 entries for 300 points; give one for each")
-  call other%rebalance(rrcb_interleaved_points(turned), again, error)
+  call other%balance(rrcb_interleaved_points(turned), again, error)
   call expect_text("coordinates has the shape (5, 3); give (dimension, points)")
-  call other%rebalance(rrcb_column_points(positions, positions(2:)), again, error)
+  call other%balance(rrcb_column_points(positions, positions(2:)), again, error)
   call expect_text("rank 0: x, y and z must have one length, not 300 and 299")
-  call other%rebalance(rrcb_interleaved_points(x), again(2:), error)
+  call other%balance(rrcb_interleaved_points(x), again(2:), error)
   call expect_text("parts is null (in Fortran: or has the wrong length); it must hold 300 entries")
   call other%create(MPI_COMM_WORLD, error)
   call expect_text("balancer is null; give the address of a pointer (in Fortran: destroy what was")
@@ -155,6 +155,9 @@ program module_test
     call other%part_of([i + 0.5_c_double], part, error)
     call expect(part == 2*modulo(i, 2) + i/2, "part_of dealt parts")
   end do
+  call other%clear_cuts(error)
+  call other%get_cuts(cuts, error)
+  call expect(error == rrcb_invalid_argument, "clear_cuts")
   call other%destroy()
 
   call balancer%part_weights(rrcb_interleaved_points(x, weights), parts, of_parts, error)
@@ -191,8 +194,8 @@ program module_test
 
   call ghosts%create(balancer, rrcb_interleaved_points(x), error, radius=2.0_c_double)
   call expect(error == rrcb_invalid_argument, "ghosts before transfer")
-  call balancer%make_plan(parts, error)
-  call expect(error == rrcb_ok, "make_plan")
+  call balancer%plan(parts, error)
+  call expect(error == rrcb_ok, "plan")
   call balancer%get_plan(plan, error)
   num_points = counts(rank + 1)
   call expect(plan%num_points_after == num_points, "points after")
@@ -247,6 +250,12 @@ program module_test
     moved_short = 0
     call ghosts%accumulate([rrcb_column(short, moved_short)], error)
     call expect(error == rrcb_ok .and. nint(sum(moved_short)) == sum(ghost_plan%send_counts), "accumulate")
+    short = [(real(rank, c_float), error=1, i)]
+    if (allocated(replies)) deallocate (replies)
+    allocate (replies(size(ghost_plan%send_indices)))
+    call ghosts%reply([rrcb_column(short, replies)], error)
+    call expect(error == rrcb_ok .and. nint(sum(replies)) == &
+      sum(ghost_plan%send_ranks*int(ghost_plan%send_counts)), "reply")
     call ghosts%accumulate([rrcb_column(short(2:), moved_short)], error)
     call expect(error == rrcb_invalid_argument, "accumulate from a short array")
     call ghosts%accumulate([rrcb_column(short, moved_short(2:))], error)
@@ -326,17 +335,17 @@ program module_test
   call balancer%balance(rrcb_interleaved_points(x), parts, error)
   call expect(error == rrcb_invalid_argument, "balance after free")
   call expect(.not. controller%due(), "due before create")
-  call model%create(MPI_COMM_WORLD, 2, error, controller)
+  call model%create(MPI_COMM_WORLD, controller, 2, error)
   call expect(error == rrcb_invalid_argument, "a cost model of a controller that was not made")
   call controller%create(MPI_COMM_WORLD, error)
   call expect(error == rrcb_ok, "create a controller")
-  call model%create(MPI_COMM_WORLD, 2, error, controller)
+  call model%create(MPI_COMM_WORLD, controller, 2, error)
   call expect(error == rrcb_ok, "create a cost model")
   call model%create(MPI_COMM_WORLD, 2, error)
   call expect_text("model is null; give the address of a pointer (in Fortran: destroy what was")
   call controller%create(MPI_COMM_WORLD, error)
   call expect_text("controller is null; give the address of a pointer (in Fortran: destroy what was")
-  call controller%rebalanced(0.5_c_double, error, report)
+  call controller%rebalanced(report, 0.5_c_double, error)
   call expect(error == rrcb_ok, "rebalanced")
   ! A point costs 2, a cell 5; ranks have different cells.
   do i = 1, 30
@@ -376,7 +385,7 @@ program module_test
 
   call controller%create(MPI_COMM_WORLD, error)
   call controller%step(1.0_c_double, error)
-  call controller%step(1.0_c_double, error, weight=10.0_c_double)
+  call controller%step(1.0_c_double, 10.0_c_double, error)
   call expect(error == rrcb_ok .and. .not. controller%due(), "step of the controller")
   call controller%destroy()
   call MPI_Finalize(error)

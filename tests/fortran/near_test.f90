@@ -7,7 +7,7 @@ program near_test
   integer :: rank, num_ranks, error, i
   type(rrcb_balancer) :: balancer
   type(rrcb_ghosts) :: ghosts
-  type(rrcb_plan) :: plan
+  type(rrcb_plan_lists) :: plan
   type(rrcb_verification) :: seen
   real(c_double), target, allocatable :: x(:, :), here(:, :), near(:, :)
   integer(c_int64_t), target, allocatable :: ids(:), ids_here(:)
@@ -20,7 +20,7 @@ program near_test
   allocate (parts(200))
   call balancer%create(MPI_COMM_WORLD)
   call balancer%balance(rrcb_interleaved_points(x), parts)
-  call balancer%make_plan(parts)
+  call balancer%plan(parts)
   call balancer%get_plan(plan)
   allocate (here(1, plan%num_points_after), ids_here(plan%num_points_after))
   call balancer%transfer([rrcb_column(x, here), rrcb_column(ids, ids_here)])
@@ -39,7 +39,7 @@ program near_test
   deallocate (parts)
   allocate (parts(size(ids_here)))
   parts = modulo(rank + 1, num_ranks)
-  call balancer%make_plan(parts)
+  call balancer%plan(parts)
   call balancer%transfer([rrcb_column ::])
   allocate (near(1, 100000))
   call ghosts%fetch([rrcb_column(here, near)], error)
@@ -59,7 +59,7 @@ contains
     real(c_double), parameter :: tilt = 0.3_c_double, stretch = (tilt + sqrt(tilt**2 + 4))/2
     real(c_double), target, allocatable :: all_points(:, :), mine(:, :), own(:, :), images(:, :)
     integer(c_int32_t), allocatable :: parts_of_mine(:)
-    type(rrcb_plan) :: moves
+    type(rrcb_plan_lists) :: moves
     type(rrcb_ghost_plan) :: lists
     integer :: k
     all_points = reshape([(modulo(0.6180339887_c_double*k, 1.0_c_double), modulo(0.7548776662_c_double*k, 1.0_c_double), &
@@ -68,7 +68,7 @@ contains
     allocate (parts_of_mine(size(mine, 2)))
     call balancer%create(MPI_COMM_WORLD)
     call balancer%balance(rrcb_interleaved_points(mine), parts_of_mine)
-    call balancer%make_plan(parts_of_mine)
+    call balancer%plan(parts_of_mine)
     call balancer%get_plan(moves)
     allocate (own(2, moves%num_points_after))
     call balancer%transfer([rrcb_column(mine, own)])
@@ -106,7 +106,7 @@ contains
   subroutine check_faces()
     real(c_float), target, allocatable :: mine(:, :), own(:, :), images(:, :)
     integer(c_int32_t), allocatable :: parts_of_mine(:)
-    type(rrcb_plan) :: moves
+    type(rrcb_plan_lists) :: moves
     type(rrcb_ghost_plan) :: lists
     integer :: k
     mine = reshape([0.0_c_float, 1.0_c_float, nearest(1.0_c_float, -1.0_c_float), &
@@ -114,7 +114,7 @@ contains
     allocate (parts_of_mine(23))
     call balancer%create(MPI_COMM_WORLD)
     call balancer%balance(rrcb_interleaved_points(mine), parts_of_mine)
-    call balancer%make_plan(parts_of_mine)
+    call balancer%plan(parts_of_mine)
     call balancer%get_plan(moves)
     allocate (own(1, moves%num_points_after))
     call balancer%transfer([rrcb_column(mine, own)])

@@ -27,7 +27,7 @@ struct Request {
 
     rrcb::Balance divide(const rrcb::Points& points) const {
         return paper ? rrcb::balance_as_in_paper(points, *paper, MPI_COMM_SELF)
-                     : rrcb::balance(points, own, MPI_COMM_SELF);
+                     : rrcb::balance(points, own, {}, MPI_COMM_SELF);
     }
 };
 

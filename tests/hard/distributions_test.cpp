@@ -21,7 +21,7 @@ TEST(Distributions, of_any_number_and_size_of_parts) {
         options.num_parts = static_cast<int>(sizes.size());
         options.part_sizes = sizes;
         options.refine = Refine::exact;
-        const Balance result = balance(share.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(share.points(), options, {}, MPI_COMM_WORLD);
         const auto counts =
             part_weights(share.points(), result.parts, options.num_parts, MPI_COMM_WORLD);
         const double all = std::accumulate(sizes.begin(), sizes.end(), 0.0);
@@ -39,7 +39,7 @@ TEST(Distributions, without_arrays_on_ranks_without_points) {
     nothing.dimension = 2;
     const std::vector<double> x{0, 1, 2, 3};
     const Points points = rank() == 0 ? interleaved_points(x, 2) : nothing;
-    const Balance result = balance(points, {}, MPI_COMM_WORLD);
+    const Balance result = balance(points, Options{}, {}, MPI_COMM_WORLD);
     EXPECT_EQ(result.parts.size(), rank() == 0 ? 2u : 0u);
     EXPECT_EQ(result.report.details.num_points, 2);
 }

@@ -143,11 +143,11 @@ TEST(Errors, a_tree_of_earlier_cuts_that_differs_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> x{0.5 + rank(), 1.25 + rank()};
     const Points points = interleaved_points(x, 1);
-    Cuts cuts = balance(points, {}, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(points, Options{}, {}, MPI_COMM_WORLD).cuts;
     const Cuts same = cuts;
     if (is_last_rank()) cuts.tree[0].at[0] += 1;
-    EXPECT_THROW(rebalance(points, {}, cuts, MPI_COMM_WORLD), Error);
-    EXPECT_EQ(rebalance(points, {}, same, MPI_COMM_WORLD).parts.size(), 2u);
+    EXPECT_THROW(balance(points, {}, cuts, MPI_COMM_WORLD), Error);
+    EXPECT_EQ(balance(points, {}, same, MPI_COMM_WORLD).parts.size(), 2u);
 }
 
 }  // namespace

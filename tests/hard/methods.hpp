@@ -48,7 +48,7 @@ inline Balance balance(const Points& points, const Method& method, Options optio
         return balance_as_in_paper(points, paper, comm);
     }
     options.refine = method.refine;
-    return rrcb::balance(points, options, comm);
+    return rrcb::balance(points, options, {}, comm);
 }
 
 /// One part per rank; one rank alone makes five, so that it has something to divide.

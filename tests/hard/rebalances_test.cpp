@@ -25,8 +25,8 @@ TEST(Rebalances, hold_what_they_held) {
         const Points points = interleaved_points(coordinates, 2, weights);
         const bool reuses = step % 3 == 1;
         options.refine = step % 2 == 0 ? Refine::tolerance : Refine::exact;
-        const Balance result = reuses ? rebalance(points, options, cuts, MPI_COMM_WORLD)
-                                      : balance(points, options, MPI_COMM_WORLD);
+        const Balance result = reuses ? balance(points, options, cuts, MPI_COMM_WORLD)
+                                      : balance(points, options, {}, MPI_COMM_WORLD);
         cuts = result.cuts;
         plan(result.parts, options.num_parts, MPI_COMM_WORLD);
         PaperOptions paper;
@@ -41,7 +41,7 @@ TEST(Rebalances, leave_nothing_on_a_communicator_that_is_freed) {
     const auto balance_once = [&](MPI_Comm given) {
         MPI_Comm comm = MPI_COMM_NULL;
         MPI_Comm_dup(given, &comm);
-        balance(interleaved_points(coordinates, 2), {}, comm);
+        balance(interleaved_points(coordinates, 2), {}, {}, comm);
         MPI_Comm_free(&comm);
     };
     balance_once(MPI_COMM_WORLD);

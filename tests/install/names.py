@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""names.py SOURCE: compares the functions of the interface in C++, C and Fortran.
+"""names.py SOURCE [--table]: compares the functions of the interface in C++, C, Fortran and Python.
 
-Fails unless each function that rrcb/rrcb.hpp declares is in C and Fortran, and no other is, except
-those listed here with a reason.
+Fails unless each function that rrcb/rrcb.hpp declares is in the other languages, and no other is in C
+and Fortran, except those listed here with a reason. --table prints the names as a table in Markdown.
 """
+import ast
 import re
 import sys
 from pathlib import Path
@@ -12,9 +13,9 @@ from symbols import bare
 
 # Functions in C++ under another name in C.
 RENAMED = {
-    "plan": "rrcb_make_plan",  # rrcb_plan is its type, as rrcb_ghosts is
     "ghosts": "rrcb_ghosts_create",
     "fetch": "rrcb_ghosts_fetch",
+    "reply": "rrcb_ghosts_reply",
     "accumulate": "rrcb_ghosts_accumulate",
     "apply_shifts": "rrcb_ghosts_apply_shifts",
     "verify": "rrcb_ghosts_verify",
@@ -26,7 +27,6 @@ RENAMED = {
 # Functions in C++ alone; a class stands for its methods.
 ONLY_CPP = {
     "balance_into": "rrcb_balance keeps memory with the balancer",
-    "rebalance_into": "rrcb_rebalance keeps memory with the balancer",
     "column": "rrcb_column is a struct",
     "columns": "an array of rrcb_column",
     "member_points": "rrcb_points has a stride in bytes",
@@ -43,7 +43,7 @@ ONLY_CPP = {
 }
 # Functions in C alone: a handle holds what is an argument or a result in C++.
 ONLY_C = {
-    "rrcb_create", "rrcb_destroy", "rrcb_set", "rrcb_set_part_sizes", "rrcb_set_cuts",
+    "rrcb_create", "rrcb_destroy", "rrcb_set", "rrcb_set_part_sizes", "rrcb_set_cuts", "rrcb_clear_cuts",
     "rrcb_get_cuts", "rrcb_get_plan", "rrcb_get_report", "rrcb_ghosts_destroy",
     "rrcb_ghosts_get_plan", "rrcb_groups_destroy",
     "rrcb_groups_fetch",  # an overload
@@ -53,10 +53,31 @@ ONLY_C = {
 }
 # Functions in C that are no procedure of their own in Fortran.
 NOT_FORTRAN = {
-    "rrcb_controller_step_weight": "an optional argument of step",
+    "rrcb_controller_step_weight": "a specific procedure of step",
 }
 # Functions in C that Fortran does not call, but has as its own.
 OWN_OF_FORTRAN = {"rrcb_interleaved_points", "rrcb_column_points"}
+# Functions in Python with another name, or as a method.
+PYTHON = {
+    "assign": "Cuts.part_of", "part_of": "Cuts.part_of",
+    "box_of": "Cuts.boxes", "transfer": "Plan.distribute",
+    "ghosts": "Distribution.ghosts", "fetch": "Ghosts.fetch", "reply": "Ghosts.reply",
+    "accumulate": "Ghosts.accumulate",
+    "apply_shifts": "Ghosts.fetch_positions", "verify": "Ghosts.verify",
+    "sums": "Groups.sums", "remap": "Distribution.remap", "save": "Cuts.save",
+    "load": "Cuts.load", "part_weights": "Distribution.part_weights",
+    "moved_fraction": "Distribution.moved_fraction", "Groups::points": "Groups.x",
+    "version": "__version__",
+}
+NOT_PYTHON = {
+    "interleaved_points": "arrays are given", "column_points": "arrays are given",
+    "bounding_box": "numpy has it", "imbalance": "numpy has it",
+    "load_unbalance_percent": "numpy has it", "worst_load_unbalance_percent": "numpy has it",
+    "ranks_of_part": "remap() and ghosts() apply it", "gather_cuts": "every rank has all cuts",
+    "release_buffers": "buffers are freed with the communicator",
+    "parts_touching": "ghosts() finds points",
+    "join_keys": "not yet",
+}
 CLASSES = {"Controller": "controller", "CostModel": "cost_model", "Groups": "groups"}
 HANDLES = ["controller", "cost_model", "ghosts", "groups"]
 
@@ -149,6 +170,50 @@ def procedures_of_fortran(folder):
     return names
 
 
+def names_of_python(package):
+    """Names that the package exports, and "Class.member" of its classes with those inherited."""
+    members, bases, names = {}, {}, {"__version__"}
+    for file in package.glob("*.py"):
+        for node in ast.parse(file.read_text()).body:
+            if isinstance(node, ast.ClassDef):
+                bases[node.name] = [base.id for base in node.bases if isinstance(base, ast.Name)]
+                members[node.name] = {
+                    each.target.id if isinstance(each, ast.AnnAssign) else each.name
+                    for each in node.body if isinstance(each, (ast.FunctionDef, ast.AnnAssign))}
+    text = (package / "__init__.py").read_text()
+    for name in ast.literal_eval(re.search(r"__all__ = (\[.*?\])", text, re.S)[1]):
+        names.add(name)
+        kinds = [name]
+        for kind in kinds:
+            names |= {f"{name}.{member}" for member in members.get(kind, ())}
+            kinds += bases.get(kind, ())
+    return names
+
+
+def expected_in_python(name):
+    """Name in Python of a function in C++; None if it has none."""
+    scope, _, method = name.rpartition("::")
+    if name in PYTHON:
+        return PYTHON[name]
+    if scope in ONLY_CPP or name in ONLY_CPP or name in NOT_PYTHON:
+        return None
+    if method == scope:
+        return scope
+    return f"{scope}.free" if method.startswith("~") else f"{scope}.{method}".lstrip(".")
+
+
+def table(cpp, fortran):
+    """Rows of the names of one function in the four languages."""
+    yield from ("| C++ | C | Fortran | Python |", "|---|---|---|---|")
+    for name in sorted(cpp, key=lambda each: (each.rpartition("::")[0], each)):
+        in_c = expected_in_c(name)
+        if in_c is None:
+            continue
+        in_fortran = sorted(expected_in_fortran(in_c) & fortran)
+        row = [name, in_c, in_fortran[0] if in_fortran else None, expected_in_python(name)]
+        yield "| " + " | ".join(f"`{each}`" if each else "" for each in row) + " |"
+
+
 def main():
     source = Path(sys.argv[1])
     include = source / "include/rrcb"
@@ -173,11 +238,20 @@ def main():
     allowed = set().union(*wanted.values())
     types = {name.lower() for name in re.findall(r"\brrcb_\w+", text, re.I)}
     problems += [f"{name} of Fortran is not in C" for name in fortran - allowed - types]
+    in_python = {name: expected_in_python(name) for name in cpp}
+    python = names_of_python(source / "python/rrcb")
+    problems += [f"{name} is not in Python, as {each}" for name, each in in_python.items()
+                 if each and each not in python]
+    problems += [f"the exception {name} is not needed"
+                 for name in (PYTHON.keys() | NOT_PYTHON.keys()) - cpp]
+    if "--table" in sys.argv:
+        print("\n".join(table(cpp, fortran)))
+        return 0
     exceptions = ONLY_CPP.keys() - {name.split("::")[0] for name in cpp}
     problems += [f"the exception {name} is not needed" for name in exceptions | (ONLY_C - c)]
     print("\n".join(sorted(problems)) or
-          f"{len(cpp)} functions in C++, {len(c)} in C, and "
-          f"{len(fortran & allowed)} procedures in Fortran")
+          f"{len(cpp)} functions in C++, {len(c)} in C, {len(fortran & allowed)} procedures in "
+          f"Fortran, and {len(set(in_python.values()) - {None})} names in Python")
     return 1 if problems or not cpp else 0
 
 

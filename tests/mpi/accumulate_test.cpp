@@ -37,7 +37,7 @@ Scene make_scene() {
     const Points all = interleaved_points(scene.positions, 2);
     Options options;
     options.num_parts = num_ranks();
-    const Balance whole = balance(all, options, MPI_COMM_SELF);
+    const Balance whole = balance(all, options, {}, MPI_COMM_SELF);
     std::vector<double> here;
     for (std::size_t i = 0; i < num_points; ++i) {
         if (whole.parts[i] != rank()) continue;
@@ -178,6 +178,33 @@ TEST(Accumulate, of_columns_of_a_wrong_length_on_one_rank_is_refused_on_all) {
     refused("a column has", 0, 2, 2);
     refused("columns of ghosts must have as many components", 0, 0, 1);
     EXPECT_EQ(fetch(scene.plan, scene.mine, MPI_COMM_WORLD), scene.near);
+}
+
+TEST(Reply, returns_the_rows_of_each_rank_to_the_points_that_it_has_as_ghosts) {
+    struct Answer {
+        std::int64_t of;
+        int by;
+        float third;
+    };
+    const Scene scene = make_scene();
+    std::vector<Answer> answers;
+    for (const std::int64_t i : scene.near)
+        answers.push_back({i, rank(), static_cast<float>(i) / 3});
+    const std::vector<Answer> found = reply(scene.plan, answers, MPI_COMM_WORLD);
+    ASSERT_EQ(found.size(), scene.plan.send_indices.size());
+    std::size_t k = 0;
+    for (const RankCount& share : scene.plan.send)
+        for (LocalIndex n = 0; n < share.count; ++n, ++k) {
+            const std::int64_t i = scene.mine[scene.plan.send_indices[k]];
+            EXPECT_EQ(found[k].of, i);
+            EXPECT_EQ(found[k].by, share.rank);
+            EXPECT_EQ(found[k].third, static_cast<float>(i) / 3);
+        }
+    const auto [again, twice] =
+        reply(scene.plan, columns(scene.near, column(scene.near)), MPI_COMM_WORLD);
+    EXPECT_EQ(again, twice);
+    answers.resize(answers.size() + (test::is_last_rank() ? 1 : 0));
+    EXPECT_THROW(static_cast<void>(reply(scene.plan, answers, MPI_COMM_WORLD)), Error);
 }
 
 }  // namespace

@@ -28,10 +28,10 @@ class Agreement : public testing::Test {
 
     /// Every rank gets the same text, which holds `expected`, and the next call works.
     void expect_error(const Points& points, const Options& options, const std::string& expected) {
-        test::expect_same_error([&] { balance(points, options, MPI_COMM_WORLD); }, expected);
+        test::expect_same_error([&] { balance(points, options, {}, MPI_COMM_WORLD); }, expected);
 
         const std::vector<double> fine{0.5, 1.5};
-        EXPECT_EQ(balance(interleaved_points(fine, 1), {}, MPI_COMM_WORLD).parts.size(), 2u);
+        EXPECT_EQ(balance(interleaved_points(fine, 1), {}, {}, MPI_COMM_WORLD).parts.size(), 2u);
     }
 
     bool last() const { return rank_ == num_ranks_ - 1; }
@@ -177,15 +177,15 @@ TEST_F(Agreement, on_weights_given_on_some_ranks) {
                                  std::to_string(num_ranks_ - 1) + "; give one for each point";
     const MPI_Comm comm = MPI_COMM_WORLD;
     expect_error(points, {}, expected);
-    const Cuts cuts = balance(interleaved_points(x, 2), {}, comm).cuts;
-    test::expect_same_error([&] { rebalance(points, {}, cuts, comm); }, expected);
+    const Cuts cuts = balance(interleaved_points(x, 2), {}, {}, comm).cuts;
+    test::expect_same_error([&] { balance(points, {}, cuts, comm); }, expected);
     test::expect_same_error([&] { balance_as_in_paper(points, {}, comm); }, expected);
     test::expect_same_error([&] { part_weights(points, parts, 1, comm); }, expected);
     test::expect_same_error([&] { moved_fraction(points, parts, 1, comm); }, expected);
     test::expect_same_error([&] { (void)groups(points, keys, comm); }, expected);
 
     const Points none{.dimension = 2};
-    EXPECT_EQ(balance(last() ? none : points, {}, comm).report.details.total_weight,
+    EXPECT_EQ(balance(last() ? none : points, {}, {}, comm).report.details.total_weight,
               2 * (num_ranks_ - 1));
 }
 
@@ -193,12 +193,12 @@ TEST_F(Agreement, on_earlier_cuts_that_do_not_fit) {
     const std::vector<double> x{0, 1, 2, 3};
     Options options;
     options.num_parts = 3;
-    const Cuts cuts = balance(interleaved_points(x, 2), options, MPI_COMM_WORLD).cuts;
+    const Cuts cuts = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD).cuts;
     options.num_parts = last() ? 4 : 3;
-    EXPECT_THROW(rebalance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD), Error);
     options.num_parts = 3;
-    EXPECT_THROW(rebalance(interleaved_points(x, 1), options, cuts, MPI_COMM_WORLD), Error);
-    EXPECT_EQ(rebalance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD).parts.size(), 2u);
+    EXPECT_THROW(balance(interleaved_points(x, 1), options, cuts, MPI_COMM_WORLD), Error);
+    EXPECT_EQ(balance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD).parts.size(), 2u);
 }
 
 }  // namespace

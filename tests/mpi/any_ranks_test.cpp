@@ -77,7 +77,7 @@ Division division_by(int ranks, const Cloud& cloud, const Options& options, unsi
                 rank())
                 mine.append(cloud, i);
         const Balance made = balance(
-            interleaved_points(mine.coordinates, mine.dimension, mine.weights), options, comm);
+            interleaved_points(mine.coordinates, mine.dimension, mine.weights), options, {}, comm);
         division.parts.resize(cloud.size());
         assign(made.cuts, interleaved_points(cloud.coordinates, cloud.dimension), division.parts);
         for (const Cut& cut : made.cuts.tree)

@@ -23,14 +23,14 @@ TEST(GivenAxes, are_crossed_in_groups) {
     Options options;
     options.num_parts = 8;
     options.axes.order = AxisOrder::grouped({0, 1});
-    const Balance tall = balance(points, options, MPI_COMM_WORLD);
+    const Balance tall = balance(points, options, {}, MPI_COMM_WORLD);
     for (const Cut& cut : tall.cuts.tree) EXPECT_EQ(cut.axis, 1);
 
     // A square: two levels across one axis, one across the other, in the order asked for.
     const auto square = share_of_cloud(8000, 2, [](std::size_t, int, double u) { return u; });
     for (const int first : {0, 1}) {
         options.axes.order = AxisOrder::grouped({first, 1 - first});
-        const Balance even = balance(interleaved_points(square, 2), options, MPI_COMM_WORLD);
+        const Balance even = balance(interleaved_points(square, 2), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(even.cuts.tree[0].axis, first);
         for (const std::size_t leaf_cut : {2u, 3u, 5u, 6u})
             EXPECT_EQ(even.cuts.tree[leaf_cut].axis, 1 - first);
@@ -42,7 +42,7 @@ TEST(GivenAxes, of_each_cut_are_kept) {
     Options options;
     options.num_parts = 4;
     options.axes.order = AxisOrder::given({2, 0, 1});
-    const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
+    const Balance result = balance(interleaved_points(mine, 3), options, {}, MPI_COMM_WORLD);
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_EQ(result.cuts.tree[k].axis, options.axes.order.axes()[k]);
     EXPECT_LE(result.report.imbalance, 1.01);
@@ -58,7 +58,7 @@ TEST(GivenAxes, of_each_cut_are_kept_also_by_many_ranks_and_where_nothing_is_to_
     options.part_sizes.front() = 0;
     options.axes.order =
         AxisOrder::given(std::vector<int>(static_cast<std::size_t>(options.num_parts) - 1, 1));
-    const Balance result = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
+    const Balance result = balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD);
     for (const Cut& cut : result.cuts.tree) EXPECT_EQ(cut.axis, 1);
 }
 
@@ -69,13 +69,13 @@ TEST(PlainCuts, keep_points_on_a_plane_together) {
     options.refine = Refine::exact;
     options.num_parts = 2;
     options.axes.plain = true;
-    const Balance plain = balance(points, options, MPI_COMM_WORLD);
+    const Balance plain = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, plain.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{400, 200}));
     EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
     EXPECT_EQ(plain.report.details.coincident_cuts, 1);
     options.axes.plain = false;
-    const Balance tilted = balance(points, options, MPI_COMM_WORLD);
+    const Balance tilted = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, tilted.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{300, 300}));
     EXPECT_EQ(tilted.report.details.coincident_cuts, 0);

@@ -75,14 +75,14 @@ void expect_same(const Balance& a, const Balance& b) {
 /// and lists of the points near cuts.
 void expect_no_memory(const Cloud& cloud, const Options& options, bool reuses,
                       long most_bytes_a_point = 3) {
-    Balance result = balance(cloud.points, options, MPI_COMM_WORLD);
+    Balance result = balance(cloud.points, options, {}, MPI_COMM_WORLD);
     Balance first;
     for (int k = 0; k < 10; ++k) {
         const Cost cost = cost_of([&] {
             if (reuses)
-                rebalance_into(result, cloud.points, options, result.cuts, MPI_COMM_WORLD);
+                balance_into(result, cloud.points, options, result.cuts, MPI_COMM_WORLD);
             else
-                balance_into(result, cloud.points, options, MPI_COMM_WORLD);
+                balance_into(result, cloud.points, options, {}, MPI_COMM_WORLD);
         });
         if (k == 0) {
             first = result;
@@ -134,8 +134,8 @@ TEST(Buffers, follow_the_number_of_points) {
         for (const Refine refine : {Refine::tolerance, Refine::exact}) {
             MPI_Comm fresh = MPI_COMM_NULL;
             MPI_Comm_dup(MPI_COMM_WORLD, &fresh);
-            balance_into(result, cloud.points, options_of(refine), MPI_COMM_WORLD);
-            expect_same(result, balance(cloud.points, options_of(refine), fresh));
+            balance_into(result, cloud.points, options_of(refine), {}, MPI_COMM_WORLD);
+            expect_same(result, balance(cloud.points, options_of(refine), {}, fresh));
             MPI_Comm_free(&fresh);
         }
     }
@@ -145,14 +145,14 @@ TEST(Buffers, belong_to_a_communicator) {
     const Cloud large(many);
     const Cloud small(many / 8);
     const Options options = options_of(Refine::exact);
-    const Balance of_large = balance(large.points, options, MPI_COMM_WORLD);
-    const Balance of_small = balance(small.points, options, MPI_COMM_WORLD);
+    const Balance of_large = balance(large.points, options, {}, MPI_COMM_WORLD);
+    const Balance of_small = balance(small.points, options, {}, MPI_COMM_WORLD);
     const test::HeldMemory before;
     MPI_Comm other = MPI_COMM_NULL;
     MPI_Comm_dup(MPI_COMM_WORLD, &other);
     for (int k = 0; k < 3; ++k) {
-        expect_same(balance(large.points, options, MPI_COMM_WORLD), of_large);
-        expect_same(balance(small.points, options, other), of_small);
+        expect_same(balance(large.points, options, {}, MPI_COMM_WORLD), of_large);
+        expect_same(balance(small.points, options, {}, other), of_small);
     }
     MPI_Comm_free(&other);
     test::expect_no_growth(before, 6);
@@ -161,28 +161,28 @@ TEST(Buffers, belong_to_a_communicator) {
 TEST(Buffers, survive_a_call_that_fails) {
     const Cloud cloud(many);
     const Options options = options_of(Refine::exact);
-    Balance result = balance(cloud.points, options, MPI_COMM_WORLD);
+    Balance result = balance(cloud.points, options, {}, MPI_COMM_WORLD);
     const Balance first = result;
     Cloud unusable(many);
     if (rank() == num_ranks() - 1)
         unusable.coordinates[5] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(balance_into(result, unusable.points, options, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance_into(result, unusable.points, options, {}, MPI_COMM_WORLD), Error);
     EXPECT_TRUE(result.parts.empty());
     expect_no_memory(cloud, options, false);
-    balance_into(result, cloud.points, options, MPI_COMM_WORLD);
+    balance_into(result, cloud.points, options, {}, MPI_COMM_WORLD);
     expect_same(result, first);
 }
 
 TEST(Buffers, are_freed_when_asked) {
     const Cloud cloud(many);
     const Options options = options_of(Refine::exact);
-    const Balance first = balance(cloud.points, options, MPI_COMM_WORLD);
+    const Balance first = balance(cloud.points, options, {}, MPI_COMM_WORLD);
     const long before = memory_layer::live_bytes();
     release_buffers(MPI_COMM_WORLD);
     release_buffers(MPI_COMM_WORLD);
     EXPECT_LT(memory_layer::live_bytes(), before);
     EXPECT_GE(memory_layer::live_bytes(), before - 40L * static_cast<long>(2 * many));
-    expect_same(balance(cloud.points, options, MPI_COMM_WORLD), first);
+    expect_same(balance(cloud.points, options, {}, MPI_COMM_WORLD), first);
     release_buffers(MPI_COMM_SELF);
     EXPECT_THROW(release_buffers(MPI_COMM_NULL), Error);
 }

@@ -38,7 +38,7 @@ class CGhosts : public testing::Test {
         ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
         in_c = rrcb_interleaved_points(RRCB_DOUBLE, 3, count, coordinates.data(), weights.data());
         ASSERT_EQ(rrcb_balance(balancer, &in_c, parts.data()), RRCB_OK) << rrcb_last_error();
-        cuts = rrcb::balance(points(), {}, MPI_COMM_WORLD).cuts;
+        cuts = rrcb::balance(points(), {}, {}, MPI_COMM_WORLD).cuts;
         forget_points();
     }
     void TearDown() override {
@@ -117,6 +117,10 @@ class CGhosts : public testing::Test {
                        columns(column(coordinates, 3), start), MPI_COMM_WORLD);
         EXPECT_EQ(sums, sums_in_cpp);
         EXPECT_EQ(numbers, numbers_in_cpp);
+        std::vector<double> replies(3 * expected.send_indices.size());
+        const rrcb_column sent{RRCB_DOUBLE, 3, near.data(), replies.data()};
+        ASSERT_EQ(rrcb_ghosts_reply(ghosts, 1, &sent, nullptr, nullptr), RRCB_OK);
+        EXPECT_EQ(replies, reply(expected, column(near, 3), MPI_COMM_WORLD));
     }
 
     rrcb_balancer* balancer = nullptr;
@@ -232,7 +236,7 @@ TEST_F(CGhosts, from_before_a_transfer_are_refused) {
     options.radius = 0.1;
     find(options);
     const std::vector<std::int32_t> to_next(weights.size(), (rank() + 1) % num_ranks());
-    ASSERT_EQ(rrcb_make_plan(balancer, to_next.size(), to_next.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_plan(balancer, to_next.size(), to_next.data()), RRCB_OK);
     ASSERT_EQ(rrcb_transfer(balancer, 0, nullptr, nullptr, nullptr), RRCB_OK);
     EXPECT_EQ(rrcb_ghosts_fetch(ghosts, 0, nullptr, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
     EXPECT_NE(std::string(rrcb_last_error()).find("the points were transferred since"),

@@ -52,6 +52,7 @@ class CInterface : public testing::Test {
     int balance(const Cloud& cloud) {
         parts.assign(cloud.count(), -1);
         const rrcb_points points = cloud.in_c();
+        EXPECT_EQ(rrcb_clear_cuts(balancer), RRCB_OK);
         return rrcb_balance(balancer, &points, parts.data());
     }
 
@@ -91,7 +92,7 @@ TEST_F(CInterface, gives_the_parts_cuts_and_report_of_a_call_in_cpp) {
         ASSERT_EQ(rrcb_set_part_sizes(balancer, 5, options.part_sizes.data()), RRCB_OK);
         ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
 
-        const Balance expected = rrcb::balance(cloud.points(), options, MPI_COMM_WORLD);
+        const Balance expected = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(parts, expected.parts);
         rrcb_cuts cuts;
         ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
@@ -128,7 +129,7 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
     ASSERT_EQ(rrcb_assign_all(other, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, first);
     parts.assign(cloud.count(), -1);
-    ASSERT_EQ(rrcb_rebalance(other, &points, parts.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_balance(other, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, first);
 
     const Vector middle{0.5, 0.5};
@@ -141,6 +142,29 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
         EXPECT_GE(box.upper[a], middle[a]);
     }
     rrcb_destroy(other);
+}
+
+TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
+    Cloud cloud(2);
+    Options options;
+    options.imbalance_tolerance = 1.5;
+    ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", "1.5"), RRCB_OK);
+    ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
+    const Cuts first = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
+    for (double& x : cloud.coordinates) x *= 1.01;
+
+    const rrcb_points points = cloud.in_c();
+    rrcb_cuts cuts;
+    ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
+    ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
+    expect_same_cuts(cuts, first);
+    const Balance anew = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
+    ASSERT_EQ(rrcb_clear_cuts(balancer), RRCB_OK);
+    EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_INVALID_ARGUMENT);
+    ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
+    ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
+    expect_same_cuts(cuts, anew.cuts);
+    EXPECT_EQ(parts, anew.parts);
 }
 
 /// Parts 0 and 2 on the left, for two machines of two ranks, which are dealt in turns.
@@ -195,7 +219,7 @@ TEST_F(CInterface, makes_trees_of_the_shapes_of_cpp) {
         set("tree.dealt", std::to_string(shape.dealt));
         set("axes.plain", "on");
         ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
-        const Balance expected = rrcb::balance(cloud.points(), options, MPI_COMM_WORLD);
+        const Balance expected = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(parts, expected.parts);
         rrcb_cuts cuts;
         ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
@@ -209,8 +233,8 @@ TEST_F(CInterface, makes_trees_of_the_shapes_of_cpp) {
 TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     const Cloud cloud(3);
     ASSERT_EQ(balance(cloud), RRCB_OK);
-    ASSERT_EQ(rrcb_make_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
-    rrcb_plan shown;
+    ASSERT_EQ(rrcb_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
+    rrcb_plan_lists shown;
     ASSERT_EQ(rrcb_get_plan(balancer, &shown), RRCB_OK);
 
     const Plan expected = plan(parts, num_ranks(), MPI_COMM_WORLD);
@@ -242,7 +266,7 @@ TEST_F(CInterface, refuses_a_plan_of_fewer_points_than_were_balanced) {
     const Cloud cloud(2);
     ASSERT_EQ(balance(cloud), RRCB_OK);
     const auto plan_of_first = [&](std::size_t count_on_first) {
-        return rrcb_make_plan(balancer, rank() == 0 ? count_on_first : cloud.count(), parts.data());
+        return rrcb_plan(balancer, rank() == 0 ? count_on_first : cloud.count(), parts.data());
     };
     expect_error_everywhere(plan_of_first(1), RRCB_INVALID_ARGUMENT,
                             "rank 0: count is 1, but 300 points were balanced");
@@ -286,11 +310,10 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     const rrcb_points* given = is_last_rank() ? nullptr : &points;
     std::int32_t* none_there = is_last_rank() ? nullptr : parts.data();
     double fraction;
-    expect_error_everywhere(rrcb_rebalance(balancer, given, parts.data()), invalid,
-                            "points is null");
+    expect_error_everywhere(rrcb_balance(balancer, given, parts.data()), invalid, "points is null");
     for (const int code : {rrcb_assign_all(balancer, &points, none_there),
-                           rrcb_rebalance(balancer, &points, none_there),
-                           rrcb_make_plan(balancer, cloud.count(), none_there),
+                           rrcb_balance(balancer, &points, none_there),
+                           rrcb_plan(balancer, cloud.count(), none_there),
                            rrcb_moved_fraction(balancer, &points, none_there, &fraction)})
         expect_error_everywhere(code, invalid, "parts is null");
     expect_error_everywhere(rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr,
@@ -312,7 +335,7 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
     parts.resize(x.size());
     const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 1, x.size(), x.data(), nullptr);
     ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
-    ASSERT_EQ(rrcb_make_plan(balancer, x.size(), parts.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_plan(balancer, x.size(), parts.data()), RRCB_OK);
     std::vector<double> here(x.size());
     const rrcb_column right{RRCB_DOUBLE, 1, x.data(), here.data()};
     const auto move = [&](const rrcb_column& there) {
@@ -397,7 +420,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     };
     rrcb_report report;
     rrcb_cuts cuts;
-    rrcb_plan plan;
+    rrcb_plan_lists plan;
     Box box;
     std::int32_t part = 0;
     double x[] = {0.5, 0.5};
@@ -414,8 +437,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_assign(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_assign_all(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_gather_cuts(balancer), "cuts yet");
-    expect_missing(rrcb_rebalance(balancer, &points, &part), "cuts yet");
-    expect_missing(rrcb_make_plan(balancer, 1, &part), "cuts yet");
+    expect_missing(rrcb_plan(balancer, 1, &part), "cuts yet");
     expect_missing(rrcb_transfer(balancer, 1, &column, nullptr, nullptr), "plan yet");
     expect_missing(rrcb_part_of(balancer, x, &part), "cuts yet");
     expect_missing(rrcb_parts_touching(balancer, x, x, 1, &part, &count), "cuts yet");
@@ -473,7 +495,7 @@ TEST_F(CInterface, takes_the_tolerances_that_are_taken_in_cpp) {
         options.imbalance_tolerance = std::stod(text);
         const Points points{.dimension = 2};
         EXPECT_EQ(rrcb_set(balancer, "imbalance_tolerance", text), RRCB_INVALID_ARGUMENT);
-        EXPECT_THROW(rrcb::balance(points, options, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(rrcb::balance(points, options, {}, MPI_COMM_WORLD), Error);
     }
 }
 

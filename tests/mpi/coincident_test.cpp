@@ -29,7 +29,7 @@ TEST(CoincidentPoints, in_one_place_are_divided_by_number) {
     const Points points = interleaved_points(mine, 3);
     const double count = 1000.0 * (num_ranks() > 1 ? num_ranks() - 1 : 1);
     for (const int num_parts : {2, 3, 7, 16}) {
-        const Balance result = balance(points, dividing(num_parts), MPI_COMM_WORLD);
+        const Balance result = balance(points, dividing(num_parts), {}, MPI_COMM_WORLD);
         for (const double weight : part_weights(points, result.parts, num_parts, MPI_COMM_WORLD))
             EXPECT_LE(std::abs(weight - count / num_parts), 1) << num_parts << " parts";
         EXPECT_GT(result.report.details.coincident_cuts, 0);
@@ -49,7 +49,7 @@ TEST(CoincidentPoints,
         mine.insert(mine.end(), {apart ? u : 0.1 * (i % 7), apart ? v : 0.5});
     }
     const Points points = interleaved_points(mine, 2);
-    const Balance result = balance(points, dividing(6), MPI_COMM_WORLD);
+    const Balance result = balance(points, dividing(6), {}, MPI_COMM_WORLD);
     for (const double weight : part_weights(points, result.parts, 6, MPI_COMM_WORLD))
         EXPECT_LE(std::abs(weight - 7000.0 / 6), 1);
     for (LocalIndex i = 0; i < points.count; ++i) {
@@ -73,7 +73,7 @@ TEST(CoincidentPoints, of_different_weight_are_divided_within_the_heaviest) {
         weights.push_back(weight);
     }
     const Points points = interleaved_points(mine, 2, weights);
-    const Balance result = balance(points, dividing(4), MPI_COMM_WORLD);
+    const Balance result = balance(points, dividing(4), {}, MPI_COMM_WORLD);
     const auto sums = part_weights(points, result.parts, 4, MPI_COMM_WORLD);
     const double total = std::accumulate(sums.begin(), sums.end(), 0.0);
     // Half of the heaviest at each of two cuts.
@@ -106,7 +106,7 @@ TEST(CoincidentPoints, beside_one_that_outweighs_them_are_divided_by_number) {
                 Options options = dividing(num_parts);
                 options.tuning.central_parts = central_parts;
                 const Balance result =
-                    balance(interleaved_points(mine, 1, weights), options, MPI_COMM_WORLD);
+                    balance(interleaved_points(mine, 1, weights), options, {}, MPI_COMM_WORLD);
                 EXPECT_TRUE(are_cuts_within(part_weights(interleaved_points(mine, 1, weights),
                                                          result.parts, num_parts, MPI_COMM_WORLD),
                                             heaviest))
@@ -131,7 +131,8 @@ TEST(CoincidentPoints, are_divided_as_distinct_ones_on_a_line) {
         std::iota(apart.begin(), apart.end(), 100.0 * rank());
         const std::vector<double> together(apart.size(), 0.5);
         const auto weights_of = [&](const std::vector<double>& x) {
-            return balance(interleaved_points(x, 1), options, MPI_COMM_WORLD).report.part_weights;
+            return balance(interleaved_points(x, 1), options, {}, MPI_COMM_WORLD)
+                .report.part_weights;
         };
         ASSERT_EQ(weights_of(together), weights_of(apart)) << "round " << round;
     }
@@ -145,7 +146,7 @@ TEST(CoincidentPoints, go_to_the_side_that_they_make_less_too_heavy) {
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         Options options = dividing(2, refine);
         options.part_sizes = {0.8466, 0.1534};
-        const Balance result = balance(interleaved_points(mine, 1), options, MPI_COMM_WORLD);
+        const Balance result = balance(interleaved_points(mine, 1), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(result.report.part_weights, (std::vector<double>{191, 34}));
         EXPECT_TRUE(result.report.within_tolerance);
     }
@@ -161,7 +162,7 @@ TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
         Options options = dividing(2, Refine::tolerance);
         options.imbalance_tolerance = tolerance;
         options.tuning.support_mesh = 1;
-        const Balance result = balance(points, options, MPI_COMM_WORLD);
+        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
         EXPECT_LE(result.report.imbalance, tolerance);
         int places = 0;
         for (LocalIndex i = 0; i < points.count; ++i)
@@ -175,7 +176,7 @@ TEST(CoincidentPoints, on_a_plain_cut_stay_together) {
     const std::vector<double> mine(600, 0.7);
     Options options = dividing(4);
     options.axes.plain = true;
-    const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
+    const Balance result = balance(interleaved_points(mine, 3), options, {}, MPI_COMM_WORLD);
     for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
 }
 
@@ -185,7 +186,7 @@ TEST(CoincidentPoints, at_rest_keep_their_parts_from_the_earlier_cuts) {
     const int num_parts = num_ranks();
     const std::vector<double> mine(2 * 100, 0.25);
     const Points points = interleaved_points(mine, 2);
-    const Balance result = balance(points, dividing(num_parts), MPI_COMM_WORLD);
+    const Balance result = balance(points, dividing(num_parts), {}, MPI_COMM_WORLD);
     for (const Part part : result.parts) EXPECT_EQ(part, rank());
 }
 

@@ -22,8 +22,8 @@ void expect_refusal(MPI_Comm comm, const std::string& text) {
     cuts.dimension = 1;
     cuts.num_parts = 1;
     const std::vector<std::function<void()>> calls = {
-        [&] { balance(points, {}, comm); },
-        [&] { rebalance(points, {}, cuts, comm); },
+        [&] { balance(points, {}, {}, comm); },
+        [&] { balance(points, {}, cuts, comm); },
         [&] { plan(parts, 1, comm); },
         [&] { remap(parts, ranks, comm); },
         [&] { remap(parts, parts, ranks, comm); },
@@ -61,7 +61,7 @@ TEST(Communicators, of_two_groups_are_refused) {
     MPI_Comm merged = MPI_COMM_NULL;
     MPI_Intercomm_merge(both, 0, &merged);
     const std::vector<double> x{0, 1};
-    EXPECT_EQ(balance(interleaved_points(x, 1), {}, merged).report.details.num_points,
+    EXPECT_EQ(balance(interleaved_points(x, 1), {}, {}, merged).report.details.num_points,
               2 * test::num_ranks());
     MPI_Comm_free(&merged);
     MPI_Comm_free(&both);
@@ -71,7 +71,7 @@ TEST(Communicators, of_two_groups_are_refused) {
 /// Plans of the points of all ranks, and the calls that use them with a communicator.
 struct Plans {
     std::vector<double> x = test::uniform_cloud(50, 1, static_cast<unsigned>(test::rank() + 1));
-    Balance made = balance(interleaved_points(x, 1), {}, MPI_COMM_WORLD);
+    Balance made = balance(interleaved_points(x, 1), {}, {}, MPI_COMM_WORLD);
     Plan moves = plan(made, MPI_COMM_WORLD);
     std::vector<double> here = transfer(moves, x, MPI_COMM_WORLD);
     GhostPlan near = near_on(MPI_COMM_WORLD);

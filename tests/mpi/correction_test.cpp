@@ -86,8 +86,8 @@ TEST(Correction, of_estimates_that_miss_takes_one_round_more_in_most_clouds) {
         if (seed % 3 == 0)
             options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
         if (seed % 3 == 0) options.part_sizes[1] = 3;
-        const Balance result = balance(mine.points(), options, MPI_COMM_WORLD);
-        const Balance again = balance(mine.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, {}, MPI_COMM_WORLD);
         EXPECT_TRUE(same_bits(result, again));
         EXPECT_LE(result.report.imbalance, 1.01);
         expect_as_looked_up(all, mine.points(), result, options.part_sizes);
@@ -125,13 +125,13 @@ TEST(Correction, of_earlier_cuts_moves_them_along) {
         HeldPoints all = clusters(2 + static_cast<int>(seed % 2), seed);
         const Options options = with_parts(2 + static_cast<int>(seed), 1.02);
         const Share before(all);
-        const Cuts first = balance(before.points(), options, MPI_COMM_WORLD).cuts;
+        const Cuts first = balance(before.points(), options, {}, MPI_COMM_WORLD).cuts;
         for (double& x : all.coordinates) x = std::pow(x + 1, 1.05);
         const Share mine(all);
-        const Balance second = rebalance(mine.points(), options, first, MPI_COMM_WORLD);
+        const Balance second = balance(mine.points(), options, first, MPI_COMM_WORLD);
         EXPECT_LE(second.report.imbalance, 1.02);
         expect_as_looked_up(all, mine.points(), second, options.part_sizes);
-        EXPECT_TRUE(same_bits(second, rebalance(mine.points(), options, first, MPI_COMM_WORLD)));
+        EXPECT_TRUE(same_bits(second, balance(mine.points(), options, first, MPI_COMM_WORLD)));
     }
 }
 
@@ -143,11 +143,11 @@ TEST(Correction, leaves_points_that_share_coordinates_to_the_search) {
             if (i % 2 == 0) all.coordinates[i] = std::round(4 * all.coordinates[i]);
         const Share mine(all);
         Options options = with_parts(7, 1.01);
-        const Balance result = balance(mine.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(mine.points(), options, {}, MPI_COMM_WORLD);
         EXPECT_LE(result.report.imbalance, 1.01);
         expect_as_looked_up(all, mine.points(), result, options.part_sizes);
         options.axes.plain = true;
-        const Balance plain = balance(mine.points(), options, MPI_COMM_WORLD);
+        const Balance plain = balance(mine.points(), options, {}, MPI_COMM_WORLD);
         expect_as_looked_up(all, mine.points(), plain, options.part_sizes);
         for (const Cut& cut : plain.cuts.tree) EXPECT_EQ(cut.at[1 - cut.axis], -INFINITY);
     }

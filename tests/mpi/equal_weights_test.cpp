@@ -30,7 +30,7 @@ Result result_with(double weight, const Options& options) {
          i += static_cast<std::size_t>(num_ranks()))
         mine.insert(mine.end(), {all[2 * i], all[2 * i + 1]});
     std::vector<double> weights(weight < 0 ? 0 : mine.size() / 2, weight);
-    const Balance made = balance(interleaved_points(mine, 2, weights), options, MPI_COMM_WORLD);
+    const Balance made = balance(interleaved_points(mine, 2, weights), options, {}, MPI_COMM_WORLD);
     return {made.parts, made.cuts.tree, made.report.imbalance};
 }
 

@@ -85,13 +85,13 @@ TEST(Exceptions, are_raised_by_no_call) {
                 Balance first;
                 {
                     const Watch watch("balance, " + where);
-                    first = balance(points, options, MPI_COMM_WORLD);
+                    first = balance(points, options, {}, MPI_COMM_WORLD);
                 }
                 {
-                    const Watch watch("rebalance, " + where);
-                    rebalance(points, options, first.cuts, MPI_COMM_WORLD);
-                    rebalance(interleaved_points(moved, dimension), options, first.cuts,
-                              MPI_COMM_WORLD);
+                    const Watch watch("balance from cuts, " + where);
+                    balance(points, options, first.cuts, MPI_COMM_WORLD);
+                    balance(interleaved_points(moved, dimension), options, first.cuts,
+                            MPI_COMM_WORLD);
                 }
                 const Watch watch("lists, " + where);
                 const Plan moves = plan(first, MPI_COMM_WORLD);
@@ -114,10 +114,10 @@ TEST(Exceptions, are_raised_by_no_bad_input) {
         const Points points = interleaved_points(coordinates, 1);
         Options options;
         const Watch watch("bad input");
-        EXPECT_THROW(balance(points, options, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(balance(points, options, {}, MPI_COMM_WORLD), Error);
         EXPECT_THROW(assign_all(Cuts{1, 1, {}, {}}, points, MPI_COMM_WORLD), Error);
         options.imbalance_tolerance = bad;
-        EXPECT_THROW(balance({}, options, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(balance({}, options, {}, MPI_COMM_WORLD), Error);
     }
 }
 

@@ -113,12 +113,12 @@ TEST(FewPlaces, are_looked_up_in_a_part_that_has_points_there) {
             homes.push_back(static_cast<int>(engine() % static_cast<unsigned>(num_ranks())));
         const Options options = options_from(engine);
         const Held held(few, homes);
-        const Balance first = balance(held.points(), options, MPI_COMM_WORLD);
+        const Balance first = balance(held.points(), options, {}, MPI_COMM_WORLD);
         expect_found(few, held, first);
-        expect_found(few, held, rebalance(held.points(), options, first.cuts, MPI_COMM_WORLD));
+        expect_found(few, held, balance(held.points(), options, first.cuts, MPI_COMM_WORLD));
         if (options.num_parts == num_ranks()) {
             const Held moved(few, held.all(first.parts, few.positions.size()));
-            expect_found(few, moved, balance(moved.points(), options, MPI_COMM_WORLD));
+            expect_found(few, moved, balance(moved.points(), options, {}, MPI_COMM_WORLD));
         }
         ASSERT_FALSE(HasFailure()) << "round " << round;
     }

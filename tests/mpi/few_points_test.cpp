@@ -64,7 +64,7 @@ TEST(FewPoints, have_the_least_imbalance_of_whole_points) {
         const FewPoints few(count);
         Options options;
         options.num_parts = 16;
-        const Balance result = balance(few.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
         EXPECT_DOUBLE_EQ(result.report.details.least_imbalance, (count + 15) / 16 * 16.0 / count);
         EXPECT_GE(result.report.imbalance, result.report.details.least_imbalance * (1 - 1e-12));
     }
@@ -75,7 +75,7 @@ TEST(FewPoints, have_the_least_imbalance_of_whole_points) {
             Options options;
             options.num_parts = 3;
             options.part_sizes = sizes;
-            const Report report = balance(few.points(), options, MPI_COMM_WORLD).report;
+            const Report report = balance(few.points(), options, {}, MPI_COMM_WORLD).report;
             EXPECT_NEAR(report.details.least_imbalance, least_of_all(count, sizes), 1e-12) << count;
         }
     }
@@ -123,13 +123,13 @@ TEST(MinPoints, are_in_each_part_or_none) {
                     options.part_sizes = {0, 1, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1};
                 if (kind++ % 7 == 0 && count > 1) options.axes.min_width = {1e-9, 1e-9};
                 SCOPED_TRACE(std::to_string(count) + " points, least " + std::to_string(least));
-                Balance result = balance(few.points(), options, MPI_COMM_WORLD);
+                Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
                 expect_filled(result, options, count);
                 if (!is_skewed && options.part_sizes.empty() && count >= least) {
                     EXPECT_EQ(16 - result.report.details.surplus_parts,
                               std::min(16, count / least));
                 }
-                rebalance_into(result, few.points(), options, result.cuts, MPI_COMM_WORLD);
+                balance_into(result, few.points(), options, result.cuts, MPI_COMM_WORLD);
                 expect_filled(result, options, count);
             }
 }
@@ -138,9 +138,9 @@ TEST(MinPoints, change_nothing_if_all_parts_have_as_many) {
     const FewPoints few(1001);
     Options options;
     options.num_parts = 16;
-    const Balance expected = balance(few.points(), options, MPI_COMM_WORLD);
+    const Balance expected = balance(few.points(), options, {}, MPI_COMM_WORLD);
     options.min_points = 60;
-    const Balance result = balance(few.points(), options, MPI_COMM_WORLD);
+    const Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(result.parts, expected.parts);
     EXPECT_EQ(result.report.imbalance, expected.report.imbalance);
     EXPECT_EQ(result.report.details.surplus_parts, 0);
@@ -162,7 +162,7 @@ TEST(EmptyRanks, take_part_in_all_that_follows_a_balance) {
         options.min_points = 10;
         Controller controller(MPI_COMM_WORLD);
         CostModel model(controller, 1);
-        const Balance result = balance(few.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
         controller.rebalanced(result.report, 1);
         const std::vector<double> mine =
             transfer(plan(result, MPI_COMM_WORLD), column(few.coordinates, 2), MPI_COMM_WORLD);

@@ -48,7 +48,7 @@ TEST(Parts, are_filled_whatever_the_weights) {
         options.tuning.central_parts = round % 5 == 0 ? 2 : 4096;
         const bool is_power = round % 2 == 0;
         const SkewedPoints skewed(engine, (is_power ? 20 : 5) * options.num_parts, is_power);
-        const Balance result = balance(skewed.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(skewed.points(), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(num_empty(result), 0) << "round " << round;
     }
 }
@@ -61,7 +61,7 @@ TEST(Parts, are_filled_within_a_wide_tolerance) {
         options.imbalance_tolerance = 1.5;
         SkewedPoints points(engine, 2 * options.num_parts, false);
         std::ranges::fill(points.weights, 1.0);
-        const Balance result = balance(points.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(points.points(), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(num_empty(result), 0) << "round " << round;
         EXPECT_TRUE(result.report.within_tolerance);
     }
@@ -76,7 +76,7 @@ TEST(Parts, of_different_sizes_may_stay_empty) {
         options.num_parts = 2;
         options.part_sizes = {0.8466, 0.1534};
         options.refine = refine;
-        const Balance result = balance(interleaved_points(x, 1), options, MPI_COMM_WORLD);
+        const Balance result = balance(interleaved_points(x, 1), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(result.report.part_weights, (std::vector<double>{3, 0}));
     }
 }

@@ -57,7 +57,7 @@ TEST(Ghosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     if (num_ranks() < 2) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> x = test::uniform_cloud(100, 2, static_cast<unsigned>(rank()));
     const Points points = interleaved_points(x, 2);
-    const Balance made = balance(points, {}, MPI_COMM_WORLD);
+    const Balance made = balance(points, {}, {}, MPI_COMM_WORLD);
     const auto here = transfer(plan(made, MPI_COMM_WORLD), column(x, 2), MPI_COMM_WORLD);
     const Points moved = interleaved_points(here, 2);
     // A radius that reaches all parts hides nothing.
@@ -75,7 +75,7 @@ TEST(Ghosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     for (double& value : drifted) value *= 0.99;
     EXPECT_NO_THROW(
         ghosts(made.cuts, interleaved_points(drifted, 2), {.radius = 0.1}, MPI_COMM_WORLD));
-    const Balance again = balance(moved, {}, MPI_COMM_WORLD);
+    const Balance again = balance(moved, {}, {}, MPI_COMM_WORLD);
     const auto kept = transfer(plan(again, MPI_COMM_WORLD), column(here, 2), MPI_COMM_WORLD);
     EXPECT_NO_THROW(
         ghosts(again.cuts, interleaved_points(kept, 2), {.radius = 0.1}, MPI_COMM_WORLD));

@@ -74,7 +74,7 @@ Scene make_scene(int dimension, int num_parts, std::vector<double> positions,
     Options options;
     options.num_parts = num_parts;
     const Balance whole =
-        balance(interleaved_points(scene.positions, dimension), options, MPI_COMM_SELF);
+        balance(interleaved_points(scene.positions, dimension), options, {}, MPI_COMM_SELF);
     scene.cuts = whole.cuts;
     scene.parts = whole.parts;
     for (int i = 0; i < scene.count(); ++i) {

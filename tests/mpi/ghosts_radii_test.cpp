@@ -47,7 +47,7 @@ Scene make_scene(int dimension) {
     Options options;
     options.num_parts = num_ranks();
     const Balance whole =
-        balance(interleaved_points(scene.positions, dimension), options, MPI_COMM_SELF);
+        balance(interleaved_points(scene.positions, dimension), options, {}, MPI_COMM_SELF);
     scene.cuts = whole.cuts;
     const auto d = static_cast<std::size_t>(dimension);
     for (std::size_t i = 0; i < num_points; ++i) {

@@ -105,7 +105,7 @@ Division divide(const Cloud& cloud, int num_parts, int turn = 0) {
     options.num_parts = num_parts;
     options.refine = Refine::exact;
     const Balance balance =
-        rrcb::balance(interleaved_points(mine, cloud.dimension), options, MPI_COMM_WORLD);
+        rrcb::balance(interleaved_points(mine, cloud.dimension), options, {}, MPI_COMM_WORLD);
     division.cuts = balance.cuts;
     std::vector<Part> destinations = balance.parts;
     for (Part part = 0; part < num_parts; ++part) {

@@ -198,11 +198,11 @@ TEST(Groups, stay_whole_in_balances) {
     const Share mine(scene);
     for (const GroupPlace place : {GroupPlace::centre, GroupPlace::first_point}) {
         const Groups found = groups(mine.points(), mine.keys, MPI_COMM_WORLD, place);
-        const Balance first = balance(found.points(), {}, MPI_COMM_WORLD);
+        const Balance first = balance(found.points(), {}, {}, MPI_COMM_WORLD);
         expect_whole(scene, found, first);
         EXPECT_LT(first.report.imbalance, 1.1);
         const Balance next =
-            rebalance(found.points(), {.refine = Refine::exact}, first.cuts, MPI_COMM_WORLD);
+            balance(found.points(), {.refine = Refine::exact}, first.cuts, MPI_COMM_WORLD);
         expect_whole(scene, found, next);
         const Groups again = groups(mine.points(), mine.keys, MPI_COMM_WORLD, place);
         EXPECT_EQ(again.coordinates, found.coordinates);
@@ -216,7 +216,7 @@ TEST(Groups, heavier_than_a_part_are_reported) {
     for (std::size_t i = 0; i < scene.count() / 2; ++i) scene.keys[i] = 1;
     const Share mine(scene);
     const Groups found = groups(mine.points(), mine.keys, MPI_COMM_WORLD);
-    const Balance result = balance(found.points(), {.num_parts = 8}, MPI_COMM_WORLD);
+    const Balance result = balance(found.points(), {.num_parts = 8}, {}, MPI_COMM_WORLD);
     expect_whole(scene, found, result);
     EXPECT_GT(result.report.imbalance, 3.5);
     EXPECT_GT(result.report.details.least_imbalance, 3.5);
@@ -270,7 +270,7 @@ TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
     const MPI_Comm comm = MPI_COMM_WORLD;
     rrcb::Balance balance;
     const rrcb::Groups bonds = rrcb::groups(points, keys, comm);
-    balance = rrcb::balance(bonds.points(), rrcb::Options{}, comm);
+    balance = rrcb::balance(bonds.points(), {}, balance.cuts, comm);
     const std::vector<rrcb::Part> parts = rrcb::fetch(bonds, balance.parts, comm);
     const rrcb::Plan plan = rrcb::plan(parts, balance.cuts.num_parts, comm);
     const std::vector<std::size_t> numbers = transfer(plan, first.numbers, comm);

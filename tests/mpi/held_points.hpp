@@ -85,7 +85,7 @@ struct Step {
 /// Balances the points and gives each rank its part. Collective.
 inline Step balance_and_move(HeldPoints& all, const Options& options) {
     const Share mine(all);
-    Step step{balance(mine.points(), options, MPI_COMM_WORLD)};
+    Step step{balance(mine.points(), options, {}, MPI_COMM_WORLD)};
     for (std::size_t i = 0; i < mine.indices.size(); ++i) {
         const Vector x = mine.points().position(i);
         step.num_strays += part_of(step.balance.cuts, x) == step.balance.parts[i] ? 0 : 1;

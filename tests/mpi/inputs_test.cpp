@@ -73,20 +73,20 @@ void expect_same_bits(std::size_t count) {
         Points reference = interleaved_points(cloud.doubles, dimension, weights);
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             const Options options{.num_parts = 11, .refine = refine};
-            Balance expected = balance(reference, options, MPI_COMM_WORLD);
+            Balance expected = balance(reference, options, {}, MPI_COMM_WORLD);
             expected.cuts.points = 0;  // the points stay where they are
             const GhostPlan near =
                 ghosts(expected.cuts, reference, {.radius = 0.05}, MPI_COMM_WORLD);
             for (Points points : cloud.arrangements()) {
                 points.weights = weights;
-                Balance found = balance(points, options, MPI_COMM_WORLD);
+                Balance found = balance(points, options, {}, MPI_COMM_WORLD);
                 found.cuts.points = 0;
                 EXPECT_EQ(found.parts, expected.parts);
                 EXPECT_EQ(bits(found.cuts), bits(expected.cuts));
                 EXPECT_EQ(bounding_box(points).lower, bounding_box(reference).lower);
                 EXPECT_EQ(assign_all(found.cuts, points, MPI_COMM_WORLD), expected.parts);
-                EXPECT_EQ(rebalance(points, options, found.cuts, MPI_COMM_WORLD).parts,
-                          rebalance(reference, options, found.cuts, MPI_COMM_WORLD).parts);
+                EXPECT_EQ(balance(points, options, found.cuts, MPI_COMM_WORLD).parts,
+                          balance(reference, options, found.cuts, MPI_COMM_WORLD).parts);
                 EXPECT_EQ(ghosts(found.cuts, points, {.radius = 0.05}, MPI_COMM_WORLD).send_indices,
                           near.send_indices);
             }
@@ -102,7 +102,7 @@ TEST(Inputs, of_any_arrangement_give_the_same_bits) {
 
 void expect_refusal(const Points& points, const std::string& text) {
     try {
-        balance(points, {}, MPI_COMM_WORLD);
+        balance(points, {}, {}, MPI_COMM_WORLD);
         ADD_FAILURE() << "nothing was thrown instead of: " << text;
     } catch (const Error& error) {
         const std::string expected = "rank " + std::to_string(test::num_ranks() - 1) + ": " + text;

@@ -62,8 +62,8 @@ namespace {
 /// Calls all that sends between two ranks once.
 void call_all(const std::vector<double>& cloud, const Options& options) {
     const Points points = interleaved_points(cloud, 2);
-    Balance made = balance(points, options, MPI_COMM_WORLD);
-    rebalance_into(made, points, options, made.cuts, MPI_COMM_WORLD);
+    Balance made = balance(points, options, {}, MPI_COMM_WORLD);
+    balance_into(made, points, options, made.cuts, MPI_COMM_WORLD);
     made.cuts = gather_cuts(made.cuts, MPI_COMM_WORLD);
     made.parts = assign_all(made.cuts, points, MPI_COMM_WORLD);
     const Plan moves = plan(made, MPI_COMM_WORLD);

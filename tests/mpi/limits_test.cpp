@@ -63,7 +63,7 @@ std::vector<double> counts_by_look_up(const Cuts& cuts, const Points& points) {
 
 std::string message_of(const Points& points, const Options& options) {
     try {
-        balance(points, options, MPI_COMM_WORLD);
+        balance(points, options, {}, MPI_COMM_WORLD);
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
         return error.what();
@@ -80,9 +80,9 @@ TEST(MinWidth, holds_for_every_part_while_the_rest_is_balanced) {
             Options options;
             options.refine = refine;
             options.num_parts = num_parts;
-            const Balance free = balance(points, options, MPI_COMM_WORLD);
+            const Balance free = balance(points, options, {}, MPI_COMM_WORLD);
             options.axes.min_width = {0.15, 0.1};
-            const Balance wide = balance(points, options, MPI_COMM_WORLD);
+            const Balance wide = balance(points, options, {}, MPI_COMM_WORLD);
             EXPECT_GE(least_width(wide.cuts, box, 0), 0.15) << num_parts;
             EXPECT_GE(least_width(wide.cuts, box, 1), 0.1) << num_parts;
             // Parts of a 12th would be narrower in the corner.
@@ -111,7 +111,7 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
     Options options;
     options.axes.min_width = {1, 0.5};
     options.num_parts = 32;
-    const Balance full = balance(points, options, MPI_COMM_WORLD);
+    const Balance full = balance(points, options, {}, MPI_COMM_WORLD);
     for (const Cut& cut : full.cuts.tree) {
         const double unit = options.axes.min_width[static_cast<std::size_t>(cut.axis)];
         const double value = cut.at[static_cast<std::size_t>(cut.axis)];
@@ -154,7 +154,7 @@ TEST(Grid, holds_all_cuts_on_its_lines) {
             options.num_parts = 7;
             options.refine = refine;
             options.axes.grid = {{0.1, spacing}, {-7, spacing / 3}};
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             for (const Cut& cut : result.cuts.tree) {
                 const auto axis = static_cast<std::size_t>(cut.axis);
                 const auto [origin, step] = options.axes.grid[axis];
@@ -202,18 +202,18 @@ TEST(Limits, move_earlier_cuts_that_break_them) {
     const Box box = box_of_all(points);
     Options options;
     options.num_parts = 12;
-    const Cuts previous = balance(points, options, MPI_COMM_WORLD).cuts;
+    const Cuts previous = balance(points, options, {}, MPI_COMM_WORLD).cuts;
     for (const Refine refine : {Refine::none, Refine::tolerance}) {
         options.refine = refine;
         options.axes.min_width = {0.15, 0.1};
-        const Balance moved = rebalance(points, options, previous, MPI_COMM_WORLD);
+        const Balance moved = balance(points, options, previous, MPI_COMM_WORLD);
         EXPECT_GE(least_width(moved.cuts, box, 0), 0.15);
         EXPECT_GE(least_width(moved.cuts, box, 1), 0.1);
         EXPECT_EQ(moved.report.part_weights, counts_by_look_up(moved.cuts, points));
         EXPECT_EQ(moved.report.imbalance, imbalance(moved.report.part_weights, {}));
         // What keeps them stays as it is.
         options.refine = Refine::none;
-        const Cuts again = rebalance(points, options, moved.cuts, MPI_COMM_WORLD).cuts;
+        const Cuts again = balance(points, options, moved.cuts, MPI_COMM_WORLD).cuts;
         for (std::size_t k = 0; k < again.tree.size(); ++k)
             EXPECT_EQ(again.tree[k].at, moved.cuts.tree[k].at);
     }
@@ -235,12 +235,12 @@ TEST(Limits, hold_between_parts_that_stay) {
     // More than the middles of the gaps leave to the first and the last.
     const double width = num_ranks() > 2 ? 1.3 : 1.2;
     options.axes.min_width = {width, 1e-3};
-    const Balance kept = balance(points, options, MPI_COMM_WORLD);
+    const Balance kept = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_TRUE(kept.report.kept);
     EXPECT_GE(least_width(kept.cuts, box, 0), width);
     options.axes.grid = {{-0.2, 0.75}, {0, 0.1}};
     options.axes.min_width.clear();
-    const Balance on_lines = balance(points, options, MPI_COMM_WORLD);
+    const Balance on_lines = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_TRUE(on_lines.report.kept);
     for (const Cut& cut : on_lines.cuts.tree) {
         const double k = std::round((cut.at[0] + 0.2) / 0.75);
@@ -248,7 +248,7 @@ TEST(Limits, hold_between_parts_that_stay) {
     }
     // No line lies in the gaps: something has to move.
     options.axes.grid = {{0.5, 1.5}, {0, 0.1}};
-    EXPECT_FALSE(balance(points, options, MPI_COMM_WORLD).report.kept);
+    EXPECT_FALSE(balance(points, options, {}, MPI_COMM_WORLD).report.kept);
 }
 
 TEST(Limits, hold_where_nothing_has_weight) {
@@ -263,7 +263,7 @@ TEST(Limits, hold_where_nothing_has_weight) {
         options.tuning.support_mesh = 1;
         options.refine = Refine::exact;
         options.axes.min_width = {0.07, 0.07};
-        const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+        const Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), 0.07) << seed;
         EXPECT_GE(least_width(cuts, box_of_all(points), 1), 0.07) << seed;
     }
@@ -286,9 +286,9 @@ TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
     options.axes.min_width = {width};
     for (const bool larger_below : {false, true}) {
         options.tree.larger_below = larger_below;
-        const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+        const Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), width) << larger_below;
-        const Cuts again = rebalance(points, options, cuts, MPI_COMM_WORLD).cuts;
+        const Cuts again = balance(points, options, cuts, MPI_COMM_WORLD).cuts;
         EXPECT_GE(least_width(again, box_of_all(points), 0), width) << larger_below;
     }
 }
@@ -305,7 +305,7 @@ TEST(Limits, leave_a_kept_part_of_no_size_nothing) {
     options.part_sizes[3] = 0;
     options.axes.min_width = {0.01};
     const Points points = interleaved_points(coordinates, 1);
-    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_TRUE(result.report.kept);
     const Box region = box_of(result.cuts, 2);
     EXPECT_GE(region.upper[0] - region.lower[0], 0.01);
@@ -317,7 +317,7 @@ TEST(Limits, need_no_points) {
     options.axes.min_width = {1, 1, 1};
     options.axes.grid = {{0, 1}, {0, 1}, {0, 1}};
     options.num_parts = 9;
-    const Balance result = balance(interleaved_points({}, 3), options, MPI_COMM_WORLD);
+    const Balance result = balance(interleaved_points({}, 3), options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(result.cuts.tree.size(), 8u);
 }
 

@@ -49,7 +49,7 @@ int group_size(std::function<int(int, int)> machine, const Options& options = {}
     const Cloud cloud(2);
     int size = 0;
     with_machines(std::move(machine), [&](MPI_Comm comm) {
-        size = balance(cloud.points, options, comm).cuts.shape.group_size;
+        size = balance(cloud.points, options, {}, comm).cuts.shape.group_size;
     });
     return size;
 }
@@ -95,7 +95,7 @@ TEST(Machines, to_which_ranks_are_dealt_in_turn_have_the_parts_of_these_ranks) {
             Options options;
             options.num_parts = parts_each * num_ranks();
             with_machines(dealt_to(machines), [&](MPI_Comm comm) {
-                const Balance made = balance(cloud.points, options, comm);
+                const Balance made = balance(cloud.points, options, {}, comm);
                 const int size = (num_ranks() - 1) / machines + 1;
                 EXPECT_EQ(made.cuts.shape, (TreeShape{parts_each * size, false, parts_each}));
                 std::vector<Part> parts(cloud.points.count);
@@ -104,10 +104,10 @@ TEST(Machines, to_which_ranks_are_dealt_in_turn_have_the_parts_of_these_ranks) {
                 EXPECT_EQ(assign_all(made.cuts, cloud.points, comm), made.parts);
                 EXPECT_EQ(part_weights(cloud.points, made.parts, options.num_parts, comm),
                           made.report.part_weights);
-                EXPECT_EQ(rebalance(cloud.points, options, made.cuts, comm).parts, made.parts);
+                EXPECT_EQ(balance(cloud.points, options, made.cuts, comm).parts, made.parts);
                 // Points that lie where they should are kept.
                 const auto mine = transfer(plan(made, comm), column(cloud.coordinates, 2), comm);
-                const Balance again = balance(interleaved_points(mine, 2), options, comm);
+                const Balance again = balance(interleaved_points(mine, 2), options, {}, comm);
                 EXPECT_EQ(again.report.kept, parts_each == 1);
                 if (parts_each > 1) return;
                 EXPECT_EQ(again.parts, std::vector<Part>(mine.size() / 2, rank()));
@@ -142,9 +142,9 @@ TEST(Machines, ask_for_the_shape_of_the_tree_that_given_axes_are_for) {
     options.axes.order =
         AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 0));
     with_machines(blocks_of(2), [&](MPI_Comm comm) {
-        EXPECT_THROW(balance(cloud.points, options, comm), Error);
+        EXPECT_THROW(balance(cloud.points, options, {}, comm), Error);
         options.tree.group_size = 2;
-        EXPECT_EQ(balance(cloud.points, options, comm).cuts.shape.group_size, 2);
+        EXPECT_EQ(balance(cloud.points, options, {}, comm).cuts.shape.group_size, 2);
     });
 }
 
@@ -152,11 +152,11 @@ TEST(Machines, of_earlier_cuts_stay) {
     const Cloud cloud(2);
     Balance first;
     with_machines(blocks_of(2), [&](MPI_Comm comm) {
-        first = balance(cloud.points, {}, comm);
-        EXPECT_EQ(rebalance(cloud.points, {}, first.cuts, comm).parts, first.parts);
+        first = balance(cloud.points, {}, {}, comm);
+        EXPECT_EQ(balance(cloud.points, {}, first.cuts, comm).parts, first.parts);
     });
     with_machines(blocks_of(3), [&](MPI_Comm comm) {
-        EXPECT_EQ(rebalance(cloud.points, {}, first.cuts, comm).cuts.shape, first.cuts.shape);
+        EXPECT_EQ(balance(cloud.points, {}, first.cuts, comm).cuts.shape, first.cuts.shape);
     });
 }
 
@@ -184,8 +184,8 @@ void expect_fewer_ghosts(std::function<int(int, int)> machine) {
         with_machines(machine, [&](MPI_Comm comm) {
             Options halving;
             halving.tree = TreeShape{};
-            const Balance halved = balance(cloud.points, halving, comm);
-            const Balance grouped = balance(cloud.points, {}, comm);
+            const Balance halved = balance(cloud.points, halving, {}, comm);
+            const Balance grouped = balance(cloud.points, {}, {}, comm);
             const auto [off, all] = ghosts_of(grouped, cloud, comm);
             const auto [off_halved, all_halved] = ghosts_of(halved, cloud, comm);
             EXPECT_LT(static_cast<double>(off), 0.9 * static_cast<double>(off_halved));
@@ -202,10 +202,10 @@ TEST(Machines, make_the_same_parts_however_their_ranks_are_numbered) {
         const Cloud cloud(3, 24000);
         std::array<std::pair<GlobalCount, GlobalCount>, 2> ghosts;
         with_machines(blocks_of(size), [&](MPI_Comm comm) {
-            ghosts[0] = ghosts_of(balance(cloud.points, {}, comm), cloud, comm);
+            ghosts[0] = ghosts_of(balance(cloud.points, {}, {}, comm), cloud, comm);
         });
         with_machines(dealt_to(num_ranks() / size), [&](MPI_Comm comm) {
-            ghosts[1] = ghosts_of(balance(cloud.points, {}, comm), cloud, comm);
+            ghosts[1] = ghosts_of(balance(cloud.points, {}, {}, comm), cloud, comm);
         });
         EXPECT_EQ(ghosts[0], ghosts[1]);
     }

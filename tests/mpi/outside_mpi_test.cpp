@@ -27,7 +27,7 @@ void expect_error(Call&& call) {
 void expect_errors() {
     const std::vector<double> x{0, 1};
     const Points points = interleaved_points(x, 1);
-    expect_error([&] { balance(points, {}, MPI_COMM_WORLD); });
+    expect_error([&] { balance(points, {}, {}, MPI_COMM_WORLD); });
     expect_error([&] { (void)plan(std::vector<Part>(2), 1, MPI_COMM_WORLD); });
     expect_error([&] { release_buffers(MPI_COMM_WORLD); });
     expect_error([&] { Controller controller(MPI_COMM_WORLD); });

@@ -85,7 +85,7 @@ Scene make_scene(int dimension, unsigned axes, int num_parts) {
     Options options;
     options.num_parts = num_parts;
     const Balance whole =
-        balance(interleaved_points(scene.positions, dimension), options, MPI_COMM_SELF);
+        balance(interleaved_points(scene.positions, dimension), options, {}, MPI_COMM_SELF);
     scene.cuts = whole.cuts;
     for (int i = 0; i < scene.count(); ++i) {
         const Part part = whole.parts[static_cast<std::size_t>(i)];
@@ -186,7 +186,7 @@ TEST(PeriodicGhosts, of_floats_are_moved_to_images) {
     const std::vector<float> x(1, 0.25f * static_cast<float>(rank() + 1));
     const float end = 0.25f * static_cast<float>(num_ranks() + 1);
     const Box box{{0}, {end}};
-    const Balance all = balance(interleaved_points(x, 1), {}, MPI_COMM_WORLD);
+    const Balance all = balance(interleaved_points(x, 1), {}, {}, MPI_COMM_WORLD);
     const GhostPlan plan = ghosts(all.cuts, interleaved_points(x, 1),
                                   {.radius = end, .periodic = box}, MPI_COMM_WORLD);
     const std::vector<float> fetched = fetch(plan, x, MPI_COMM_WORLD);
@@ -220,7 +220,7 @@ std::vector<T> at_the_ends_of(const Box& box) {
 template <class T>
 void expect_images_outside(const Box& box) {
     const std::vector<T> scattered = at_the_ends_of<T>(box);
-    const Balance made = balance(interleaved_points(scattered, 1), {}, MPI_COMM_WORLD);
+    const Balance made = balance(interleaved_points(scattered, 1), {}, {}, MPI_COMM_WORLD);
     const std::vector<T> x = transfer(plan(made, MPI_COMM_WORLD), scattered, MPI_COMM_WORLD);
     const GhostPlan near = ghosts(made.cuts, interleaved_points(x, 1),
                                   {.radius = 0.03, .periodic = box}, MPI_COMM_WORLD);

@@ -64,7 +64,7 @@ TEST(Refinement, exact_leaves_each_part_within_one_object_of_the_ideal) {
                 Options options;
                 options.refine = Refine::exact;
                 options.num_parts = num_parts;
-                const Balance result = balance(points, options, MPI_COMM_WORLD);
+                const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
                 const auto weights = part_weights(points, result.parts, num_parts, MPI_COMM_WORLD);
                 for (const double weight : weights)
                     EXPECT_LE(std::abs(weight - 4096.0 / num_parts), 1)
@@ -86,7 +86,7 @@ TEST(Refinement, tolerance_is_met_and_measured) {
             Options options;
             options.num_parts = 6;
             options.imbalance_tolerance = tolerance;
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             const auto weights = part_weights(points, result.parts, 6, MPI_COMM_WORLD);
             EXPECT_LE(imbalance(weights), tolerance) << cloud.name;
             EXPECT_EQ(result.report.imbalance, imbalance(weights)) << cloud.name;
@@ -100,7 +100,7 @@ TEST(Refinement, a_good_estimate_takes_one_look) {
     const auto mine = share_of_cloud(100000, 2, [](std::size_t, int, double u) { return u; });
     Options options;
     options.num_parts = 4;
-    const Balance result = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
+    const Balance result = balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(result.report.details.rounds, 1);
 }
 
@@ -109,7 +109,7 @@ TEST(Refinement, exact_takes_two_rounds_a_level_on_a_smooth_cloud) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 8;
-    const Balance result = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
+    const Balance result = balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD);
     EXPECT_LE(result.report.details.rounds, 2 * 3);
 }
 
@@ -122,7 +122,7 @@ TEST(Refinement, weights_are_divided_to_within_the_heaviest_object) {
     options.refine = Refine::exact;
     options.num_parts = 4;
     options.part_sizes = {1, 2, 0, 3};
-    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
     const auto part_sums = part_weights(points, result.parts, 4, MPI_COMM_WORLD);
     const double total = std::accumulate(part_sums.begin(), part_sums.end(), 0.0);
     for (std::size_t p = 0; p < 4; ++p)
@@ -141,7 +141,7 @@ TEST(Refinement, coincident_points_stay_together_on_the_nearer_side) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 2;
-    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, result.parts, 2, MPI_COMM_WORLD), (std::vector<double>{30, 70}));
     EXPECT_EQ(result.report.details.coincident_cuts, 1);
     expect_look_ups_agree(points, result);
@@ -153,7 +153,7 @@ TEST(Refinement, many_coincident_points_are_no_endless_search) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 4;
-    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
     for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
     EXPECT_EQ(result.report.imbalance, 4);
     EXPECT_EQ(result.report.details.coincident_cuts,
@@ -169,7 +169,7 @@ TEST(Refinement, takes_at_most_sixteen_rounds_a_level_over_hundreds_of_decades) 
             Options options;
             options.refine = refine;
             options.num_parts = 8;
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             EXPECT_LE(result.report.imbalance, refine == Refine::exact ? 1.0004 : 1.01);
             EXPECT_LE(result.report.details.rounds, 1 + 16 * 3) << decades << " decades";
             expect_look_ups_agree(points, result);
@@ -183,7 +183,8 @@ TEST(Refinement, zero_weights_everywhere_mean_balance_by_count) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 5;
-    const Balance result = balance(interleaved_points(mine, 2, weights), options, MPI_COMM_WORLD);
+    const Balance result =
+        balance(interleaved_points(mine, 2, weights), options, {}, MPI_COMM_WORLD);
     const auto counts = part_weights(interleaved_points(mine, 2), result.parts, 5, MPI_COMM_WORLD);
     for (const double count : counts) EXPECT_LE(std::abs(count - 800), 1);
 }
@@ -197,7 +198,7 @@ TEST(Refinement, fewer_points_than_parts_leave_cuts_that_are_numbers) {
             options.refine = refine;
             options.num_parts = num_parts;
             const Points points = interleaved_points(mine, 2);
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             for (const Cut& cut : result.cuts.tree)
                 for (const double value : cut.at) EXPECT_FALSE(std::isnan(value));
             const auto weights = part_weights(points, result.parts, num_parts, MPI_COMM_WORLD);
@@ -215,7 +216,7 @@ TEST(Refinement, reaches_the_largest_double) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 4;
-    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, result.parts, 4, MPI_COMM_WORLD),
               (std::vector<double>{10, 10, 10, 10}));
     expect_look_ups_agree(points, result);
@@ -228,8 +229,8 @@ TEST(Refinement, same_input_gives_the_same_bits) {
     options.refine = Refine::exact;
     options.num_parts = 7;
     const Points points = interleaved_points(mine, 2);
-    const Balance first = balance(points, options, MPI_COMM_WORLD);
-    const Balance second = balance(points, options, MPI_COMM_WORLD);
+    const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
+    const Balance second = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(first.parts, second.parts);
     for (std::size_t k = 0; k < first.cuts.tree.size(); ++k)
         EXPECT_EQ(first.cuts.tree[k].at, second.cuts.tree[k].at);
@@ -241,8 +242,8 @@ TEST(EarlierCuts, of_the_same_points_are_found_good_at_one_look) {
     const Points points = interleaved_points(mine, 2);
     Options options;
     options.num_parts = 6;
-    const Balance first = balance(points, options, MPI_COMM_WORLD);
-    const Balance second = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
+    const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
+    const Balance second = balance(points, options, first.cuts, MPI_COMM_WORLD);
     EXPECT_EQ(second.report.details.rounds, 1);
     EXPECT_EQ(second.report.details.num_records, 0);
     EXPECT_EQ(second.parts, first.parts);
@@ -256,9 +257,9 @@ TEST(EarlierCuts, follow_a_cloud_that_moved) {
         Options options;
         options.refine = Refine::exact;
         options.num_parts = 5;
-        const Balance first = balance(interleaved_points(still, 2), options, MPI_COMM_WORLD);
+        const Balance first = balance(interleaved_points(still, 2), options, {}, MPI_COMM_WORLD);
         const Points points = interleaved_points(moved, 2);
-        const Balance second = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
+        const Balance second = balance(points, options, first.cuts, MPI_COMM_WORLD);
         for (const double weight : part_weights(points, second.parts, 5, MPI_COMM_WORLD))
             EXPECT_LE(std::abs(weight - 800), 1) << "shift " << shift;
         expect_look_ups_agree(points, second);
@@ -271,9 +272,9 @@ TEST(EarlierCuts, make_room_for_other_part_sizes) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 4;
-    const Balance first = balance(points, options, MPI_COMM_WORLD);
+    const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
     options.part_sizes = {0, 2, 1, 1};
-    const Balance second = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
+    const Balance second = balance(points, options, first.cuts, MPI_COMM_WORLD);
     const auto weights = part_weights(points, second.parts, 4, MPI_COMM_WORLD);
     EXPECT_EQ(weights[0], 0);
     EXPECT_NEAR(weights[1], 2000, 1);
@@ -285,12 +286,12 @@ TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 2;
-    const Balance tilted = balance(points, options, MPI_COMM_WORLD);
+    const Balance tilted = balance(points, options, {}, MPI_COMM_WORLD);
     ASSERT_GT(tilted.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
     options.axes.plain = true;
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         options.refine = refine;
-        const Balance plain = rebalance(points, options, tilted.cuts, MPI_COMM_WORLD);
+        const Balance plain = balance(points, options, tilted.cuts, MPI_COMM_WORLD);
         EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
         expect_look_ups_agree(points, plain);
     }

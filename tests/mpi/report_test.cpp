@@ -46,7 +46,7 @@ struct WeightedCloud {
         Options asked = options;
         asked.refine = refine;
         asked.imbalance_tolerance = tolerance;
-        return balance(points(), asked, MPI_COMM_WORLD).report;
+        return balance(points(), asked, {}, MPI_COMM_WORLD).report;
     }
 };
 
@@ -84,7 +84,7 @@ TEST(Report, holds_the_weight_that_each_part_got) {
             const WeightedCloud cloud(seed);
             Options options = cloud.options;
             options.refine = refine;
-            const Balance result = balance(cloud.points(), options, MPI_COMM_WORLD);
+            const Balance result = balance(cloud.points(), options, {}, MPI_COMM_WORLD);
             const auto weights =
                 part_weights(cloud.points(), result.parts, options.num_parts, MPI_COMM_WORLD);
             ASSERT_EQ(result.report.part_weights.size(), weights.size());
@@ -107,7 +107,7 @@ TEST(Report, measures_parts_of_tiny_sizes_as_they_are) {
         options.part_sizes = {1, tiny, 1};
         for (const Refine refine : {Refine::tolerance, Refine::exact}) {
             options.refine = refine;
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             const auto weights = part_weights(points, result.parts, 3, MPI_COMM_WORLD);
             EXPECT_EQ(result.report.imbalance, imbalance(weights, options.part_sizes));
             EXPECT_EQ(result.report.part_weights, weights);
@@ -120,7 +120,7 @@ TEST(Measures, of_a_balance_are_those_of_its_parts) {
     const Points points = interleaved_points(mine, 2);
     Options options;
     options.num_parts = 2 * num_ranks() + 1;
-    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, result, MPI_COMM_WORLD),
               part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD));
     EXPECT_EQ(moved_fraction(points, result, MPI_COMM_WORLD),
@@ -152,12 +152,12 @@ TEST(PartSizes, of_any_magnitude_mean_the_same) {
         Options options;
         options.num_parts = 4;
         options.part_sizes = {3, 1, 2, 2};
-        const Balance first = balance(points, options, MPI_COMM_WORLD);
+        const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
         EXPECT_LE(first.report.imbalance, 1.01);
         for (const double scale : {0x1p-1030, 0x1p1000}) {
             Options scaled = options;
             for (double& size : scaled.part_sizes) size *= scale;
-            const Balance second = balance(points, scaled, MPI_COMM_WORLD);
+            const Balance second = balance(points, scaled, {}, MPI_COMM_WORLD);
             EXPECT_EQ(second.parts, first.parts) << weight << ", " << scale;
         }
     }
@@ -177,11 +177,11 @@ TEST(PartSizes, of_zero_keep_a_part_empty_of_weightless_points_too) {
     const auto expect_empty = [](const Points& points, std::vector<double> sizes, Options options) {
         options.num_parts = static_cast<int>(sizes.size());
         options.part_sizes = sizes;
-        Balance result = balance(points, options, MPI_COMM_WORLD);
+        Balance result = balance(points, options, {}, MPI_COMM_WORLD);
         for (const Part part : result.parts) EXPECT_GT(sizes[static_cast<std::size_t>(part)], 0);
         std::ranges::reverse(options.part_sizes);
         std::ranges::reverse(sizes);
-        result = rebalance(points, options, result.cuts, MPI_COMM_WORLD);
+        result = balance(points, options, result.cuts, MPI_COMM_WORLD);
         for (const Part part : result.parts) EXPECT_GT(sizes[static_cast<std::size_t>(part)], 0);
     };
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
@@ -215,7 +215,7 @@ TEST(Report, measures_parts_of_sizes_over_hundreds_of_decades) {
             weights.push_back(weight);
         }
         const Points points = interleaved_points(x, 1, weights);
-        const Balance result = balance(points, options, MPI_COMM_WORLD);
+        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
         const std::vector<double> sums =
             part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD);
         const double truth = imbalance(sums, options.part_sizes);

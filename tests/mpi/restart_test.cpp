@@ -129,7 +129,7 @@ Cuts cuts_of(int num_parts) {
         test::uniform_cloud(200, 2, static_cast<unsigned>(rank() + 3));
     Options options;
     options.num_parts = num_parts;
-    return balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD).cuts;
+    return balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD).cuts;
 }
 
 /// Returns the bytes as a machine of the other byte order writes them.
@@ -158,10 +158,10 @@ TEST(Restart, reads_cuts_on_any_ranks_and_in_either_byte_order) {
         (void)transfer(plan(parts, 8, MPI_COMM_WORLD), column(cloud, 2), MPI_COMM_WORLD);
         Options options;
         if (num_ranks() != 8)
-            expect_same_error([&] { (void)rebalance(points, options, loaded, MPI_COMM_WORLD); },
+            expect_same_error([&] { (void)balance(points, options, loaded, MPI_COMM_WORLD); },
                               "num_parts");
         options.num_parts = loaded.num_parts;
-        EXPECT_TRUE(rebalance(points, options, loaded, MPI_COMM_WORLD).report.imbalance < 1.2);
+        EXPECT_TRUE(balance(points, options, loaded, MPI_COMM_WORLD).report.imbalance < 1.2);
     }
     Loop loop(MPI_COMM_WORLD);
     loop.run(0, 20);

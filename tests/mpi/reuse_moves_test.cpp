@@ -56,7 +56,7 @@ TEST(Reuse, moves_a_cut_no_further_than_the_tolerance_asks_for) {
             for (const double at : {0.1, 0.43, 0.61, 0.95}) {
                 const Cuts before{1, 2, {Cut{0, 0, {at, -INFINITY, -INFINITY}}}};
                 const Balance result =
-                    rebalance(mine.points(), with_parts(2, tolerance), before, MPI_COMM_WORLD);
+                    balance(mine.points(), with_parts(2, tolerance), before, MPI_COMM_WORLD);
                 EXPECT_LE(imbalance(weights_by_look_up(all, result.cuts)), tolerance);
                 const double total = result.report.details.total_weight;
                 // An eighth of what is allowed is room for the search, and points are whole.
@@ -79,7 +79,7 @@ TEST(Reuse, leaves_cuts_alone_whose_parts_are_good) {
     // Points leave the first quarter of a square for the second, which are one subtree of four.
     HeldPoints all = cloud(2, 20000, false);
     const Options options = with_parts(16, 1.05);
-    const Cuts before = balance(Share(all).points(), options, MPI_COMM_WORLD).cuts;
+    const Cuts before = balance(Share(all).points(), options, {}, MPI_COMM_WORLD).cuts;
     std::mt19937_64 engine(8);
     for (std::size_t i = 0; i < all.count(); ++i) {
         double* x = &all.coordinates[2 * i];
@@ -91,7 +91,7 @@ TEST(Reuse, leaves_cuts_alone_whose_parts_are_good) {
         all.coordinates.insert(all.coordinates.end(), {0.01 + 1e-4 * static_cast<double>(i), 0.01});
     all.scatter();
     const Share mine(all);
-    const Balance result = rebalance(mine.points(), options, before, MPI_COMM_WORLD);
+    const Balance result = balance(mine.points(), options, before, MPI_COMM_WORLD);
     EXPECT_LE(imbalance(weights_by_look_up(all, result.cuts)), 1.05);
     EXPECT_EQ(result.cuts.tree[0].at, before.tree[0].at);
     EXPECT_TRUE(same_below(before, result.cuts, 8, 8)) << "the upper half";
@@ -106,7 +106,7 @@ TEST(Reuse, of_a_drifting_cloud_moves_half_of_what_exact_cuts_do_at_most) {
     Options options = with_parts(8, 1.05);
     Options exact = options;
     exact.refine = Refine::exact;
-    Cuts cuts = balance(Share(all).points(), exact, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(Share(all).points(), exact, {}, MPI_COMM_WORLD).cuts;
     double moved = 0;
     double moved_by_exact = 0;
     int num_moves = 0;
@@ -116,12 +116,12 @@ TEST(Reuse, of_a_drifting_cloud_moves_half_of_what_exact_cuts_do_at_most) {
             x[0] += 0.01 * x[1] * (1 - x[0]);
         }
         const Share mine(all);
-        const Balance next = rebalance(mine.points(), options, cuts, MPI_COMM_WORLD);
+        const Balance next = balance(mine.points(), options, cuts, MPI_COMM_WORLD);
         EXPECT_LE(imbalance(weights_by_look_up(all, next.cuts)), 1.05);
         if (!same_cuts(next.cuts, cuts)) {
             ++num_moves;
             moved += weight_moved(all, cuts, next.cuts);
-            const Balance other = rebalance(mine.points(), exact, cuts, MPI_COMM_WORLD);
+            const Balance other = balance(mine.points(), exact, cuts, MPI_COMM_WORLD);
             moved_by_exact += weight_moved(all, cuts, other.cuts);
         }
         cuts = next.cuts;
@@ -151,14 +151,14 @@ TEST(Reuse, takes_other_axes_if_those_of_earlier_cuts_miss_a_tolerance_by_far) {
         Options options = with_parts(num_parts, round % 4 == 0 ? 1.5 : 1.001);
         options.refine = round % 3 == 0 ? Refine::exact : Refine::tolerance;
         const Share before(heavy_points(dimension, num_parts, engine));
-        const Cuts first = balance(before.points(), options, MPI_COMM_WORLD).cuts;
+        const Cuts first = balance(before.points(), options, {}, MPI_COMM_WORLD).cuts;
         const HeldPoints all = heavy_points(dimension, num_parts, engine);
         const Share mine(all);
-        const Balance again = rebalance(mine.points(), options, first, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, first, MPI_COMM_WORLD);
         const double reached = again.report.imbalance;
         EXPECT_NEAR(imbalance(weights_by_look_up(all, again.cuts)), reached, 1e-9 * reached);
         options.refine = Refine::exact;
-        const double exact = balance(mine.points(), options, MPI_COMM_WORLD).report.imbalance;
+        const double exact = balance(mine.points(), options, {}, MPI_COMM_WORLD).report.imbalance;
         const double least =
             std::max(options.imbalance_tolerance, again.report.details.least_imbalance);
         // Less than a twentieth of what the tolerance allows is no gain.

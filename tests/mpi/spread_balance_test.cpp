@@ -64,7 +64,7 @@ TEST(SpreadBalance, exact_leaves_each_part_within_one_point_of_the_ideal) {
             for (const int central : central_parts()) {
                 const auto mine = share_of_cloud(2048, dimension, coordinate);
                 const Points points = interleaved_points(mine, dimension);
-                const Balance result = balance(points, spread_options(central), MPI_COMM_WORLD);
+                const Balance result = balance(points, spread_options(central), {}, MPI_COMM_WORLD);
                 const auto weights = expect_consistent(points, result);
                 for (const double weight : weights)
                     EXPECT_LE(std::abs(weight - 2048.0 / num_ranks()), 1)
@@ -83,7 +83,7 @@ TEST(SpreadBalance, tolerance_is_met_and_measured) {
                 Options options = spread_options(central, Refine::tolerance);
                 options.imbalance_tolerance = tolerance;
                 options.num_parts = per_rank * num_ranks();
-                const Balance result = balance(points, options, MPI_COMM_WORLD);
+                const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
                 const auto weights = expect_consistent(points, result);
                 EXPECT_LE(imbalance(weights), tolerance);
                 EXPECT_TRUE(result.report.within_tolerance);
@@ -101,10 +101,10 @@ TEST(SpreadBalance, a_tolerance_that_exact_cuts_reach_is_not_missed) {
             for (std::size_t i = 0; i < mine.size(); i += 2)
                 weights.push_back(0.5 + mine[i] * mine[i + 1]);
             const Points points = interleaved_points(mine, 2, weights);
-            const Balance exact = balance(points, spread_options(central), MPI_COMM_WORLD);
+            const Balance exact = balance(points, spread_options(central), {}, MPI_COMM_WORLD);
             Options options = spread_options(central, Refine::tolerance);
             options.imbalance_tolerance = exact.report.imbalance;
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             expect_consistent(points, result);
             EXPECT_TRUE(result.report.within_tolerance) << central << ", " << count;
         }
@@ -125,7 +125,7 @@ TEST(SpreadBalance, a_small_part_gets_no_point_that_another_has_more_room_for) {
             Options options = spread_options(central, Refine::tolerance);
             options.part_sizes = sizes;
             options.imbalance_tolerance = 1.2;
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             const auto sums = expect_consistent(points, result);
             EXPECT_LE(imbalance(sums, sizes), 1.2) << central;
             EXPECT_TRUE(result.report.within_tolerance);
@@ -144,21 +144,21 @@ TEST(SpreadBalance, cuts_lie_across_the_axes_given_to_them) {
         for (const int central : central_parts()) {
             Options options = spread_options(central, refine);
             options.imbalance_tolerance = 1.05;
-            const Balance free = balance(points, options, MPI_COMM_WORLD);
+            const Balance free = balance(points, options, {}, MPI_COMM_WORLD);
             std::vector<int> axes;
             for (int node = 0; node + 1 < num_ranks(); ++node)
                 axes.push_back((node * node + 1) % 3);
             options.axes.order = AxisOrder::given(axes);
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             EXPECT_LE(imbalance(expect_consistent(points, result)), 1.05);
             expect_axes(result.cuts, axes);
             // Cuts across other axes are made anew.
-            const Balance again = rebalance(points, options, free.cuts, MPI_COMM_WORLD);
+            const Balance again = balance(points, options, free.cuts, MPI_COMM_WORLD);
             expect_axes(again.cuts, axes);
             EXPECT_EQ(again.parts, result.parts);
             if (refine != Refine::exact) continue;
             options.tuning.central_parts = num_ranks();
-            EXPECT_EQ(result.parts, balance(points, options, MPI_COMM_WORLD).parts);
+            EXPECT_EQ(result.parts, balance(points, options, {}, MPI_COMM_WORLD).parts);
         }
 }
 
@@ -170,7 +170,7 @@ TEST(SpreadBalance, parts_have_the_sizes_asked_for_and_stay_empty_where_these_ar
         Options options = spread_options(2);
         options.num_parts = num_parts;
         for (int part = 0; part < num_parts; ++part) options.part_sizes.push_back(part % 3);
-        const Balance result = balance(points, options, MPI_COMM_WORLD);
+        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
         const auto weights = expect_consistent(points, result);
         const double sizes =
             std::accumulate(options.part_sizes.begin(), options.part_sizes.end(), 0.0);
@@ -184,7 +184,7 @@ TEST(SpreadBalance, points_without_weight_are_balanced_by_count) {
     const auto mine = share_of_cloud(2000, 2, uniform);
     const std::vector<double> weights(mine.size() / 2, 0.0);
     const Points points = interleaved_points(mine, 2, weights);
-    const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
+    const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
     EXPECT_TRUE(result.report.details.all_weights_zero);
     for (const double count : expect_consistent(points, result))
         EXPECT_LE(std::abs(count - 2000.0 / num_ranks()), 1);
@@ -195,7 +195,7 @@ TEST(SpreadBalance, weights_over_decades_are_halved_as_well_as_any_cut_can) {
     std::vector<double> weights;
     for (std::size_t i = 0; i < mine.size(); i += 3) weights.push_back(std::pow(10, 3 * mine[i]));
     const Points points = interleaved_points(mine, 3, weights);
-    const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
+    const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
     const auto sums = expect_consistent(points, result);
     const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / num_ranks();
     const double heaviest = 1000;
@@ -207,7 +207,7 @@ TEST(SpreadBalance, weights_over_decades_are_halved_as_well_as_any_cut_can) {
 TEST(SpreadBalance, points_in_one_place_stay_together) {
     const auto mine = share_of_cloud(500, 2, [](std::size_t, int, double) { return 4.5; });
     const Points points = interleaved_points(mine, 2);
-    const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
+    const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
     const auto weights = expect_consistent(points, result);
     EXPECT_EQ(std::ranges::count(weights, 500), 1);
     EXPECT_GT(result.report.details.coincident_cuts, 0);
@@ -225,11 +225,11 @@ TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ra
             options.coincident = Coincident::divide;
             options.refine = Refine::tolerance;
             options.imbalance_tolerance = 1.05;
-            const Balance good = balance(points, options, MPI_COMM_WORLD);
+            const Balance good = balance(points, options, {}, MPI_COMM_WORLD);
             EXPECT_LE(imbalance(part_weights(points, good.parts, num_ranks(), MPI_COMM_WORLD)),
                       1.05);
             options.refine = Refine::exact;
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             test::expect_own_paths(result.cuts);
             test::expect_same_cuts_on_all_ranks(result.cuts);
             const auto weights = part_weights(points, result.parts, num_ranks(), MPI_COMM_WORLD);
@@ -254,7 +254,7 @@ TEST(SpreadBalance, ranks_may_be_empty_and_all_points_on_one) {
         std::vector<double> mine;
         if (rank() == holder) mine = test::uniform_cloud(1000, 2, 7);
         const Points points = interleaved_points(mine, 2);
-        const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
+        const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
         for (const double weight : expect_consistent(points, result))
             EXPECT_LE(std::abs(weight - 1000.0 / num_ranks()), 1);
     }
@@ -264,7 +264,7 @@ TEST(SpreadBalance, there_may_be_fewer_points_than_parts_and_none_at_all) {
     for (const std::size_t count : {0U, 1U, 3U}) {
         const auto mine = share_of_cloud(count, 2, uniform);
         const Points points = interleaved_points(mine, 2);
-        const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
+        const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
         const auto weights = expect_consistent(points, result);
         EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), 0.0), count);
         EXPECT_LE(*std::ranges::max_element(weights), count == 3 && num_ranks() == 3 ? 2 : 1);
@@ -278,8 +278,8 @@ TEST(SpreadBalance, the_same_call_gives_the_same_bits) {
     const Points points = interleaved_points(mine, 2);
     for (const Refine refine : {Refine::exact, Refine::tolerance}) {
         // One after the other, without a barrier.
-        const Balance a = balance(points, spread_options(2, refine), MPI_COMM_WORLD);
-        const Balance b = balance(points, spread_options(2, refine), MPI_COMM_WORLD);
+        const Balance a = balance(points, spread_options(2, refine), {}, MPI_COMM_WORLD);
+        const Balance b = balance(points, spread_options(2, refine), {}, MPI_COMM_WORLD);
         EXPECT_EQ(a.parts, b.parts);
         EXPECT_EQ(a.cuts.nodes, b.cuts.nodes);
         for (std::size_t k = 0; k < a.cuts.tree.size(); ++k)
@@ -307,13 +307,13 @@ TEST(SpreadBalance, all_ranks_get_all_cuts_where_the_call_asks_for_something_els
     for (const auto& change : changes) {
         Options options = spread_options(2);
         change(options);
-        const Balance result = balance(points, options, MPI_COMM_WORLD);
+        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
         EXPECT_TRUE(is_whole(result.cuts));
         EXPECT_EQ(std::ssize(result.cuts.tree) + 1, result.cuts.num_parts);
     }
     Options planes = spread_options(2);
     planes.axes.plain = true;
-    EXPECT_FALSE(is_whole(balance(points, planes, MPI_COMM_WORLD).cuts));
+    EXPECT_FALSE(is_whole(balance(points, planes, {}, MPI_COMM_WORLD).cuts));
 }
 
 TEST(SpreadBalance, all_ranks_get_all_cuts_and_the_weights_of_all_parts_by_default) {
@@ -324,9 +324,9 @@ TEST(SpreadBalance, all_ranks_get_all_cuts_and_the_weights_of_all_parts_by_defau
             const Points points = interleaved_points(mine, 2);
             Options options = spread_options(central, refine);
             options.num_parts = 2 * num_ranks() + 1;
-            const Balance own = balance(points, options, MPI_COMM_WORLD);
+            const Balance own = balance(points, options, {}, MPI_COMM_WORLD);
             options.cuts = Options{}.cuts;
-            const Balance whole = balance(points, options, MPI_COMM_WORLD);
+            const Balance whole = balance(points, options, {}, MPI_COMM_WORLD);
             EXPECT_EQ(whole.parts, own.parts);
             ASSERT_TRUE(is_whole(whole.cuts));
             std::vector<Part> parts(points.count);
@@ -349,12 +349,12 @@ TEST(SpreadBalance, points_in_a_divided_place_are_looked_up_on_every_rank) {
         Options options = spread_options(2, refine);
         options.num_parts = 3 * num_ranks();
         options.coincident = Coincident::divide;
-        const Balance own = balance(points, options, MPI_COMM_WORLD);
+        const Balance own = balance(points, options, {}, MPI_COMM_WORLD);
         EXPECT_GT(own.report.details.coincident_cuts, 0);
         std::vector<Part> parts(points.count);
         ASSERT_NO_THROW(assign(own.cuts, points, parts));
         options.cuts = HeldCuts::whole;
-        const Balance whole = balance(points, options, MPI_COMM_WORLD);
+        const Balance whole = balance(points, options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(whole.parts, own.parts);
         for (LocalIndex i = 0; i < points.count; ++i)
             EXPECT_EQ(parts[i], part_of(whole.cuts, points.position(i)));
@@ -364,8 +364,8 @@ TEST(SpreadBalance, points_in_a_divided_place_are_looked_up_on_every_rank) {
 TEST(SpreadBalance, cuts_of_which_ranks_know_some_only_are_made_anew) {
     const auto mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
-    const Balance first = balance(points, spread_options(2), MPI_COMM_WORLD);
-    const Balance again = rebalance(points, spread_options(2), first.cuts, MPI_COMM_WORLD);
+    const Balance first = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
+    const Balance again = balance(points, spread_options(2), first.cuts, MPI_COMM_WORLD);
     EXPECT_EQ(again.parts, first.parts);
     expect_consistent(points, again);
 }
@@ -377,7 +377,7 @@ TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
         Options options = spread_options(2);
         if (rank() == faulty) options.tuning.central_parts = 1;
         try {
-            balance(points, options, MPI_COMM_WORLD);
+            balance(points, options, {}, MPI_COMM_WORLD);
             ADD_FAILURE() << "expected an error";
         } catch (const Error& error) {
             EXPECT_EQ(error.what(), "rank " + std::to_string(faulty) +
@@ -385,7 +385,7 @@ TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
         }
         options.tuning.central_parts = rank() == faulty ? 2 : 1000;
         try {
-            balance(points, options, MPI_COMM_WORLD);
+            balance(points, options, {}, MPI_COMM_WORLD);
             ADD_FAILURE() << "expected an error";
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find("central_parts differs between rank"),
@@ -394,7 +394,7 @@ TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
         }
     }
     const std::vector<double> fine{0.5, 1.5};
-    EXPECT_EQ(balance(interleaved_points(fine, 1), {}, MPI_COMM_WORLD).parts.size(), 2u);
+    EXPECT_EQ(balance(interleaved_points(fine, 1), {}, {}, MPI_COMM_WORLD).parts.size(), 2u);
 }
 
 }  // namespace

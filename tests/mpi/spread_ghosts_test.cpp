@@ -128,7 +128,7 @@ TEST(SpreadGhosts, of_points_on_the_ranks_of_their_parts_are_those_by_the_whole_
     options.tuning.central_parts = 2;
     options.cuts = HeldCuts::own;
     const Balance balance =
-        rrcb::balance(interleaved_points(scattered, 2), options, MPI_COMM_WORLD);
+        rrcb::balance(interleaved_points(scattered, 2), options, {}, MPI_COMM_WORLD);
     const Plan lists = plan(balance.parts, options.num_parts, MPI_COMM_WORLD);
     const auto here = transfer(lists, column(scattered, 2), MPI_COMM_WORLD);
     const Points points = interleaved_points(here, 2);

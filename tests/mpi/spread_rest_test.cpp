@@ -52,7 +52,7 @@ void expect_rest(HeldPoints all, const Options& options) {
     Cuts before;
     for (int call = 1; call <= 3; ++call) {
         const Share mine(all);
-        const Balance result = balance(mine.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(mine.points(), options, {}, MPI_COMM_WORLD);
         const std::size_t num_moved = move_to(result.parts, all);
         const Cuts cuts = gather_cuts(result.cuts, MPI_COMM_WORLD);
         if (call > 1) {

@@ -64,12 +64,12 @@ TEST(SpreadReuse, keeps_cuts_while_their_parts_are_within_the_tolerance) {
             for (const int num_parts : {num_ranks(), 3 * num_ranks() + 1}) {
                 HeldPoints all = uneven_cloud(dimension, has_weights);
                 const Options options = spread_options(num_parts, 1.2);
-                const Balance first = balance(Share(all).points(), options, MPI_COMM_WORLD);
+                const Balance first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD);
                 ASSERT_EQ(is_whole(first.cuts), num_ranks() <= 2);
                 const Cuts whole = gather_cuts(first.cuts, MPI_COMM_WORLD);
                 drift(1e-3, all);
                 const Share mine(all);
-                const Balance again = rebalance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+                const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
                 const double expected = imbalance_by_look_up(all, whole);
                 ASSERT_LE(expected, 1.2) << "the cloud drifted too far for this test";
                 expect_parts(mine, whole, again);
@@ -90,18 +90,18 @@ TEST(SpreadReuse, finds_the_parts_of_points_that_have_come_from_anywhere) {
     HeldPoints all = uneven_cloud(2, false);
     const Options options = spread_options(num_parts, 3000);
     // Points in the regions of their ranks, which then know few cuts of others.
-    const Balance first = balance(Share(all).points(), options, MPI_COMM_WORLD);
+    const Balance first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD);
     const Cuts whole = gather_cuts(first.cuts, MPI_COMM_WORLD);
     for (std::size_t i = 0; i < all.count(); ++i) {
         const Part part = part_of(whole, interleaved_points(all.coordinates, 2).position(i));
         all.owners[i] = ranks_of_part(part, num_parts, num_ranks()).first_rank;
     }
-    const Balance settled = rebalance(Share(all).points(), options, first.cuts, MPI_COMM_WORLD);
+    const Balance settled = balance(Share(all).points(), options, first.cuts, MPI_COMM_WORLD);
     // Then each rank gets those of others, one after the other.
     for (int turn = 1; turn < num_ranks(); ++turn) {
         for (Part& owner : all.owners) owner = (owner + 1) % num_ranks();
         const Share mine(all);
-        const Balance again = rebalance(mine.points(), options, settled.cuts, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, settled.cuts, MPI_COMM_WORLD);
         expect_parts(mine, whole, again);
         EXPECT_EQ(again.report.details.rounds, 1);
         EXPECT_NEAR(again.report.imbalance, imbalance_by_look_up(all, whole), 1e-9);
@@ -116,11 +116,11 @@ TEST(SpreadReuse, keeps_points_together_that_a_cut_divided) {
     const Share mine(all);
     Options options = spread_options(num_ranks() + 2, 1.02);
     options.coincident = Coincident::divide;
-    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
     options.imbalance_tolerance = 1000;
     for (const bool plain : {false, true}) {
         options.axes.plain = plain;
-        const Balance again = rebalance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
         const Cuts after = gather_cuts(again.cuts, MPI_COMM_WORLD);
         expect_parts(mine, after, again);
         EXPECT_EQ(again.report.details.rounds, 1);
@@ -135,13 +135,13 @@ TEST(SpreadReuse, keeps_points_together_that_a_cut_divided) {
 TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
     HeldPoints all = uneven_cloud(2, true);
     Options options = spread_options(num_ranks(), 1.05);
-    const Balance first = balance(Share(all).points(), options, MPI_COMM_WORLD);
+    const Balance first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD);
     drift(0.3, all);
     const Share mine(all);
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         options.refine = refine;
-        const Balance fresh = balance(mine.points(), options, MPI_COMM_WORLD);
-        const Balance again = rebalance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+        const Balance fresh = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
         if (num_ranks() > 2) {
             EXPECT_EQ(again.parts, fresh.parts);
         }
@@ -151,7 +151,7 @@ TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
     // As many parts as one rank makes: the cuts are those of a call from nothing as well.
     options.tuning.central_parts = 1000;
     options.refine = Refine::tolerance;
-    EXPECT_TRUE(is_whole(rebalance(mine.points(), options, first.cuts, MPI_COMM_WORLD).cuts));
+    EXPECT_TRUE(is_whole(balance(mine.points(), options, first.cuts, MPI_COMM_WORLD).cuts));
 }
 
 TEST(SpreadReuse, counts_points_without_weight_and_keeps_the_cuts_without_points) {
@@ -159,16 +159,15 @@ TEST(SpreadReuse, counts_points_without_weight_and_keeps_the_cuts_without_points
     all.weights.assign(all.count(), 0.0);
     const Options options = spread_options(num_ranks(), 1.1);
     const Share mine(all);
-    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
     const Cuts whole = gather_cuts(first.cuts, MPI_COMM_WORLD);
-    const Balance again = rebalance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+    const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
     EXPECT_TRUE(again.report.details.all_weights_zero);
     EXPECT_EQ(again.parts, first.parts);
     EXPECT_NEAR(again.report.imbalance, imbalance_by_look_up(all, whole), 1e-9);
 
     const std::vector<double> none;
-    const Balance empty =
-        rebalance(interleaved_points(none, 2), options, first.cuts, MPI_COMM_WORLD);
+    const Balance empty = balance(interleaved_points(none, 2), options, first.cuts, MPI_COMM_WORLD);
     EXPECT_TRUE(test::same_cuts(gather_cuts(empty.cuts, MPI_COMM_WORLD), whole));
     EXPECT_EQ(empty.report.details.rounds, 0);
 }
@@ -179,14 +178,14 @@ TEST(SpreadReuse, starts_from_whole_cuts_as_from_those_that_ranks_have_a_part_of
     for (const int num_parts : {num_ranks(), 2 * num_ranks() + 1})
         for (const double tolerance : {1.05, 1000.0}) {
             Options options = spread_options(num_parts, tolerance);
-            const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+            const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
             const Cuts whole = gather_cuts(first.cuts, MPI_COMM_WORLD);
-            const Balance own = rebalance(mine.points(), options, whole, MPI_COMM_WORLD);
+            const Balance own = balance(mine.points(), options, whole, MPI_COMM_WORLD);
             EXPECT_EQ(own.parts, first.parts);
             EXPECT_EQ(is_whole(own.cuts), is_whole(first.cuts));
             options.cuts = HeldCuts::whole;
             for (const Cuts& previous : {whole, first.cuts}) {
-                const Balance again = rebalance(mine.points(), options, previous, MPI_COMM_WORLD);
+                const Balance again = balance(mine.points(), options, previous, MPI_COMM_WORLD);
                 EXPECT_EQ(again.parts, first.parts);
                 EXPECT_NEAR(again.report.imbalance, first.report.imbalance, 1e-12);
                 EXPECT_TRUE(test::same_cuts(again.cuts, whole));
@@ -200,8 +199,8 @@ TEST(SpreadReuse, measures_weights_so_small_that_a_mean_part_is_no_double) {
     for (double& weight : all.weights) weight = weight > 1.45 ? 5e-324 : 0;
     const Share mine(all);
     const Options options = spread_options(num_ranks(), 1.2);
-    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
-    const Balance again = rebalance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+    const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
     EXPECT_EQ(again.report.details.rounds, 1);
     EXPECT_NEAR(again.report.imbalance,
                 imbalance_by_look_up(all, gather_cuts(again.cuts, MPI_COMM_WORLD)), 1e-9);
@@ -212,15 +211,15 @@ TEST(SpreadReuse, tells_all_ranks_what_is_wrong_on_one) {
     HeldPoints all = uneven_cloud(2, false);
     const Options options = spread_options(num_ranks(), 1.1);
     Share mine(all);
-    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
     const auto expect = [&](const std::string& text, const Cuts& previous, const Options& asked) {
         try {
-            rebalance(mine.points(), asked, previous, MPI_COMM_WORLD);
+            balance(mine.points(), asked, previous, MPI_COMM_WORLD);
             ADD_FAILURE() << "nothing was thrown";
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
         }
-        EXPECT_EQ(rebalance(Share(all).points(), options, first.cuts, MPI_COMM_WORLD).parts,
+        EXPECT_EQ(balance(Share(all).points(), options, first.cuts, MPI_COMM_WORLD).parts,
                   first.parts);
     };
     const bool is_last = test::is_last_rank();

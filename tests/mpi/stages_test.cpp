@@ -33,8 +33,8 @@ std::string stages_seen(const Options& asked, const std::vector<double>& coordin
     Options options = asked;
     options.observer = &recorder;
     const Points points = interleaved_points(coordinates, 2);
-    if (previous) rebalance(points, options, *previous, MPI_COMM_WORLD);
-    if (!previous) balance(points, options, MPI_COMM_WORLD);
+    if (previous) balance(points, options, *previous, MPI_COMM_WORLD);
+    if (!previous) balance(points, options, {}, MPI_COMM_WORLD);
     return recorder.text;
 }
 
@@ -57,7 +57,7 @@ TEST(Stages, come_again_where_many_ranks_make_the_parts) {
     EXPECT_EQ(stages_seen(options, cloud), anew);
     options.refine = Refine::tolerance;
     EXPECT_EQ(stages_seen(options, cloud), anew);
-    const Cuts cuts = balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD).cuts;
+    const Cuts cuts = balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD).cuts;
     const std::string moments = " +moments -moments";
     const std::string reuse = " +assignment -assignment" + start_of_call().substr(moments.size());
     EXPECT_EQ(stages_seen(options, cloud, &cuts), reuse);
@@ -90,7 +90,7 @@ TEST(Stages, are_observed_in_the_floating_point_environment_of_the_program) {
     std::feholdexcept(&before);
     std::feraiseexcept(FE_INEXACT);
     feenableexcept(FE_DIVBYZERO);
-    balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD);
+    balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD);
     const int left = std::fetestexcept(FE_ALL_EXCEPT);
     std::fesetenv(&before);
     EXPECT_TRUE(recorder.is_of_program);
@@ -103,7 +103,7 @@ TEST(Stages, end_when_a_call_fails) {
     Recorder recorder;
     Options options;
     options.observer = &recorder;
-    EXPECT_THROW(balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD), Error);
     // The failure is broadcast where the cuts would be; there is nothing to bisect.
     EXPECT_EQ(recorder.text, " +moments -moments +gather -gather +broadcast -broadcast");
 }
@@ -113,9 +113,9 @@ TEST(Stages, may_be_watched_on_one_rank_alone_and_change_nothing) {
     const Points points = interleaved_points(cloud, 2);
     Recorder recorder;
     Options options;
-    const Balance unwatched = balance(points, options, MPI_COMM_WORLD);
+    const Balance unwatched = balance(points, options, {}, MPI_COMM_WORLD);
     if (test::is_last_rank()) options.observer = &recorder;
-    EXPECT_EQ(balance(points, options, MPI_COMM_WORLD).parts, unwatched.parts);
+    EXPECT_EQ(balance(points, options, {}, MPI_COMM_WORLD).parts, unwatched.parts);
     EXPECT_EQ(recorder.text.empty(), !test::is_last_rank());
 }
 

@@ -125,7 +125,7 @@ TEST(TreeShape, each_point_is_where_the_cuts_of_whole_groups_put_it) {
             options.refine = refine;
             const std::vector<double> coordinates = cloud_here(2);
             const Points points = interleaved_points(coordinates, 2);
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             EXPECT_EQ(result.cuts.shape, options.tree);
             const std::vector<Node> nodes = nodes_of(all, larger_below);
             ASSERT_EQ(result.cuts.tree.size(), nodes.size());
@@ -163,10 +163,10 @@ TEST(TreeShape, exact_leaves_each_part_within_two_points_of_the_ideal) {
         options.part_sizes[1] = 2;
         const std::vector<double> coordinates = cloud_here(3);
         const Points points = interleaved_points(coordinates, 3);
-        expect_exact(balance(points, options, MPI_COMM_WORLD), points);
+        expect_exact(balance(points, options, {}, MPI_COMM_WORLD), points);
         if (all.dealt > 0) return;
         options.tuning.central_parts = 2;
-        expect_exact(balance(points, options, MPI_COMM_WORLD), points);
+        expect_exact(balance(points, options, {}, MPI_COMM_WORLD), points);
     });
 }
 
@@ -176,20 +176,20 @@ TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
         Options options = options_for(all, larger_below);
         options.tuning.central_parts = 2;
         if (all.dealt > 0) {
-            EXPECT_THROW(balance(interleaved_points({}, 3), options, MPI_COMM_WORLD), Error);
+            EXPECT_THROW(balance(interleaved_points({}, 3), options, {}, MPI_COMM_WORLD), Error);
             return;
         }
         options.cuts = HeldCuts::own;
         const std::vector<double> coordinates = cloud_here(3);
         const Points points = interleaved_points(coordinates, 3);
-        const Balance spread = balance(points, options, MPI_COMM_WORLD);
+        const Balance spread = balance(points, options, {}, MPI_COMM_WORLD);
         EXPECT_TRUE(spread.report.within_tolerance) << spread.report.imbalance;
         const Cuts whole = gather_cuts(spread.cuts, MPI_COMM_WORLD);
         const std::vector<Node> nodes = nodes_of(all, larger_below);
         for (LocalIndex i = 0; i < points.count; ++i)
             ASSERT_TRUE(leave_to(spread.parts[i], whole, nodes, points.position(i)));
         EXPECT_EQ(assign_all(spread.cuts, points, MPI_COMM_WORLD), spread.parts);
-        const Balance again = rebalance(points, options, spread.cuts, MPI_COMM_WORLD);
+        const Balance again = balance(points, options, spread.cuts, MPI_COMM_WORLD);
         EXPECT_EQ(again.parts, spread.parts);
     });
 }
@@ -199,25 +199,25 @@ TEST(TreeShape, is_that_of_earlier_cuts) {
     options.tree = {2, true};
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
-    const Balance first = balance(points, options, MPI_COMM_WORLD);
-    const Balance again = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
+    const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
+    const Balance again = balance(points, options, first.cuts, MPI_COMM_WORLD);
     EXPECT_EQ(again.parts, first.parts);
     EXPECT_EQ(again.cuts.shape, options.tree);
     Options other = options;
     other.tree = {};
     if (num_ranks() == 1) return;
-    EXPECT_THROW(rebalance(points, other, first.cuts, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance(points, other, first.cuts, MPI_COMM_WORLD), Error);
 }
 
 TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
     Options options;
     options.tree.group_size = -1;
-    EXPECT_THROW(balance(interleaved_points({}, 2), options, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance(interleaved_points({}, 2), options, {}, MPI_COMM_WORLD), Error);
     options.num_parts = 10;
     for (const TreeShape& shape :
          {TreeShape{4, false, 1}, {5, false, 2}, {3, false, -1}, {0, false, 2}}) {
         options.tree = shape;
-        EXPECT_THROW(balance(interleaved_points({}, 2), options, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(balance(interleaved_points({}, 2), options, {}, MPI_COMM_WORLD), Error);
     }
 }
 
@@ -227,7 +227,7 @@ TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
         const Options options = options_for(all, larger_below);
         const std::vector<double> coordinates = cloud_here(2);
         const Points points = interleaved_points(coordinates, 2);
-        Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+        Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
         cuts.points = 0;  // the points stay where they are
         const GhostPlan found = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);
         std::vector<std::size_t> expected;

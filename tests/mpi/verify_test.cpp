@@ -35,7 +35,8 @@ struct Scene {
             test::uniform_cloud(60, dimension, static_cast<unsigned>(rank() + 1));
         for (std::size_t i = 0; i < 60; ++i)
             before.push_back(1000 * static_cast<std::uint64_t>(rank()) + i);
-        const Balance made = balance(interleaved_points(scattered, dimension), {}, MPI_COMM_WORLD);
+        const Balance made =
+            balance(interleaved_points(scattered, dimension), {}, {}, MPI_COMM_WORLD);
         cuts = made.cuts;
         std::tie(ids, x) = transfer(plan(made, MPI_COMM_WORLD),
                                     columns(before, column(scattered, d)), MPI_COMM_WORLD);

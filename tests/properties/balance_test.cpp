@@ -28,7 +28,8 @@ struct Answer {
 
     Answer(const Case& input, const Options& asked)
         : Answer(input, asked,
-                 [&](const Points& points) { return balance(points, asked, MPI_COMM_WORLD); }) {}
+                 [&](const Points& points) { return balance(points, asked, {}, MPI_COMM_WORLD); }) {
+    }
 
     /// By a method of the paper.
     Answer(const Case& input, const PaperOptions& asked)
@@ -261,7 +262,7 @@ TEST(Balance, moves_nothing_when_called_again_with_its_own_cuts) {
             answer.cloud = migrated(answer);
             const Cloud mine = answer.cloud.of_rank(rank());
             const Balance again =
-                rebalance(mine.points(), answer.options, answer.result.cuts, MPI_COMM_WORLD);
+                balance(mine.points(), answer.options, answer.result.cuts, MPI_COMM_WORLD);
             return answer.gathered(again.parts) == answer.parts ? "" : "points change their parts";
         },
         num_cases);

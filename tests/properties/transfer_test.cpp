@@ -77,7 +77,7 @@ TEST(Transfer, there_and_back_is_the_identity) {
             const Held first = held_at_first(input);
             const Balance there =
                 balance(interleaved_points(first.coordinates, input.shape.dimension),
-                        input.options(), MPI_COMM_WORLD);
+                        input.options(), {}, MPI_COMM_WORLD);
             const Held away = moved(first, plan(there, MPI_COMM_WORLD), input);
             const Held back = sorted(
                 moved(away, plan(away.owners, num_ranks(), MPI_COMM_WORLD), input), dimension);
@@ -115,7 +115,7 @@ TEST(Ghosts, are_all_points_near_the_regions_of_a_rank_and_no_others) {
             const Cloud cloud = cloud_of(input, num_ranks());
             const Held held = held_at_first(input);
             const Points points = interleaved_points(held.coordinates, input.shape.dimension);
-            Cuts cuts = balance(points, input.options(), MPI_COMM_WORLD).cuts;
+            Cuts cuts = balance(points, input.options(), {}, MPI_COMM_WORLD).cuts;
             cuts.points = 0;  // the points stay where they are
             const double radius = radius_of(input, cloud);
             const GhostPlan lists = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);

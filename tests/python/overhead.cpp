@@ -20,7 +20,7 @@ extern "C" __attribute__((visibility("default"))) void balance_points(MPI_Fint c
                                                                       const double* x,
                                                                       std::size_t count) {
     const rrcb::Points points = rrcb::interleaved_points({x, 3 * count}, 3);
-    balanced = rrcb::balance(points, {}, MPI_Comm_f2c(comm));
+    balanced = rrcb::balance(points, {}, {}, MPI_Comm_f2c(comm));
 }
 
 /// Moves the points of the last balance to the ranks of their parts. Collective.

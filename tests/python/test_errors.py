@@ -22,11 +22,11 @@ def test_names_the_calls_of_ranks_that_differ():
 
     def different():
         if comm.rank == 1:
-            rrcb.assign(x, balance, comm)
+            rrcb.assign_all(x, balance, comm)
         else:
             balance.ghosts(x, 0.1)
 
-    same_error(different, "rank 0 calls ghosts, rank 1 calls rrcb_create (Python: balance, assign);")
+    same_error(different, "rank 0 calls ghosts, rank 1 calls rrcb_create (Python: balance, assign_all);")
     same_error(lambda: controller.step(1), "make another controller")
     controller.free()
     assert rrcb.balance(x, comm=comm).report == balance.report
@@ -59,12 +59,12 @@ def test_raises_the_error_of_one_rank_on_all():
         different = on_rank(last, 1.2, 1.1)
         same_error(lambda: rrcb.balance(x, comm=comm, tolerance=different), "tolerance")
         earlier = on_rank(last, balance, None)
-        same_error(lambda: rrcb.balance(x, comm=comm, previous=earlier), "rank 0 calls balance")
+        same_error(lambda: rrcb.balance(x, comm=comm, previous=earlier), "previous differs between rank")
         alone = rrcb.balance(x, comm=MPI.COMM_SELF, num_parts=RANKS)
         same_error(lambda: rrcb.balance(x, comm=comm, previous=alone), "previous differs")
     for call in (
         lambda given: rrcb.balance(x, comm=comm, previous=given),
-        lambda given: rrcb.assign(x, given, comm),
+        lambda given: rrcb.assign_all(x, given, comm),
     ):
         same_error(lambda: call(on_rank(last, 3, balance)), "give a balance or its cuts, not int")
     for bad, text in ((["a"], "part_sizes must be numbers, not ['a']"), (np.ones(RANKS + 1), "")):
@@ -98,8 +98,8 @@ def test_only_failures_cost_a_message():
     x, silent = cloud(2), Silent(comm)
     balance = rrcb.balance(x, comm=silent)
     rrcb.balance(x, comm=silent, previous=balance)
-    here = rrcb.assign(x, balance, comm).distribute(x)
-    assert rrcb.assign(x, balance, silent).ghosts(here, 0.1).num_points == len(here)
+    here = rrcb.assign_all(x, balance, comm).distribute(x)
+    assert rrcb.assign_all(x, balance, silent).ghosts(here, 0.1).num_points == len(here)
 
 
 def test_raises_errors_of_columns_on_all():
@@ -144,7 +144,7 @@ def test_refuses_ghosts_of_points_that_were_not_moved():
     if RANKS > 1:
         text = "these are the points of the balance"
         same_error(lambda: balance.ghosts(x, 0.1), text)
-        alone = rrcb.assign(here, balance, comm)
+        alone = rrcb.assign_all(here, balance, comm)
         same_error(lambda: balance.ghosts(on_rank(RANKS - 1, x, here), 0.1), text)
         assert alone.ghosts(here, 0.1).count == balance.ghosts(here, 0.1).count
     for num_parts in (2 * RANKS, max(RANKS - 1, 2)):
@@ -165,7 +165,7 @@ def test_names_the_shape_of_no_points():
         for call in (
             lambda: rrcb.balance(given, comm=comm),
             lambda: rrcb.balance(given, comm=comm, previous=balance),
-            lambda: rrcb.assign(given, balance, comm),
+            lambda: rrcb.assign_all(given, balance, comm),
             lambda: balance.ghosts(on_rank(last, np.array([]), here), 0.1),
         ):
             same_error(call, "without points np.empty((0, d))")
@@ -189,13 +189,13 @@ def test_refuses_calls_when_mpi_is_not_running():
     ghosts = balance.ghosts(here, 0.1)
     calls = (
         lambda: rrcb.balance(x, comm=comm),
-        lambda: rrcb.assign(x, balance, comm),
+        lambda: rrcb.assign_all(x, balance, comm),
         lambda: balance.distribute(x),
         lambda: balance.ghosts(here, 0.1),
         lambda: ghosts.fetch(here),
         lambda: copy.copy(balance.cuts).part_of(x),
         lambda: rrcb.Controller(comm),
-        lambda: rrcb.CostModel(2, comm=comm),
+        lambda: rrcb.CostModel(None, 2, comm),
     )
     for name, result in (("Is_initialized", False), ("Is_finalized", True)):
         for call in calls:
@@ -233,15 +233,15 @@ def test_raises_errors_of_a_controller_on_all():
             controller.rebalanced(given, cost)
             same_error(lambda: [controller.step(1.0) for _ in range(3)], "")
     given = on_rank(last, "a", 1)
-    same_error(lambda: rrcb.CostModel(given, comm=comm), "num_columns must be a whole number, not 'a'")
-    with rrcb.CostModel(2, comm=comm) as model:
+    same_error(lambda: rrcb.CostModel(None, given, comm), "num_columns must be a whole number, not 'a'")
+    with rrcb.CostModel(None, 2, comm) as model:
         model.step(1.0, on_rank(last, [[1], [1, 2]], [1, 2]))
         same_error(lambda: [model.step(1.0, [1, 2]) for _ in range(3)], "")
 
 
 def test_frees_cost_models_with_their_controller():
     with rrcb.Controller(comm) as controller:
-        model = rrcb.CostModel(2, controller, comm)
+        model = rrcb.CostModel(controller, 2, comm)
     for use in (
         lambda: model.step(1.0, [1, 2]),
         lambda: model.weights(np.ones((1, 2))),
@@ -252,15 +252,15 @@ def test_frees_cost_models_with_their_controller():
     model.free()
     for use in (lambda: controller.step(1.0), lambda: controller.due):
         same_error(use, "controller was freed: make another")
-    same_error(lambda: rrcb.CostModel(2, controller, comm), "controller was freed")
+    same_error(lambda: rrcb.CostModel(controller, 2, comm), "controller was freed")
 
 
 def test_refuses_columns_of_cost_models_that_differ():
     last = RANKS - 1
     for bad in (2**32 + 2, 10**12):
-        same_error(lambda: rrcb.CostModel(on_rank(last, bad, 2), comm=comm), "must be an int32")
-    same_error(lambda: rrcb.CostModel(2, on_rank(last, 3, None), comm), "Controller, not int")
-    with rrcb.CostModel(2, comm=comm) as model:
+        same_error(lambda: rrcb.CostModel(None, on_rank(last, bad, 2), comm), "must be an int32")
+    same_error(lambda: rrcb.CostModel(on_rank(last, 3, None), 2, comm), "Controller, not int")
+    with rrcb.CostModel(None, 2, comm) as model:
         for bad in (np.ones((4, 3)), np.ones(4), np.ones((2, 4))):
             same_error(lambda: model.weights(bad), "columns must have the shape (n, 2)")
         assert len(model.weights(np.empty((0, 2)))) == 0

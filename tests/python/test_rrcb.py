@@ -56,7 +56,7 @@ def test_continues_from_saved_bytes():
     assert (loaded.part_of(x) == made.cuts.part_of(x)).all()
     same_error(lambda: rrcb.Cuts.load(made.cuts.save()[:-8]), "pass all bytes")
     controller = rrcb.Controller(comm)
-    model = rrcb.CostModel(2, controller, comm)
+    model = rrcb.CostModel(controller, 2, comm)
     for step in range(30):
         cells = 10 + 20 * ME + step % 7
         model.step(100 + 5 * cells, [100, cells])
@@ -387,7 +387,7 @@ def test_refuses_ghosts_from_before_a_transfer():
     here = balance.distribute(x)
     ghosts = balance.ghosts(here, 0.1)
     assert len(ghosts.fetch(here)) == ghosts.count
-    rrcb.assign(1 - here, balance, comm).distribute(here)
+    rrcb.assign_all(1 - here, balance, comm).distribute(here)
     same_error(lambda: ghosts.fetch(here), "the points were transferred since these ghosts")
 
 
@@ -407,6 +407,10 @@ def test_accumulates_at_points():
         of_it = all_numbers == one
         assert np.allclose(sums["force"][k], all_forces[of_it].sum(axis=0), rtol=1e-14)
         assert sums["count"][k] == of_it.sum()
+    replies = ghosts.reply({"of": number, "by": np.full(ghosts.count, ME)})
+    rows = np.concatenate([np.zeros(0, dtype=np.uintp), *ghosts.sent.values()])
+    assert np.array_equal(replies["of"], here["id"][rows])
+    assert np.array_equal(replies["by"], np.repeat(list(ghosts.sent), [len(r) for r in ghosts.sent.values()]))
     for dtype in (np.int64, np.float32):
         one = ghosts.accumulate(np.ones(ghosts.count, dtype=dtype))
         assert one.dtype == dtype and np.array_equal(one, sums["count"])
@@ -471,7 +475,7 @@ def test_controls_a_loop():
 
 
 def test_learns_costs():
-    with rrcb.Controller(comm) as controller, rrcb.CostModel(2, controller, comm) as model:
+    with rrcb.Controller(comm) as controller, rrcb.CostModel(controller, 2, comm) as model:
         rng = np.random.default_rng(ME)
         for _ in range(60):
             count = rng.integers(50, 100, size=2)
@@ -483,10 +487,10 @@ def test_learns_costs():
             assert np.allclose(model.costs, [1e-3, 4e-3], rtol=1e-3)
         assert len(set(comm.allgather(model.uses_costs))) == 1
         assert model.weights(np.zeros((0, 2))).shape == (0,)
-    alone = rrcb.CostModel(1, comm=comm)
+    alone = rrcb.CostModel(None, 1, comm)
     alone.step(1.0, [10])
     alone.free()
-    same_error(lambda: rrcb.CostModel(0, comm=comm), "")
+    same_error(lambda: rrcb.CostModel(None, 0, comm), "")
 
 
 if __name__ == "__main__":

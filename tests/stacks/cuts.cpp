@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
                 rrcb::Options options;
                 options.refine = refine;
                 options.num_parts = num_parts;
-                return rrcb::balance(points, options, MPI_COMM_WORLD);
+                return rrcb::balance(points, options, {}, MPI_COMM_WORLD);
             });
         for (const auto& [domain, name] : paper_domains)
             divide(cloud, name, rank, [&, domain = domain](const rrcb::Points& points) {

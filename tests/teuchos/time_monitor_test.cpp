@@ -35,9 +35,9 @@ TEST(TimeMonitorObserver, times_every_stage_of_every_call) {
     const auto cloud = test::uniform_cloud(300, 2, 3);
     Options options;
     options.observer = &observer;
-    balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD);
+    balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD);
     options.refine = Refine::none;
-    balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD);
+    balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(calls_of("every: "), calls_at_root_and_elsewhere(2, 2, 1));
     EXPECT_GT(Teuchos::TimeMonitor::lookupCounter("every: moments")->totalElapsedTime(), 0.0);
 }
@@ -48,7 +48,7 @@ TEST(TimeMonitorObserver, shares_the_timers_of_another_with_its_prefix) {
         TimeMonitorObserver observer("shared: ");
         Options options;
         options.observer = &observer;
-        balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD);
+        balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD);
     }
     EXPECT_EQ(calls_of("shared: "), calls_at_root_and_elsewhere(2, 2, 2));
 }
@@ -59,7 +59,7 @@ TEST(TimeMonitorObserver, is_stopped_by_a_call_that_fails) {
     if (test::is_last_rank()) cloud[5] = std::numeric_limits<double>::infinity();
     Options options;
     options.observer = &observer;
-    EXPECT_THROW(balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD), Error);
     // The failure is broadcast where the cuts would be.
     EXPECT_EQ(calls_of("failing: "), (std::vector<int>{1, 1, 0, 1, 0, 0}));
     for (const Stage stage : stages) {
@@ -73,7 +73,7 @@ TEST(TimeMonitorObserver, has_its_timers_in_the_summary_of_all_ranks) {
     const auto cloud = test::uniform_cloud(300, 2, 3);
     Options options;
     options.observer = &observer;
-    balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD);
+    balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD);
     std::ostringstream out;
     const Teuchos::RCP<const Teuchos::Comm<int>> comm =
         Teuchos::rcp(new Teuchos::MpiComm<int>(Teuchos::opaqueWrapper(MPI_COMM_WORLD)));

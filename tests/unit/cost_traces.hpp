@@ -127,7 +127,7 @@ class TraceRun {
                     columns_of(1, 1.0 / counts[parts_[i] * num_cells + cell_of(i)], 0)));
         }
         for (CostRule& rule : rules_) rule.divide();
-        cuts_ = balance(interleaved_points(x_, 2, weights), options, MPI_COMM_SELF).cuts;
+        cuts_ = balance(interleaved_points(x_, 2, weights), options, {}, MPI_COMM_SELF).cuts;
     }
 
     void count(int step) {

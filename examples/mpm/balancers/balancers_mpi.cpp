@@ -76,16 +76,14 @@ mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weig
     rrcb::Options options = asked;
     // Every rank has the boxes of all, and looks up owners by itself.
     options.cuts = rrcb::HeldCuts::whole;
-    const auto last = std::make_shared<std::optional<rrcb::Balance>>();
+    const auto last = std::make_shared<rrcb::Balance>();
     return [options, weights, reuses_cuts, last](mpm::Positions positions, MPI_Comm comm) {
         const std::vector<double> weight = weights ? weights() : std::vector<double>();
         rrcb::Points points = points_of(positions);
         points.weights = weight;
-        if (reuses_cuts && last->has_value())
-            rrcb::rebalance_into(**last, points, options, (*last)->cuts, comm);
-        else
-            *last = rrcb::balance(points, options, comm);
-        return decomposition_of(**last, !options.axes.grid.empty());
+        if (!reuses_cuts) last->cuts = {};
+        rrcb::balance_into(*last, points, options, last->cuts, comm);
+        return decomposition_of(*last, !options.axes.grid.empty());
     };
 }
 

@@ -74,19 +74,17 @@ RRCB_API int rrcb_set(rrcb_balancer* balancer, const char* option, const char* v
  * @param sizes    0 or more, not all 0 */
 RRCB_API int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes);
 
-/** Divides the points of all ranks into parts and keeps the cuts, as rrcb::balance. Collective.
+/** Divides the points of all ranks into parts, as rrcb::balance; starts from the cuts of the
+ * balancer, if it has any, and keeps the new ones. Collective.
  *
  * @param balancer with the options; gets the cuts and the report
  * @param points   of this rank; without points arrays may be null, but the dimension is set
  * @param parts    gets the part of each point; may be null without points */
 RRCB_API int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
 
-/** Divides points that moved little, from the cuts of the balancer; as rrcb::rebalance. Collective.
- *
- * @param balancer with cuts of the same dimension and number of parts; gets new ones
- * @param points   as for rrcb_balance
- * @param parts    as for rrcb_balance */
-RRCB_API int rrcb_rebalance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
+/** Forgets the cuts: the next rrcb_balance starts from scratch. Not collective, but on all ranks.
+ */
+RRCB_API int rrcb_clear_cuts(rrcb_balancer* balancer);
 
 /** Frees the buffers that calls on the communicator keep for the next ones, as
  * rrcb::release_buffers. Not collective. */
@@ -113,8 +111,8 @@ RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
 
 /** Copies cuts into the balancer, such as those of an earlier run. Not collective.
  *
- * @param balancer for rrcb_rebalance and look-ups
- * @param cuts     the same on all ranks, which rrcb_rebalance checks */
+ * @param balancer for rrcb_balance and look-ups
+ * @param cuts     the same on all ranks, which rrcb_balance checks */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
 /** Shows the cuts as bytes, as rrcb::save. Not collective.
@@ -126,7 +124,7 @@ RRCB_API int rrcb_save_cuts(rrcb_balancer* balancer, const void** bytes, size_t*
 
 /** Copies saved cuts into the balancer, as rrcb::load. Not collective.
  *
- * @param balancer for rrcb_rebalance and look-ups
+ * @param balancer for rrcb_balance and look-ups
  * @param bytes    of rrcb_save_cuts
  * @param size     number of them */
 RRCB_API int rrcb_load_cuts(rrcb_balancer* balancer, const void* bytes, size_t size);
@@ -185,13 +183,13 @@ RRCB_API int rrcb_parts_touching(const rrcb_balancer* balancer, const double* lo
  * @param balancer with the cuts of the parts; gets the plan
  * @param count    points of this rank, not fewer than were balanced, or assigned since
  * @param parts    the new part of each */
-RRCB_API int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
+RRCB_API int rrcb_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
 
 /** Shows the plan. Not collective.
  *
  * @param balancer owns the plan until it makes another; fails before the first
  * @param plan     gets a view of it */
-RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
+RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan_lists* plan);
 
 /** Moves columns along the plan, as rrcb::transfer: first the points that stay, then those that
  * come. Collective.

@@ -74,6 +74,17 @@ RRCB_API int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns,
                                const rrcb_column* columns, const rrcb_transfer_limits* limits,
                                rrcb_transfer_report* report);
 
+/** Fetches rows that the ranks of the ghosts send back, as rrcb::reply. Collective.
+ *
+ * @param ghosts      as for rrcb_ghosts_fetch
+ * @param num_columns the same on every rank
+ * @param columns     `from` has an entry for each ghost, `to` room for num_sent of the plan
+ * @param limits      null: the default
+ * @param report      may be null */
+RRCB_API int rrcb_ghosts_reply(const rrcb_ghosts* ghosts, size_t num_columns,
+                               const rrcb_column* columns, const rrcb_transfer_limits* limits,
+                               rrcb_transfer_report* report);
+
 /** Adds values of ghosts to those of their points, such as forces, as rrcb::accumulate. Collective.
  *
  * @param ghosts      as for rrcb_ghosts_fetch

@@ -20,7 +20,7 @@ typedef struct rrcb_rank_count {
 } rrcb_rank_count;
 
 /** Lists of the points whose rank changes, as rrcb::Plan; indices count from 0. */
-typedef struct rrcb_plan {
+typedef struct rrcb_plan_lists {
     size_t num_points;            /**< that this rank holds before */
     size_t num_points_after;      /**< that it holds then */
     size_t num_exports;           /**< length of the lists of exports */
@@ -31,7 +31,7 @@ typedef struct rrcb_plan {
     const int* import_ranks;      /**< sources of my new points, ascending */
     const size_t* import_indices; /**< their index there, ascending per rank */
     const int32_t* import_parts;  /**< their new parts */
-} rrcb_plan;
+} rrcb_plan_lists;
 
 /** A column of the points, and room for its result. The type and the components are the
  *  same on every rank. */

@@ -1,5 +1,5 @@
+#include "verbose_mpi.hpp"
 #include "zoltan/call/call_log_mpi.hpp"
-#include "zoltan/handle/environment.hpp"
 #include "zoltan/handle/replacement.hpp"
 #include "zoltan/handle/state.hpp"
 #include "zoltan/real/message.hpp"

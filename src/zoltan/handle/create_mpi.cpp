@@ -2,6 +2,7 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "verbose_mpi.hpp"
 #include "zoltan/handle/environment.hpp"
 #include "zoltan/handle/replacement.hpp"
 #include "zoltan/handle/roll_call_mpi.hpp"

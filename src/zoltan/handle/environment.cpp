@@ -59,9 +59,4 @@ void read_environment(State& state) {
     }
 }
 
-bool is_verbosity_asked() {
-    const char* value = std::getenv("RRCB_VERBOSE");
-    return value != nullptr && *value != '\0' && std::string_view(value) != "0";
-}
-
 }  // namespace rrcb::zoltan

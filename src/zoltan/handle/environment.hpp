@@ -9,7 +9,4 @@ namespace rrcb::zoltan {
 /// An illegal value leaves the default; rank 0 warns of it once. Not collective.
 void read_environment(State& state);
 
-/// Returns whether RRCB_VERBOSE is in the environment of this process, and not 0.
-bool is_verbosity_asked();
-
 }  // namespace rrcb::zoltan

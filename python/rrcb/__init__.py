@@ -13,6 +13,7 @@ from ._balance import Balance, Distribution, Report, assign, balance
 from ._controller import Controller, CostModel
 from ._cuts import Cuts
 from ._ghosts import Ghosts, Verification
+from ._groups import Groups, groups, join_keys
 from ._library import Error
 
 __all__ = [
@@ -23,11 +24,14 @@ __all__ = [
     "Distribution",
     "Error",
     "Ghosts",
+    "Groups",
     "Report",
     "Verification",
     "assign",
     "balance",
     "build_info",
+    "groups",
+    "join_keys",
 ]
 __version__: str = _library.text(_library.library.rrcb_version())
 

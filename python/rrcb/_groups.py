@@ -1,0 +1,128 @@
+"""Groups of points that go to one part together."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+
+from . import _library as c
+from ._agreement import communicator, prepare, together
+from ._arrays import Array, Columns, Points, as_array
+from ._balance import Balance, Distribution
+
+PLACES = ("centre", "first_point")
+
+
+class Groups:
+    """Points with equal keys, as one point each; made by groups().
+
+        molecules = rrcb.groups(x, keys, comm=comm)
+        balance = rrcb.balance(molecules.x, molecules.weights, comm)
+        here = molecules.distribution(balance).distribute({"x": x, "key": keys})
+    """
+
+    x: Array  #: positions of the groups of this rank, (m, d)
+    weights: Array  #: of these groups: sums over their points
+
+    def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, num_points: int) -> None:
+        self.comm = comm
+        self._own = own
+        self._num_points = num_points
+        shown = c.Points()
+        c.call("groups_points", own, shown)
+        self.x = copied(shown.axes[0], (shown.count, shown.dimension))
+        self.weights = copied(shown.weights, (shown.count,))
+
+    def __repr__(self) -> str:
+        return f"<rrcb.Groups: {len(self.x)} of {self._num_points} points>"
+
+    def fetch(self, data: Any) -> Any:
+        """Returns data of the group of each point, of the kind of `data`. Collective.
+
+        `data` has a row for each group of this rank, as for Balance.distribute().
+        """
+        columns = prepare(
+            self.comm,
+            lambda: Columns(data, len(self.x), "groups", self._num_points),
+            Columns.signature,
+        )
+        c.call("groups_fetch", self._own, *columns.as_bytes(), None, None)
+        return columns.result()
+
+    def distribution(self, balance: Balance) -> Distribution:
+        """Returns the parts of the points, from a balance of the groups. Collective."""
+        return Distribution(self.comm, balance._own, self.fetch(balance.parts))
+
+
+def groups(
+    x: Any,
+    keys: Any,
+    weights: Any = None,
+    comm: MPI.Comm | None = None,
+    place: str = "centre",
+) -> Groups:
+    """Finds the groups of all points with equal keys. Collective over `comm`.
+
+    `x` and `weights` are as for balance(). `keys` has an integer for each point, -1 for one that
+    is a group of its own, or a row of keys for join_keys(). `place` of a group is its "centre" of
+    weight or its "first_point". Raises Error on every rank alike.
+    """
+    chosen = communicator(comm)
+    given = keys if np.ndim(keys) < 2 else join_keys(keys, chosen)
+    balancer = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+
+    def local() -> tuple[Points, Array, int]:
+        points = Points(x, weights)
+        if place not in PLACES:
+            raise c.Error(f"place must be one of {', '.join(PLACES)}, not {place!r}")
+        return points, keys_of(given, (points.count,)), PLACES.index(place)
+
+    def collective(points: Any = None, numbers: Any = None, number: int = 0) -> Groups:
+        own = c.OwnedHandle("groups_create", "groups_destroy", balancer, points, numbers, number)
+        return Groups(chosen, own, points.count)
+
+    return together(chosen, local, collective)
+
+
+def join_keys(keys: Any, comm: MPI.Comm | None = None) -> Array:
+    """Returns one key for each point of overlapping groups. Collective over `comm`.
+
+    `keys` are (n, k) integers, -1 for those that a point lacks; k is the same on every rank. Points
+    that share a key, directly or through others, get the least key of all of them.
+    """
+    chosen = communicator(comm)
+
+    def local() -> Array:
+        if np.ndim(keys) != 2:
+            raise c.Error(f"keys must have the shape (n, k), not {np.shape(keys)}")
+        return keys_of(keys, np.shape(keys))
+
+    def signature(made: Array) -> str:
+        return f"keys of the shape (n, {made.shape[1]})"
+
+    given = prepare(chosen, local, signature)
+    balancer = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    joined = np.empty(len(given), dtype=np.uint64)
+    c.call("join_keys", balancer, *given.shape, given, joined)
+    return joined
+
+
+def keys_of(keys: Any, shape: tuple[int, ...]) -> Array:
+    """Returns keys as the library takes them."""
+    values = as_array(keys)
+    if values.size and values.dtype.kind not in "iu":
+        raise c.Error(f"keys must be integers, not {values.dtype}")
+    if values.shape != shape:
+        raise c.Error(f"keys must have the shape {shape}, not {values.shape}")
+    return np.ascontiguousarray(values, dtype=np.uint64)
+
+
+def copied(address: int, shape: tuple[int, ...]) -> Array:
+    """Returns a copy of doubles of the library."""
+    values = np.empty(shape)
+    if values.size:
+        ctypes.memmove(values.ctypes.data, address, values.nbytes)
+    return values

@@ -46,7 +46,7 @@ static int cell_along(double x) {
 
 // Lists of the particles in each cell: the first of a cell, and the next of each particle.
 static void fill_cells(const double* x, size_t count, size_t* first, size_t* next) {
-    memset(first, 0, cells_per_axis * cells_per_axis * sizeof *first);
+    memset(first, 0, sizeof *first * cells_per_axis * cells_per_axis);
     for (size_t i = 1; i <= count; ++i) {
         const int cell = cell_along(x[2 * i - 2]) * cells_per_axis + cell_along(x[2 * i - 1]);
         next[i] = first[cell];

@@ -289,17 +289,17 @@ MUTATIONS = [
         ("mpi_verify",),
     ),
     Mutation(
-        "the check of ghosts ignores images",
+        "the check of ghosts looks for images on the wrong side",
         "src/lists/verify_mpi.cpp",
         "const Shift shift{-back[0], -back[1], -back[2]};",
-        "const Shift shift{};",
+        "const Shift shift{back[0], back[1], back[2]};",
         ("mpi_verify",),
     ),
     Mutation(
-        "the check of ghosts ignores the greater radii of others",
+        "the check of ghosts ignores the greater radii",
         "src/lists/verify_mpi.cpp",
         "const double reach = std::max(sample.radius, greatest);",
-        "const double reach = sample.radius;",
+        "const double reach = std::min(sample.radius, greatest);",
         ("mpi_verify",),
     ),
     Mutation(

@@ -45,7 +45,7 @@ struct Call {
         result.parts = std::move(memory);
     }
 
-    Points points;  ///< without weights if all of them are 0
+    Points points;  ///< without weights if all of them are the same
     Ranks ranks;
     Options options;  ///< complete; sizes are normalized, but none if many ranks make equal parts
     bool is_spread = false;  ///< many ranks make the parts
@@ -78,12 +78,15 @@ void introduce(const Options& given, const PointSummary& summary, const Cuts* pr
     call.result.parts.resize(points.count);
 }
 
-/// Replaces the ends of the tree by parts. Overwrites the sizes of the parts.
-void number_parts(Call& call) {
+/// Replaces the ends of the tree by parts, and counts by weights. Overwrites the sizes of the
+/// parts.
+void complete(Call& call) {
     const Cuts& cuts = call.result.cuts;
+    std::vector<double>& of_parts = call.result.report.part_weights;
+    if (call.decision.verdict.is_counted())
+        for (double& weight : of_parts) weight *= call.decision.verdict.common_weight;
     if (cuts.shape.dealt == 0) return;
     number_parts(cuts, call.result.parts);
-    std::vector<double>& of_parts = call.result.report.part_weights;
     std::vector<double>& of_ends = call.options.part_sizes;
     if (of_parts.empty()) return;
     std::ranges::copy(of_parts, of_ends.begin());
@@ -101,7 +104,7 @@ void estimate(Call& call, Participant& self) {
     decide_together(call.mine, options, call.decision, self);
     call.result.report = report_of(call.decision.verdict, options.num_parts, options.part_sizes);
     call.result.cuts = std::move(call.decision.bisection.cuts);
-    if (call.result.report.details.all_weights_zero) call.points.weights = {};
+    if (call.decision.verdict.is_counted()) call.points.weights = {};
 }
 
 /// Prepares a call from scratch. Not collective.
@@ -118,7 +121,7 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     if (call.is_spread) return;
     if (reads_kept && may_keep) append_extent(summary.extent, points.dimension, call.mine.extents);
     make_buffers(call.decision, options, points.dimension, reads_kept);
-    add_records(points, bin_by_options(points, summary.box, options), call.mine);
+    add_records(points, summary.box, options, call.mine);
 }
 
 /// Makes the parts, from the cuts of rank 0 if it makes them. Collective.
@@ -170,7 +173,7 @@ Balance balance_from_scratch(const Points& points, const Options& given, bool ma
     }
     if (is_kept) keep(call, self);
     if (call.is_spread) hold_cuts(call.points, options, call.result, self);
-    number_parts(call);
+    complete(call);
     return std::move(call.result);
 }
 
@@ -214,7 +217,7 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
 /// Returns true if the earlier cuts are kept; the report then has their imbalance. Collective if
 /// many ranks weigh their parts.
 bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
-    if (earlier.spread) return earlier.spread->ends(call.result, self);
+    if (earlier.spread) return earlier.spread->ends(call.decision.verdict, call.result, self);
     const Options& options = call.options;
     Report& report = call.result.report;
     if (report.details.num_points == 0) return true;
@@ -274,10 +277,11 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
             return balance_from_scratch(points, given, may_keep, self,
                                         std::move(call.result.parts));
         hold_cuts(call.points, call.options, call.result, self);
+        complete(call);
         return std::move(call.result);
     }
     if (!is_kept) settle_from_earlier(call, earlier, self);
-    number_parts(call);
+    complete(call);
     const Report& report = call.result.report;
     if (!may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
         return std::move(call.result);

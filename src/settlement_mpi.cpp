@@ -71,8 +71,8 @@ void Settlement::refine(const Points& points, const Box& box, Decision& decision
     const Verdict& verdict = decision.verdict;
     Estimate estimate{std::move(result.cuts),
                       std::move(decision.bisection.brackets),
-                      weight_of(report),
-                      verdict.common_weight,
+                      verdict.weight(),
+                      verdict.is_counted() ? 1.0 : 0.0,
                       verdict.kept_imbalance,
                       !decision.part_weights.empty(),
                       verdict.heaviest,
@@ -92,8 +92,8 @@ void Settlement::search(const Points& points, const Verdict& verdict, Balance& r
     const StageScope stage(options_->observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
     PartTree tree = tree_of(*options_, mpi::size_of(self.comm));
-    tree.weight = weight_of(report);
-    tree.rule.common_weight = verdict.common_weight;
+    tree.weight = verdict.weight();
+    tree.rule.common_weight = verdict.is_counted() ? 1 : 0;
     tree.rule.heaviest = verdict.heaviest;
     Refined refined = of_many_->refine(verdict.box, tree, points, result.parts, self);
     agree(self);
@@ -117,9 +117,7 @@ void hold_cuts(const Points& points, const Options& options, Balance& result, Pa
     }
     if (!is_whole(result.cuts)) result.cuts = gather_cuts(result.cuts, self);
     if (report.details.num_points == 0) return;
-    Points counted = points;
-    if (report.details.all_weights_zero) counted.weights = {};
-    report.part_weights = part_weights(counted, result.parts, result.cuts.num_parts, self);
+    report.part_weights = part_weights(points, result.parts, result.cuts.num_parts, self);
 }
 
 }  // namespace rrcb

@@ -59,7 +59,7 @@ StatisticalDomain analytic(const Points& points, int cells_per_axis) {
     const std::vector<CellMoments> cells = rrcb::cell_moments(points, mesh);
     const rrcb::LeanCells packed = rrcb::pack_cells(cells, mesh);
     std::vector<CellMoments> lean;
-    rrcb::unpack_cells(packed, packed.bytes, cells.size(), mesh, lean);
+    rrcb::unpack_cells(packed.exponent, packed.bytes, cells.size(), mesh, lean);
     return rrcb::analytic_domain(lean, points.dimension, box);
 }
 

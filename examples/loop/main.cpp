@@ -1,5 +1,10 @@
 // The loop of a particle code: each particle meets its neighbours within a cut-off. The time of the
 // steps decides when the particles are divided anew, and how much each of them weighs.
+//
+// loop [steps [file]]: the run ends after so many steps. It begins from the file, if it is there,
+// and writes it at the end.
+#include "restart.hpp"
+
 #include <rrcb/rrcb.hpp>
 
 #include <mpi.h>
@@ -8,6 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <utility>
 #include <vector>
@@ -85,22 +92,33 @@ int main(int argc, char** argv) {
     int num_ranks = 1;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &num_ranks);
-    std::vector<double> positions = strip_of(rank, num_ranks);
-    std::vector<double> rows;
-    double heaviest = 0;
-    double total = 0;
-    int rebalances = 0;
+    const int num_steps = argc > 1 ? std::atoi(argv[1]) : 100;
+    const bool continues = argc > 2 && std::filesystem::exists(argv[2]);
+    Run run;
+    if (continues)
+        run = read_run(argv[2], comm);
+    else
+        run.positions = strip_of(rank, num_ranks);
+    std::vector<double>& positions = run.positions;
+    std::vector<double>& rows = run.rows;
     {
-        rrcb::Controller controller(comm);
-        rrcb::CostModel model(controller, 2);
+        rrcb::Controller controller =
+            continues ? rrcb::load<rrcb::Controller>(run.controller, comm) : rrcb::Controller(comm);
+        rrcb::CostModel model = continues ? rrcb::load<rrcb::CostModel>(run.model, controller)
+                                          : rrcb::CostModel(controller, 2);
+        if (continues && rank == 0)
+            std::printf("continued at step %d: %s\n", run.step, model.report().c_str());
         rrcb::Balance balance;
-        for (int step = 0; step < 100; ++step) {
-            if (step == 0 || controller.due()) {
+        bool is_divided = !run.cuts.empty();
+        if (is_divided) balance.cuts = rrcb::load<rrcb::Cuts>(run.cuts);
+        for (; run.step < num_steps; ++run.step) {
+            if (!is_divided || controller.due()) {
                 const std::vector<double> weights = model.weights(rows);
                 const rrcb::Points points = rrcb::interleaved_points(positions, 2, weights);
                 balance = rrcb::balance(points, {}, balance.cuts, comm);
                 controller.rebalanced(balance.report, cost);
-                ++rebalances;
+                ++run.rebalances;
+                is_divided = true;
             } else {
                 const rrcb::Points points = rrcb::interleaved_points(positions, 2);
                 balance.parts = rrcb::assign_all(balance.cuts, points, comm);
@@ -113,21 +131,27 @@ int main(int argc, char** argv) {
             const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(positions, 2), comm);
             const std::vector<double> neighbours = count_neighbours(positions, ghosts);
             move(positions);
-            rows = rows_of(neighbours);  // of each particle: 1, its neighbours
+            rows = rows_of(neighbours);
             const double load = sum_of(neighbours);
             model.step(load, {{static_cast<double>(mine.count), load}});
 
             double all[] = {load, load};
             MPI_Allreduce(MPI_IN_PLACE, &all[0], 1, MPI_DOUBLE, MPI_MAX, comm);
             MPI_Allreduce(MPI_IN_PLACE, &all[1], 1, MPI_DOUBLE, MPI_SUM, comm);
-            heaviest += all[0];
-            total += all[1];
+            run.heaviest += all[0];
+            run.total += all[1];
+        }
+        if (argc > 2) {
+            run.controller = save(controller);
+            run.model = save(model);
+            run.cuts = save(balance.cuts);
+            write_run(argv[2], run, comm);
         }
     }
     if (rank == 0) {
-        std::printf("%.0f pairs of neighbours met in 100 steps\n", total);
-        std::printf("%d rebalances, mean imbalance %.9f\n", rebalances,
-                    heaviest * num_ranks / total);
+        std::printf("%.0f pairs of neighbours met in %d steps\n", run.total, run.step);
+        std::printf("%d rebalances, mean imbalance %.9f\n", run.rebalances,
+                    run.heaviest * num_ranks / run.total);
     }
     MPI_Finalize();
 }

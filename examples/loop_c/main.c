@@ -1,4 +1,6 @@
-// The loop of examples/loop in C: the same numbers on as many ranks.
+// The loop of examples/loop in C: the same numbers on as many ranks, and the same file.
+#include "restart.h"
+
 #include <rrcb/rrcb.h>
 
 #include <math.h>
@@ -44,7 +46,7 @@ static int cell_along(double x) {
 
 // Lists of the particles in each cell: the first of a cell, and the next of each particle.
 static void fill_cells(const double* x, size_t count, size_t* first, size_t* next) {
-    memset(first, 0, cells_per_axis * cells_per_axis * sizeof *first);
+    memset(first, 0, sizeof *first * cells_per_axis * cells_per_axis);
     for (size_t i = 1; i <= count; ++i) {
         const int cell = cell_along(x[2 * i - 2]) * cells_per_axis + cell_along(x[2 * i - 1]);
         next[i] = first[cell];
@@ -95,24 +97,39 @@ int main(int argc, char** argv) {
     int num_ranks = 1;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &num_ranks);
-    size_t count = 0;
-    double* positions = strip_of(rank, num_ranks, &count);
-    double* columns = array_of(2 * count);
-    double heaviest = 0;
-    double total = 0;
-    int rebalances = 0;
+    const int num_steps = argc > 1 ? atoi(argv[1]) : 100;
+    struct run run = {.count = 0};
     rrcb_balancer* balancer = NULL;
     rrcb_controller* controller = NULL;
     rrcb_cost_model* model = NULL;
     check(rrcb_create(comm, &balancer));
-    check(rrcb_controller_create(comm, &controller));
-    check(rrcb_cost_model_create(comm, controller, 2, &model));
-    for (int step = 0; step < 100; ++step) {
+    FILE* file = argc > 2 ? fopen(argv[2], "rb") : NULL;
+    if (file != NULL) {
+        read_run(file, &run, comm);
+        check(rrcb_controller_load(comm, run.controller.data, run.controller.size, &controller));
+        check(rrcb_cost_model_load(comm, controller, run.model.data, run.model.size, &model));
+        if (run.cuts.size > 0) check(rrcb_load_cuts(balancer, run.cuts.data, run.cuts.size));
+        if (rank == 0)
+            printf("continued at step %.0f: %s\n", run.numbers[0], rrcb_cost_model_report(model));
+        free((void*)run.controller.data);
+        free((void*)run.model.data);
+        free((void*)run.cuts.data);
+    } else {
+        run.positions = strip_of(rank, num_ranks, &run.count);
+        run.rows = array_of(2 * run.count);
+        check(rrcb_controller_create(comm, &controller));
+        check(rrcb_cost_model_create(comm, controller, 2, &model));
+    }
+    int is_divided = run.cuts.size > 0;
+    size_t count = run.count;
+    double* positions = run.positions;
+    double* columns = run.rows;
+    for (; run.numbers[0] < num_steps; ++run.numbers[0]) {
         int32_t* parts = malloc((count + 1) * sizeof *parts);
         double* weights = array_of(count);
         int due = 0;
         check(rrcb_controller_due(controller, &due));
-        if (step == 0 || due) {
+        if (!is_divided || due) {
             check(rrcb_cost_model_weights(model, count, 2, columns, weights));
             const rrcb_points points =
                 rrcb_interleaved_points(RRCB_DOUBLE, 2, count, positions, weights);
@@ -120,7 +137,8 @@ int main(int argc, char** argv) {
             rrcb_report report;
             check(rrcb_get_report(balancer, &report));
             check(rrcb_controller_rebalanced(controller, &report, cost));
-            ++rebalances;
+            ++run.numbers[1];
+            is_divided = 1;
         } else {
             const rrcb_points points =
                 rrcb_interleaved_points(RRCB_DOUBLE, 2, count, positions, NULL);
@@ -156,8 +174,17 @@ int main(int argc, char** argv) {
         double all[] = {load, load};
         MPI_Allreduce(MPI_IN_PLACE, &all[0], 1, MPI_DOUBLE, MPI_MAX, comm);
         MPI_Allreduce(MPI_IN_PLACE, &all[1], 1, MPI_DOUBLE, MPI_SUM, comm);
-        heaviest += all[0];
-        total += all[1];
+        run.numbers[2] += all[0];
+        run.numbers[3] += all[1];
+    }
+    run.count = count;
+    run.positions = positions;
+    run.rows = columns;
+    if (argc > 2) {
+        check(rrcb_controller_save(controller, &run.controller.data, &run.controller.size));
+        check(rrcb_cost_model_save(model, &run.model.data, &run.model.size));
+        check(rrcb_save_cuts(balancer, &run.cuts.data, &run.cuts.size));
+        write_run(argv[2], &run, comm);
     }
     rrcb_cost_model_destroy(model);
     rrcb_controller_destroy(controller);
@@ -165,8 +192,9 @@ int main(int argc, char** argv) {
     free(columns);
     free(positions);
     if (rank == 0) {
-        printf("%.0f pairs of neighbours met in 100 steps\n", total);
-        printf("%d rebalances, mean imbalance %.9f\n", rebalances, heaviest * num_ranks / total);
+        printf("%.0f pairs of neighbours met in %.0f steps\n", run.numbers[3], run.numbers[0]);
+        printf("%.0f rebalances, mean imbalance %.9f\n", run.numbers[1],
+               run.numbers[2] * num_ranks / run.numbers[3]);
     }
     MPI_Finalize();
     return 0;

@@ -1,4 +1,4 @@
-! The loop of examples/loop in Fortran: the same numbers on as many ranks.
+! The loop of examples/loop in Fortran: the same numbers on as many ranks, and the same file.
 program loop
   use, intrinsic :: iso_c_binding
   use mpi_f08
@@ -16,30 +16,53 @@ program loop
   type(rrcb_report) :: report
   real(dp), allocatable, target :: positions(:, :), moved(:, :), fetched(:, :), weights(:)
   real(dp), allocatable :: columns(:, :)
+  integer(c_int8_t), allocatable :: of_controller(:), of_model(:), of_cuts(:)
+  character(1000) :: argument
   integer(c_int32_t), allocatable :: parts(:)
   real(dp) :: load, all_loads, heaviest_load, heaviest, total
-  integer :: rank, num_ranks, error, step, rebalances
+  integer :: rank, num_ranks, error, first, step, num_steps, rebalances
+  logical :: continues, is_divided
 
   call MPI_Init()
   call MPI_Comm_rank(MPI_COMM_WORLD, rank)
   call MPI_Comm_size(MPI_COMM_WORLD, num_ranks)
-  positions = strip_of(rank, num_ranks)
-  allocate (columns(2, size(positions, 2)))
-  columns = 0
-  heaviest = 0
-  total = 0
-  rebalances = 0
+  num_steps = 100
+  call get_command_argument(1, argument)
+  if (argument /= '') read (argument, *) num_steps
+  call get_command_argument(2, argument)
+  continues = .false.
+  if (argument /= '') inquire (file=argument, exist=continues)
   call balancer%create(MPI_COMM_WORLD, error); call check(error)
-  call controller%create(MPI_COMM_WORLD, error); call check(error)
-  call model%create(MPI_COMM_WORLD, controller, 2, error); call check(error)
-  do step = 1, 100
+  if (continues) then
+    call read_run(trim(argument))
+    call controller%load(MPI_COMM_WORLD%mpi_val, of_controller, error); call check(error)
+    call model%load(MPI_COMM_WORLD%mpi_val, of_model, error, controller); call check(error)
+    if (size(of_cuts) > 0) then
+      call balancer%load_cuts(of_cuts, error); call check(error)
+    end if
+    is_divided = size(of_cuts) > 0
+    if (rank == 0) print '(a, i0, 2a)', "continued at step ", first, ": ", model%report()
+  else
+    positions = strip_of(rank, num_ranks)
+    allocate (columns(2, size(positions, 2)))
+    columns = 0
+    first = 0
+    heaviest = 0
+    total = 0
+    rebalances = 0
+    is_divided = .false.
+    call controller%create(MPI_COMM_WORLD, error); call check(error)
+    call model%create(MPI_COMM_WORLD, controller, 2, error); call check(error)
+  end if
+  do step = first + 1, num_steps
     allocate (parts(size(positions, 2)), weights(size(positions, 2)))
-    if (step == 1 .or. controller%due()) then
+    if (.not. is_divided .or. controller%due()) then
       call model%weights(columns, weights, error); call check(error)
       call balancer%balance(rrcb_interleaved_points(positions, weights), parts, error); call check(error)
       call balancer%get_report(report, error); call check(error)
       call controller%rebalanced(report, cost, error); call check(error)
       rebalances = rebalances + 1
+      is_divided = .true.
     else
       call balancer%assign_all(rrcb_interleaved_points(positions), parts, error); call check(error)
     end if
@@ -67,11 +90,17 @@ program loop
     heaviest = heaviest + heaviest_load
     total = total + all_loads
   end do
+  if (argument /= '') then
+    call controller%save(of_controller, error); call check(error)
+    call model%save(of_model, error); call check(error)
+    call balancer%save_cuts(of_cuts, error); call check(error)
+    call write_run(trim(argument))
+  end if
   call model%destroy()
   call controller%destroy()
   call balancer%destroy()
   if (rank == 0) then
-    print '(i0, a)', nint(total), " pairs of neighbours met in 100 steps"
+    print '(i0, a, i0, a)', nint(total), " pairs of neighbours met in ", num_steps, " steps"
     print '(i0, a, f11.9)', rebalances, " rebalances, mean imbalance ", heaviest*num_ranks/total
   end if
   call MPI_Finalize()
@@ -84,6 +113,88 @@ contains
     if (code == rrcb_ok) return
     print '(a)', rrcb_last_error()
     call MPI_Abort(MPI_COMM_WORLD, code)
+  end subroutine
+
+  ! Returns the values of all ranks on rank 0, those of lower ranks first.
+  function gathered(mine) result(all)
+    real(dp), intent(in) :: mine(:)
+    real(dp), allocatable :: all(:)
+    integer :: counts(num_ranks), begins(num_ranks), k
+    call MPI_Allgather(size(mine), 1, MPI_INTEGER, counts, 1, MPI_INTEGER, MPI_COMM_WORLD)
+    begins = [(sum(counts(:k - 1)), k=1, num_ranks)]
+    allocate (all(sum(counts)))
+    call MPI_Gatherv(mine, size(mine), MPI_DOUBLE_PRECISION, all, counts, begins, &
+                     MPI_DOUBLE_PRECISION, 0, MPI_COMM_WORLD)
+  end function
+
+  ! Rank 0 writes all, each record with the number of its values before; the bytes of the library are
+  ! the same on every rank.
+  subroutine write_run(path)
+    character(*), intent(in) :: path
+    real(dp), allocatable :: sizes(:), x(:), rows(:)
+    integer :: file
+    sizes = gathered([real(size(positions), dp)])
+    x = gathered(reshape(positions, [size(positions)]))
+    rows = gathered(reshape(columns, [size(columns)]))
+    if (rank /= 0) return
+    open (newunit=file, file=path, access='stream', form='unformatted', status='replace')
+    write (file) 4_c_int64_t, real(num_steps, dp), real(rebalances, dp), heaviest, total
+    write (file) size(of_controller, kind=c_int64_t), of_controller
+    write (file) size(of_model, kind=c_int64_t), of_model
+    write (file) size(of_cuts, kind=c_int64_t), of_cuts
+    write (file) size(sizes, kind=c_int64_t), sizes
+    write (file) size(x, kind=c_int64_t), x
+    write (file) size(rows, kind=c_int64_t), rows
+    close (file)
+  end subroutine
+
+  function next_bytes(file) result(bytes)
+    integer, intent(in) :: file
+    integer(c_int8_t), allocatable :: bytes(:)
+    integer(c_int64_t) :: length
+    read (file) length
+    allocate (bytes(length))
+    read (file) bytes
+  end function
+
+  function next_numbers(file) result(numbers)
+    integer, intent(in) :: file
+    real(dp), allocatable :: numbers(:)
+    integer(c_int64_t) :: length
+    read (file) length
+    allocate (numbers(length))
+    read (file) numbers
+  end function
+
+  ! Every rank reads the file and keeps its own particles, or an equal share and no cuts on another
+  ! number of ranks.
+  subroutine read_run(path)
+    character(*), intent(in) :: path
+    real(dp), allocatable :: numbers(:), sizes(:), x(:), rows(:)
+    integer :: file, begin, last
+    open (newunit=file, file=path, access='stream', form='unformatted', action='read')
+    numbers = next_numbers(file)
+    of_controller = next_bytes(file)
+    of_model = next_bytes(file)
+    of_cuts = next_bytes(file)
+    sizes = next_numbers(file)
+    x = next_numbers(file)
+    rows = next_numbers(file)
+    close (file)
+    first = nint(numbers(1))
+    rebalances = nint(numbers(2))
+    heaviest = numbers(3)
+    total = numbers(4)
+    begin = size(rows)/2*rank/num_ranks*2
+    last = size(rows)/2*(rank + 1)/num_ranks*2
+    if (size(sizes) == num_ranks) then
+      begin = nint(sum(sizes(:rank)))
+      last = begin + nint(sizes(rank + 1))
+    else
+      of_cuts = [integer(c_int8_t) ::]
+    end if
+    positions = reshape(x(begin + 1:last), [2, (last - begin)/2])
+    columns = reshape(rows(begin + 1:last), [2, (last - begin)/2])
   end subroutine
 
   ! A unit square of 200 x 200 particles, a strip of it on each rank.

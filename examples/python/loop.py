@@ -1,4 +1,7 @@
-"""The loop of examples/loop: the same numbers on as many ranks."""
+"""The loop of examples/loop: the same numbers on as many ranks, and the same file."""
+import os
+import sys
+
 import numpy as np
 from mpi4py import MPI
 
@@ -39,20 +42,62 @@ def count_neighbours(x, count):
     return neighbours
 
 
-x = strip()
-columns = np.zeros((len(x), 2))
-heaviest = total = 0.0
-rebalances = 0
-balance = None
-with rrcb.Controller(comm) as controller, rrcb.CostModel(controller, 2, comm) as model:
-    for step in range(100):
-        if step == 0 or controller.due:
-            balance = rrcb.balance(x, weights=model.weights(columns), comm=comm, previous=balance)
+def write_run(path, *records):
+    """Rank 0 writes records: the number of values, then these. Arrays are those of all ranks."""
+    gathered = [comm.gather(r.ravel()) if isinstance(r, np.ndarray) else r for r in records]
+    if comm.rank == 0:
+        with open(path, "wb") as file:
+            for record in gathered:
+                values = record if isinstance(record, bytes) else np.concatenate(record)
+                np.uint64(len(values)).tofile(file)
+                file.write(bytes(values))
+
+
+def read_run(path):
+    """Returns the records, of the arrays this rank's part: an equal one on other ranks."""
+    with open(path, "rb") as file:
+
+        def next_of(kind):
+            return np.fromfile(file, kind, int(np.fromfile(file, np.uint64, 1)[0]))
+
+        numbers = next_of(float)
+        states = [next_of(np.uint8).tobytes() for _ in range(3)]
+        sizes, x, columns = next_of(float), next_of(float), next_of(float)
+    begins = np.cumsum(np.append(0, sizes)).astype(int) // 2
+    if len(sizes) != comm.size:
+        states[2] = b""
+        begins = begins[-1] * np.arange(comm.size + 1) // comm.size
+    mine = slice(*begins[comm.rank : comm.rank + 2])
+    return numbers, states, x.reshape(-1, 2)[mine].copy(), columns.reshape(-1, 2)[mine].copy()
+
+
+num_steps = int(sys.argv[1]) if len(sys.argv) > 1 else 100
+path = sys.argv[2] if len(sys.argv) > 2 else None
+cuts = None
+if path and os.path.exists(path):
+    (first, rebalances, heaviest, total), saved, x, columns = read_run(path)
+    controller = rrcb.Controller.load(saved[0], comm)
+    model = rrcb.CostModel.load(saved[1], controller, comm)
+    if saved[2]:
+        cuts = rrcb.Cuts.load(saved[2])
+    if comm.rank == 0:
+        print(f"continued at step {first:.0f}: {model.report()}")
+else:
+    first = rebalances = heaviest = total = 0.0
+    x = strip()
+    columns = np.zeros((len(x), 2))
+    controller = rrcb.Controller(comm)
+    model = rrcb.CostModel(controller, 2, comm)
+with controller, model:
+    for step in range(int(first), num_steps):
+        if cuts is None or controller.due:
+            balance = rrcb.balance(x, weights=model.weights(columns), comm=comm, previous=cuts)
             controller.rebalanced(balance, COST)
             rebalances += 1
-            x = balance.distribute(x)
+            cuts = balance.cuts
         else:
-            x = rrcb.assign_all(x, balance.cuts, comm).distribute(x)
+            balance = rrcb.assign_all(x, cuts, comm)
+        x = balance.distribute(x)
         ghosts = balance.ghosts(x, RADIUS)
         neighbours = count_neighbours(np.concatenate([x, ghosts.fetch(x)]), len(x))
         columns = np.stack([np.ones(len(x)), neighbours], axis=1)
@@ -62,9 +107,13 @@ with rrcb.Controller(comm) as controller, rrcb.CostModel(controller, 2, comm) as
         model.step(load, [len(x), load])
         heaviest += comm.allreduce(load, MPI.MAX)
         total += comm.allreduce(load)
+    if path:
+        numbers = np.array([num_steps, rebalances, heaviest, total] if comm.rank == 0 else [])
+        states = controller.save(), model.save(), cuts.save()
+        write_run(path, numbers, *states, np.array([2.0 * len(x)]), x, columns)
 if comm.rank == 0:
-    print(f"{total:.0f} pairs of neighbours met in 100 steps")
-    print(f"{rebalances} rebalances, mean imbalance {heaviest * comm.size / total:.9f}")
+    print(f"{total:.0f} pairs of neighbours met in {num_steps} steps")
+    print(f"{rebalances:.0f} rebalances, mean imbalance {heaviest * comm.size / total:.9f}")
 
 # Output on 4 ranks:
 # 66744352 pairs of neighbours met in 100 steps

@@ -176,11 +176,9 @@ class CostModel(Owner):
         chosen = communicator(comm)
         given, data = prepare(chosen, lambda: (address_of(controller), bytes(saved)))
         made._make("cost_model_load_fortran", chosen, controller, given, data, len(data))
-        # The first word after the head, in the byte order of the head.
-        columns = data[40:48]
-        if not data.startswith(b"RRCBstat"):
-            columns = columns[::-1]
-        made.num_columns = int.from_bytes(columns, "big")
+        columns = ctypes.c_int()
+        c.call("cost_model_num_columns", made._own, columns)
+        made.num_columns = columns.value
         return made
 
     def step(self, seconds: float, columns: Any) -> None:

@@ -195,6 +195,13 @@ int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_col
     });
 }
 
+int rrcb_cost_model_num_columns(const rrcb_cost_model* model, int* num_columns) {
+    return guarded(model, [&](const auto& own) {
+        rrcb::c::require(num_columns, "num_columns");
+        *num_columns = static_cast<int>(own.model->costs().size());
+    });
+}
+
 int rrcb_cost_model_costs(const rrcb_cost_model* model, size_t num_columns, double* costs) {
     return guarded(model, [&](const auto& own) {
         check_columns(own, num_columns);

@@ -2,8 +2,9 @@
 module rrcb_balancers
   use, intrinsic :: iso_c_binding
   use rrcb_types
+  use rrcb_c_types
   use rrcb_c_functions
-  use rrcb_functions, only: bytes_of, settle
+  use rrcb_functions, only: cuts_from, num_cuts, save_by, settle, three_of
 #ifdef RRCB_MPI_F08
   use mpi_f08, only: MPI_Comm
 #endif
@@ -124,15 +125,8 @@ contains
     type(rrcb_cuts), intent(inout) :: cuts
     integer, intent(out), optional :: error
     type(c_cuts) :: from
-    type(rrcb_cut), pointer :: tree(:)
     call settle(c_get_cuts(self%handle, from), error)
-    call c_f_pointer(from%tree, tree, [from%num_parts - 1])
-    cuts%dimension = from%dimension
-    cuts%group_size = from%group_size
-    cuts%larger_below = from%larger_below == 1
-    cuts%dealt = from%dealt
-    cuts%tree = tree
-    cuts%tree%axis = cuts%tree%axis + 1
+    call cuts_from(from, cuts)
   end subroutine
 
   !> Gives each rank's balancer all cuts, if each holds a part of them. Collective.
@@ -169,12 +163,7 @@ contains
     class(rrcb_balancer), intent(in) :: self
     integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
     integer, intent(out), optional :: error
-    type(c_ptr) :: address
-    integer(c_size_t) :: length
-    integer(c_int) :: code
-    code = c_save_cuts(self%handle, address, length)
-    call bytes_of(code, address, length, bytes)
-    call settle(code, error)
+    call save_by(c_save_cuts, self%handle, bytes, error)
   end subroutine
 
   !> Copies cuts from saved bytes into the balancer. Not collective.
@@ -186,12 +175,6 @@ contains
     call settle(c_load_cuts(self%handle, bytes, size(bytes, kind=c_size_t)), error)
   end subroutine
 
-  pure integer function num_cuts(cuts)
-    type(rrcb_cuts), intent(in) :: cuts
-    num_cuts = 0
-    if (allocated(cuts%tree)) num_cuts = size(cuts%tree)
-  end function
-
   !> Finds the part of a position. Not collective.
   !> @param position an entry for each axis
   !> @param part     gets its part
@@ -202,13 +185,6 @@ contains
     integer, intent(out), optional :: error
     call settle(c_part_of(self%handle, three_of(position), part), error)
   end subroutine
-
-  pure function three_of(values) result(three)
-    real(c_double), intent(in) :: values(:)
-    real(c_double) :: three(3)
-    three = 0
-    three(:min(size(values), 3)) = values(:min(size(values), 3))
-  end function
 
   !> Finds the parts of points by the cuts of this rank. Not collective.
   !> @param points any positions

@@ -2,64 +2,8 @@
 module rrcb_c_functions
   use, intrinsic :: iso_c_binding
   use rrcb_types
+  use rrcb_c_types
   implicit none
-
-  type, bind(c) :: c_cuts
-    integer(c_int) :: dimension = 0, num_parts = 1
-    type(c_ptr) :: tree = c_null_ptr
-    integer(c_int) :: group_size = 1, larger_below = 0, dealt = 0
-  end type
-
-  type, bind(c) :: c_plan
-    integer(c_size_t) :: num_points = 0, num_points_after = 0, num_exports = 0
-    type(c_ptr) :: export_indices = c_null_ptr, export_ranks = c_null_ptr, &
-      export_parts = c_null_ptr
-    integer(c_size_t) :: num_imports = 0
-    type(c_ptr) :: import_ranks = c_null_ptr, import_indices = c_null_ptr, &
-      import_parts = c_null_ptr
-  end type
-
-  type, bind(c) :: c_ghost_options
-    real(c_double) :: radius = -1                           !< not given
-    type(c_ptr) :: radii = c_null_ptr
-    type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
-    integer(c_size_t) :: num_parts = 0
-    integer(c_int) :: needs = 0
-  end type
-
-  type, bind(c) :: c_ghost_plan
-    integer(c_size_t) :: num_points = 0, num_ghosts = 0, num_send_ranks = 0
-    type(c_ptr) :: send = c_null_ptr
-    integer(c_size_t) :: num_sent = 0
-    type(c_ptr) :: send_indices = c_null_ptr
-    integer(c_size_t) :: num_receive_ranks = 0
-    type(c_ptr) :: receive = c_null_ptr, shifts = c_null_ptr
-  end type
-
-  type, bind(c) :: c_verify_options
-    integer(c_size_t) :: sample = 1000
-    real(c_double) :: radius = 0
-    type(c_ptr) :: radii = c_null_ptr
-    integer(c_size_t) :: num_ids = 0
-    type(c_ptr) :: ids = c_null_ptr
-    integer(c_size_t) :: num_ids_before = 0
-    type(c_ptr) :: ids_before = c_null_ptr
-  end type
-
-  type, bind(c) :: c_verification
-    integer(c_int64_t) :: num_pairs = 0, num_faults = 0
-    integer(c_size_t) :: num_missing = 0
-    type(c_ptr) :: missing = c_null_ptr
-    integer(c_size_t) :: num_twice = 0
-    type(c_ptr) :: twice = c_null_ptr
-    integer(c_size_t) :: num_strangers = 0
-    type(c_ptr) :: strangers = c_null_ptr
-  end type
-
-  type, bind(c) :: c_rank_count
-    integer(c_int) :: rank = 0
-    integer(c_size_t) :: count = 0
-  end type
 
   abstract interface
     type(c_ptr) function text() bind(c)
@@ -104,10 +48,10 @@ module rrcb_c_functions
       type(c_ptr), intent(out) :: bytes
       integer(c_size_t), intent(out) :: length
     end function
-    integer(c_int) function ask(handle, due) bind(c)
+    integer(c_int) function ask(handle, answer) bind(c)
       import
       type(c_ptr), value :: handle
-      integer(c_int), intent(inout) :: due
+      integer(c_int), intent(inout) :: answer
     end function
   end interface
 
@@ -139,6 +83,7 @@ module rrcb_c_functions
   procedure(save_state), bind(c, name="rrcb_cost_model_save") :: c_cost_model_save
   procedure(ask), bind(c, name="rrcb_controller_due") :: c_controller_due
   procedure(ask), bind(c, name="rrcb_cost_model_uses_costs") :: c_cost_model_uses_costs
+  procedure(ask), bind(c, name="rrcb_cost_model_num_columns") :: c_cost_model_num_columns
 
   interface
     integer(c_int) function c_load_unbalance_percent(num_parts, part_weights, part_sizes, percent) &

@@ -49,6 +49,7 @@ module rrcb_controllers
     procedure :: load => cost_model_load
     procedure :: step => cost_model_step
     procedure :: weights => cost_model_weights
+    procedure :: num_columns => cost_model_num_columns
     procedure :: costs => cost_model_costs
     procedure :: uses_costs => cost_model_uses_costs
     procedure :: report => cost_model_report
@@ -159,12 +160,7 @@ contains
     class(rrcb_controller), intent(in) :: self
     integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
     integer, intent(out), optional :: error
-    type(c_ptr) :: address
-    integer(c_size_t) :: length
-    integer(c_int) :: code
-    code = c_controller_save(self%handle, address, length)
-    call bytes_of(code, address, length, bytes)
-    call settle(code, error)
+    call save_by(c_controller_save, self%handle, bytes, error)
   end subroutine
 
   !> Makes a controller that continues from saved bytes. Collective over the communicator.
@@ -184,12 +180,7 @@ contains
     class(rrcb_cost_model), intent(in) :: self
     integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
     integer, intent(out), optional :: error
-    type(c_ptr) :: address
-    integer(c_size_t) :: length
-    integer(c_int) :: code
-    code = c_cost_model_save(self%handle, address, length)
-    call bytes_of(code, address, length, bytes)
-    call settle(code, error)
+    call save_by(c_cost_model_save, self%handle, bytes, error)
   end subroutine
 
   !> Makes a model that continues from saved bytes. Collective over the communicator.
@@ -266,6 +257,16 @@ contains
     call settle(c_cost_model_weights(self%handle, size(columns, 2, kind=c_size_t), &
       size(columns, 1, kind=c_size_t), columns, to), error)
   end subroutine
+
+  !> Returns the number of columns; 0 for a model that was not created. Not collective.
+  function cost_model_num_columns(self) result(num_columns)
+    class(rrcb_cost_model), intent(in) :: self
+    integer :: num_columns
+    integer(c_int) :: answer
+    answer = 0
+    num_columns = 0
+    if (c_cost_model_num_columns(self%handle, answer) == rrcb_ok) num_columns = answer
+  end function
 
   !> Writes the cost of a unit of each column. Not collective.
   subroutine cost_model_costs(self, costs, error)

@@ -3,11 +3,13 @@ module rrcb_functions
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit
   use rrcb_types
+  use rrcb_c_types
   use rrcb_c_functions
   implicit none
   private
   public :: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, rrcb_ranks_of_part, &
-    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of, bytes_of, settle
+    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of, save_by, settle, &
+    three_of, num_cuts, cuts_from
 
 contains
 
@@ -24,18 +26,50 @@ contains
     end do
   end function
 
-  !> Copies saved bytes of C, if the function that showed them succeeded.
-  !> @param code of that function
-  subroutine bytes_of(code, address, length, bytes)
-    integer(c_int), intent(in) :: code
-    type(c_ptr), intent(in) :: address
-    integer(c_size_t), intent(in) :: length
+  !> Copies the bytes that a function of C shows.
+  subroutine save_by(show, handle, bytes, error)
+    procedure(save_state) :: show
+    type(c_ptr), intent(in) :: handle
     integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    integer, intent(out), optional :: error
+    type(c_ptr) :: address
+    integer(c_size_t) :: length
+    integer(c_int) :: code
     integer(c_int8_t), pointer :: shown(:)
-    if (code /= rrcb_ok) return
-    call c_f_pointer(address, shown, [length])
-    bytes = shown
+    code = show(handle, address, length)
+    if (code == rrcb_ok) then
+      call c_f_pointer(address, shown, [length])
+      bytes = shown
+    end if
+    call settle(code, error)
   end subroutine
+
+  !> Copies cuts of C.
+  subroutine cuts_from(from, cuts)
+    type(c_cuts), intent(in) :: from
+    type(rrcb_cuts), intent(inout) :: cuts
+    type(rrcb_cut), pointer :: tree(:)
+    call c_f_pointer(from%tree, tree, [from%num_parts - 1])
+    cuts%dimension = from%dimension
+    cuts%group_size = from%group_size
+    cuts%larger_below = from%larger_below == 1
+    cuts%dealt = from%dealt
+    cuts%tree = tree
+    cuts%tree%axis = cuts%tree%axis + 1
+  end subroutine
+
+  pure integer function num_cuts(cuts)
+    type(rrcb_cuts), intent(in) :: cuts
+    num_cuts = 0
+    if (allocated(cuts%tree)) num_cuts = size(cuts%tree)
+  end function
+
+  pure function three_of(values) result(three)
+    real(c_double), intent(in) :: values(:)
+    real(c_double) :: three(3)
+    three = 0
+    three(:min(size(values), 3)) = values(:min(size(values), 3))
+  end function
 
   !> Gives the caller the code of a function in C. Without `error` an error ends the program.
   subroutine settle(code, error)

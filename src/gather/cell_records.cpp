@@ -20,7 +20,7 @@ struct BlockOfCells {
     double num_cells = 0;
     double form = 0;
     double exponent = 0;    ///< of the lattice, or of lean weights
-    double are_counts = 0;  ///< 1: counts replace lean weights
+    double unit = 1;        ///< of the weights
     double num_packed = 0;  ///< doubles of lean cells
 };
 
@@ -127,41 +127,44 @@ Vector cube_of(const Vector& position, int dimension, int exponent) {
     return cube;
 }
 
-void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
+void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh, double unit,
                        std::vector<double>& records) {
     const LeanCells lean = pack_cells(cells, mesh);
     const std::size_t num_packed = (lean.bytes.size() + sizeof(double) - 1) / sizeof(double);
-    append_block(BlockOfCells{static_cast<double>(cells.size()), double(Form::lean),
-                              static_cast<double>(lean.exponent), lean.are_counts ? 1.0 : 0.0,
-                              static_cast<double>(num_packed)},
-                 records);
+    append_block(
+        BlockOfCells{static_cast<double>(cells.size()), double(Form::lean),
+                     static_cast<double>(lean.exponent), unit, static_cast<double>(num_packed)},
+        records);
     append_mesh(mesh, records);
     records.resize(records.size() + num_packed);
     std::ranges::copy(lean.bytes,
                       std::as_writable_bytes(std::span(records).last(num_packed)).begin());
 }
 
-void append_cells(const CellSet& merged, int dimension, std::vector<double>& records) {
+void append_cells(const CellSet& merged, int dimension, double unit, std::vector<double>& records) {
     append_block(BlockOfCells{static_cast<double>(merged.cells.size()), double(Form::lattice),
-                              static_cast<double>(merged.exponent)},
+                              static_cast<double>(merged.exponent), unit},
                  records);
     for (const CellMoments& cell : merged.cells) append_cell(cell, dimension, records);
 }
 
-CellSet read_cells(std::span<const double> records, int dimension) {
+CellSet read_cells(std::span<const double> records, int dimension, bool in_units) {
     CellSet all;
     while (!records.empty()) {
         const auto block = take_block<BlockOfCells>(records);
         const auto form = static_cast<Form>(block.form);
         const auto count = static_cast<std::size_t>(block.num_cells);
+        const auto exponent = static_cast<int>(block.exponent);
         if (form == Form::lattice) {
-            take_lattice(records, count, dimension, static_cast<int>(block.exponent), all);
-            continue;
+            take_lattice(records, count, dimension, exponent, all);
+        } else {
+            const SupportMesh mesh = take_mesh(records, dimension);
+            const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
+            unpack_cells(exponent, std::as_bytes(packed), count, mesh, all.cells);
         }
-        const SupportMesh mesh = take_mesh(records, dimension);
-        const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
-        unpack_cells({block.are_counts != 0, static_cast<int>(block.exponent)},
-                     std::as_bytes(packed), count, mesh, all.cells);
+        if (in_units) continue;
+        for (CellMoments& cell : std::span(all.cells).last(count))
+            cell.moments.weight *= block.unit;
     }
     return all;
 }

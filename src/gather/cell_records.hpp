@@ -23,16 +23,17 @@ struct CellSet {
 };
 
 /// Appends the cells of a support mesh to the records for the root, as LeanCells: rounded moments
-/// in an eighth of the doubles.
-void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
+/// in an eighth of the doubles. Their weights are in units of `unit`.
+void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh, double unit,
                        std::vector<double>& records);
 
 /// Appends cells that were merged on the lattice of their exponent.
-void append_cells(const CellSet& merged, int dimension, std::vector<double>& records);
+void append_cells(const CellSet& merged, int dimension, double unit, std::vector<double>& records);
 
 /// Returns the cells in the order appended. The box of a lattice's cell is the cube of its mean, or
-/// along an axis mean +- sqrt(3) sigma if that is wider.
-CellSet read_cells(std::span<const double> records, int dimension);
+/// along an axis mean +- sqrt(3) sigma if that is wider. `in_units`: weights are not multiplied by
+/// their unit.
+CellSet read_cells(std::span<const double> records, int dimension, bool in_units);
 
 /// Returns the cube of the lattice of `exponent` that holds a position, in units of its edge.
 Vector cube_of(const Vector& position, int dimension, int exponent);

@@ -36,9 +36,10 @@ void join_differences(Summary& mine, const Summary& next) {
 }
 
 void coarsen_records(Contribution& all, int dimension, std::size_t most) {
-    const CellSet merged = coarsen(read_cells(all.records, dimension), dimension, most);
+    const bool is_counted = all.summary.is_counted();
+    const CellSet merged = coarsen(read_cells(all.records, dimension, is_counted), dimension, most);
     std::vector<double> records;
-    append_cells(merged, dimension, records);
+    append_cells(merged, dimension, is_counted ? all.summary.heaviest : 1, records);
     all.records = std::move(records);
     all.summary.num_cells = static_cast<std::int64_t>(merged.cells.size());
 }
@@ -76,6 +77,18 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
     return mesh;
 }
 
+/// Finds the cells of checked points in the support mesh of the options.
+BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
+    const int dimension = points.dimension;
+    const bool is_automatic = options.tuning.support_mesh == 0;
+    if (is_automatic && !options.axes.grid.empty() && points.count > 0)
+        if (const auto mesh = mesh_on_lines(box, dimension, options))
+            return bin_by_cell(points, *mesh);
+    const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count, options)
+                                   : options.tuning.support_mesh;
+    return bin_by_cell(points, make_support_mesh(box, dimension, cells));
+}
+
 }  // namespace
 
 int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options) {
@@ -95,17 +108,6 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
     return static_cast<int>(std::max(1.0, std::floor(cells * above_rounding)));
 }
 
-BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
-    const int dimension = points.dimension;
-    const bool is_automatic = options.tuning.support_mesh == 0;
-    if (is_automatic && !options.axes.grid.empty() && points.count > 0)
-        if (const auto mesh = mesh_on_lines(box, dimension, options))
-            return bin_by_cell(points, *mesh);
-    const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count, options)
-                                   : options.tuning.support_mesh;
-    return bin_by_cell(points, make_support_mesh(box, dimension, cells));
-}
-
 Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
     Summary summary;
     summary.box = points.box;
@@ -118,10 +120,14 @@ Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
     return summary;
 }
 
-void add_records(const Points& points, const BinnedPoints& binned, Contribution& mine) {
+void add_records(Points points, const Box& box, const Options& options, Contribution& mine) {
     if (points.count == 0) return;
+    const Summary& summary = mine.summary;
+    if (summary.is_counted()) points.weights = {};
+    const BinnedPoints binned = bin_by_options(points, box, options);
     const std::vector<CellMoments> cells = cell_moments(binned);
-    append_lean_cells(cells, binned.mesh, mine.records);
+    append_lean_cells(cells, binned.mesh, summary.is_counted() ? summary.heaviest : 1,
+                      mine.records);
     mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
 }
 
@@ -167,7 +173,8 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
 }
 
 StatisticalDomain build_domain(const Contribution& all, int dimension) {
-    return analytic_domain(read_cells(all.records, dimension).cells, dimension, all.summary.box);
+    const CellSet set = read_cells(all.records, dimension, all.summary.is_counted());
+    return analytic_domain(set.cells, dimension, all.summary.box);
 }
 
 }  // namespace rrcb

@@ -36,6 +36,8 @@ struct Summary {
     Box box;  ///< of the points
 
     bool is_usable() const { return failing_rank == no_rank && differing_rank == no_rank; }
+    /// Returns true if all points weigh the same: they are counted, in units of this weight.
+    bool is_counted() const { return lightest == heaviest; }
 };
 
 /// Contribution of one rank, or of all ranks of a subtree, to the root; see cell_records.hpp.
@@ -52,14 +54,12 @@ struct Contribution {
 /// at little cost compared with the points, and not nearly empty.
 int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options);
 
-/// Finds the cells of checked points in the support mesh of the options.
-BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options);
-
 /// Returns the totals of a rank's points, from one reading of these.
 Summary summarize(const PointSummary& points, bool are_weighted, int rank);
 
-/// Reduces checked points to the moments of their cells.
-void add_records(const Points& points, const BinnedPoints& binned, Contribution& mine);
+/// Reduces checked points in a box to the moments of their cells in the support mesh of the
+/// options.
+void add_records(Points points, const Box& box, const Options& options, Contribution& mine);
 
 /// Adds the weights and counts of the parts of earlier cuts.
 void add_totals(const PartTotals& totals, Contribution& mine);

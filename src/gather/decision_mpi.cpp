@@ -26,16 +26,14 @@ namespace rrcb {
 
 namespace {
 
-double common_weight_of(const Summary& summary) {
-    if (summary.weight == 0) return 1;
-    return summary.lightest == summary.heaviest ? summary.heaviest : 0;
-}
-
 Verdict verdict_of(const Summary& summary, const Bisection& bisection,
                    std::span<const double> part_sizes) {
     Verdict verdict;
-    verdict.common_weight = common_weight_of(summary);
-    verdict.heaviest = summary.weight == 0 ? 1 : summary.heaviest;
+    if (summary.weight == 0)
+        verdict.common_weight = 1;
+    else if (summary.is_counted())
+        verdict.common_weight = summary.heaviest;
+    verdict.heaviest = verdict.is_counted() ? 1 : summary.heaviest;
     verdict.num_points = summary.num_points;
     verdict.num_records = summary.num_cells;
     verdict.total_weight = summary.weight;
@@ -69,18 +67,17 @@ double least_imbalance_by_count(GlobalCount num_points, std::span<const double> 
 }
 
 /// Returns a lower bound of the imbalance of any partition.
-double least_imbalance(const Verdict& verdict, double weight, int num_parts,
-                       std::span<const double> part_sizes) {
-    if (!(weight > 0)) return 1;
+double least_imbalance(const Verdict& verdict, int num_parts, std::span<const double> part_sizes) {
     const GlobalCount count = verdict.num_points;
+    if (count == 0) return 1;
     const bool is_even =
         part_sizes.empty() || std::ranges::min(part_sizes) == std::ranges::max(part_sizes);
-    if (verdict.common_weight > 0 && is_even)
+    if (verdict.is_counted() && is_even)
         return static_cast<double>((count - 1) / num_parts + 1) * num_parts /
                static_cast<double>(count);
-    if (verdict.common_weight > 0) return least_imbalance_by_count(count, part_sizes);
+    if (verdict.is_counted()) return least_imbalance_by_count(count, part_sizes);
     const double parts = is_even ? num_parts : sum_of(part_sizes) / std::ranges::max(part_sizes);
-    return std::max(1.0, verdict.heaviest / weight * parts);
+    return std::max(1.0, verdict.heaviest / verdict.weight() * parts);
 }
 
 /// Throws Error if the ranks differ or one has failed.
@@ -151,7 +148,8 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     const std::size_t num_parts = decision.part_weights.size();
     if (num_parts == 0 || all.summary.num_points == 0) return;
     const std::span<const double> totals(all.part_totals);
-    std::ranges::copy(all.summary.weight > 0 ? totals.first(num_parts) : totals.last(num_parts),
+    const bool is_counted = decision.verdict.is_counted();
+    std::ranges::copy(is_counted ? totals.last(num_parts) : totals.first(num_parts),
                       decision.part_weights.begin());
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
 }
@@ -159,9 +157,11 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
 /// Reads the parts that the ranks hold from the extents of their points.
 void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.bisection.cuts;
-    const std::vector<Extent> extents = read_extents(all.extents, estimate.dimension);
+    std::vector<Extent> extents = read_extents(all.extents, estimate.dimension);
     if (extents.empty() || extents.size() != decision.kept.parts.size()) return;
     if (all.summary.num_points == 0) return;
+    if (decision.verdict.is_counted())
+        for (Extent& extent : extents) extent.weight = extent.count;
     auto kept = read_kept_tree(extents, estimate, options);
     if (!kept) return;
     decision.verdict.kept_imbalance = kept->imbalance;
@@ -180,8 +180,7 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
     report.imbalance = verdict.measured_imbalance;
     if (verdict.num_points == 0) report_measured(1, 1, report);
     report.details.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
-    report.details.least_imbalance =
-        least_imbalance(verdict, weight_of(report), num_parts, part_sizes);
+    report.details.least_imbalance = least_imbalance(verdict, num_parts, part_sizes);
     report.details.surplus_parts =
         static_cast<int>(std::max(GlobalCount{0}, num_parts - verdict.num_points));
     return report;
@@ -190,11 +189,6 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
 void report_measured(double imbalance, double tolerance, Report& report) {
     report.imbalance = imbalance;
     report.within_tolerance = std::islessequal(imbalance, tolerance);
-}
-
-double weight_of(const Report& report) {
-    return report.details.all_weights_zero ? static_cast<double>(report.details.num_points)
-                                           : report.details.total_weight;
 }
 
 bool counts_earlier_parts(const Options& options) {

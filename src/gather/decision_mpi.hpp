@@ -26,7 +26,7 @@ struct Verdict {
     std::int32_t failing_rank = no_rank;
     std::int32_t keeps = 0;    ///< 1: the points are kept
     double heaviest = 0;       ///< weight of the heaviest point, 1 by count
-    double common_weight = 0;  ///< weight of each point if all weigh the same, else 0
+    double common_weight = 0;  ///< > 0: points are counted, all having this weight or none
     std::int64_t num_points = 0;
     std::int64_t num_records = 0;
     double total_weight = 0;
@@ -34,6 +34,13 @@ struct Verdict {
     Box box{};                              ///< of all points, if cells were gathered
     double kept_imbalance = not_kept;       ///< of the parts that the ranks hold
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
+
+    bool is_counted() const { return common_weight > 0; }
+    /// Returns the weight of all points, or their number if they are counted.
+    double weight() const {
+        const bool is_number = is_counted() || total_weight == 0;
+        return is_number ? static_cast<double>(num_points) : total_weight;
+    }
 };
 
 /// First message from the root, for any options: the verdict, and as much of the decision as fits.
@@ -55,9 +62,6 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
 
 /// Adds the counted imbalance.
 void report_measured(double imbalance, double tolerance, Report& report);
-
-/// Returns the weight of all points, or their number if they are balanced by count.
-double weight_of(const Report& report);
 
 /// Makes buffers for the decision; for kept parts only if rank 0 may read them. Not
 /// collective.

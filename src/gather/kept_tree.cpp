@@ -26,7 +26,6 @@ class Reader {
           estimate_(estimate),
           options_(options),
           by_number_(by_number),
-          by_count_(std::ranges::all_of(extents, [](const Extent& p) { return p.weight == 0; })),
           ends_(extents.size()) {
         std::iota(ends_.begin(), ends_.end(), 0);
         kept_.cuts = estimate;
@@ -147,7 +146,7 @@ class Reader {
     bool settle(Part part, Part end) {
         const Extent& extent = extent_at(end);
         kept_.parts[part_at(estimate_, end)] = part;
-        kept_.part_weights[part] = by_count_ ? extent.count : extent.weight;
+        kept_.part_weights[part] = extent.weight;
         return extent.count == 0 || options_.part_sizes[part] > 0;
     }
 
@@ -155,7 +154,6 @@ class Reader {
     const Cuts& estimate_;
     const Options& options_;
     bool by_number_;
-    bool by_count_;
     std::vector<Part> ends_;    ///< in the order of the parts that were read
     std::vector<Places> gaps_;  ///< between the points on both sides of each cut
     KeptTree kept_;

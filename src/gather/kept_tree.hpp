@@ -14,8 +14,8 @@ namespace rrcb {
 /// The current distribution over the ranks, as a bisection.
 struct KeptTree {
     Cuts cuts;
-    std::vector<Part> parts;           ///< of each rank's points
-    std::vector<double> part_weights;  ///< by count if all weights are 0
+    std::vector<Part> parts;  ///< of each rank's points
+    std::vector<double> part_weights;
     double imbalance = 1;
 };
 

@@ -100,14 +100,9 @@ float lean_weight(double weight, int exponent) {
     return weight > 0 ? std::max(lean, std::numeric_limits<float>::denorm_min()) : 0.0F;
 }
 
-double number_in(const CellMoments& cell, bool are_counts) {
-    return are_counts ? static_cast<double>(cell.moments.count) : cell.moments.weight;
-}
-
-int exponent_of(std::span<const CellMoments> cells, bool are_counts) {
+int exponent_of(std::span<const CellMoments> cells) {
     double greatest = 0;
-    for (const CellMoments& cell : cells)
-        greatest = std::max(greatest, number_in(cell, are_counts));
+    for (const CellMoments& cell : cells) greatest = std::max(greatest, cell.moments.weight);
     return greatest > 0 ? std::ilogb(greatest) : 0;
 }
 
@@ -148,15 +143,13 @@ class Faces {
 
 LeanCells pack_cells(std::span<const CellMoments> cells, const SupportMesh& mesh) {
     LeanCells lean;
-    lean.are_counts = std::ranges::none_of(
-        cells, [](const CellMoments& cell) { return cell.moments.weight > 0; });
-    lean.exponent = exponent_of(cells, lean.are_counts);
+    lean.exponent = exponent_of(cells);
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     lean.bytes.reserve(cells.size() * (sizeof(float) + 2 * dimension + 2));
     append_numbers(cells, lean.bytes);
     for (const CellMoments& cell : cells) {
         std::array<std::byte, sizeof(float)> weight;
-        const float number = lean_weight(number_in(cell, lean.are_counts), lean.exponent);
+        const float number = lean_weight(cell.moments.weight, lean.exponent);
         std::memcpy(weight.data(), &number, sizeof number);
         lean.bytes.insert(lean.bytes.end(), weight.begin(), weight.end());
         for (std::size_t a = 0; a < dimension; ++a) {
@@ -168,7 +161,7 @@ LeanCells pack_cells(std::span<const CellMoments> cells, const SupportMesh& mesh
     return lean;
 }
 
-void unpack_cells(const LeanCells& head, std::span<const std::byte> packed, std::size_t count,
+void unpack_cells(int exponent, std::span<const std::byte> packed, std::size_t count,
                   const SupportMesh& mesh, std::vector<CellMoments>& cells) {
     const std::size_t first = cells.size();
     cells.resize(first + count);
@@ -184,9 +177,7 @@ void unpack_cells(const LeanCells& head, std::span<const std::byte> packed, std:
     for (CellMoments& cell : std::span(cells).subspan(first)) {
         float lean;
         std::memcpy(&lean, packed.data(), sizeof lean);
-        const double full = std::ldexp(static_cast<double>(lean), head.exponent);
-        if (head.are_counts) cell.moments.count = std::llround(full);
-        if (!head.are_counts) cell.moments.weight = full;
+        cell.moments.weight = std::ldexp(static_cast<double>(lean), exponent);
         packed = packed.subspan(sizeof lean);
         cell.box = faces.box(cell.cell);
         for (std::size_t a = 0; a < dimension; ++a) {

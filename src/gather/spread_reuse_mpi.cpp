@@ -94,9 +94,9 @@ Cuts SpreadReuse::kept_cuts() const {
     return kept;
 }
 
-bool SpreadReuse::ends(Balance& result, Participant& self) {
+bool SpreadReuse::ends(const Verdict& verdict, Balance& result, Participant& self) {
     Report& report = result.report;
-    const double imbalance = measure(weight_of(report), report.details.all_weights_zero, self);
+    const double imbalance = measure(verdict.weight(), verdict.is_counted(), self);
     if (report.details.num_points > 0) {
         report_measured(imbalance, options_.imbalance_tolerance, report);
         if (!report.within_tolerance) return false;

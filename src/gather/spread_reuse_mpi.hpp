@@ -10,6 +10,8 @@
 
 namespace rrcb {
 
+struct Verdict;
+
 /// Reuse of earlier cuts, distributed or complete. Memory is in proportion to the parts of a rank's
 /// points, and the cuts above them.
 class SpreadReuse {
@@ -26,7 +28,7 @@ class SpreadReuse {
     ///
     /// Collective: one pass through the ranks to find the parts, or more if one lacks cuts, one to
     /// add up and one to compare.
-    bool ends(Balance& result, Participant& self);
+    bool ends(const Verdict& verdict, Balance& result, Participant& self);
 
   private:
     double measure(double total_weight, bool by_count, Participant& self);

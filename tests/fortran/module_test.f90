@@ -371,7 +371,8 @@ program module_test
   call model%save(saved, error)
   call expect(error == rrcb_ok, "save a model")
   call loaded_model%load(MPI_COMM_WORLD, saved, error, loaded_controller)
-  call expect(error == rrcb_ok .and. loaded_model%uses_costs(), "load a model")
+  call expect(error == rrcb_ok .and. loaded_model%uses_costs() .and. loaded_model%num_columns() == 2, &
+    "load a model")
   call model%costs(columns, error)
   call loaded_model%costs(loaded_costs, error)
   call expect(all(abs(columns - loaded_costs) <= 0), "costs of a loaded model")

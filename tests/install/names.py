@@ -50,6 +50,7 @@ ONLY_C = {
     "rrcb_last_error",  # the text of an Error
     "rrcb_controller_step_weight",  # an overload
     "rrcb_controller_save", "rrcb_controller_load", "rrcb_cost_model_save", "rrcb_cost_model_load",
+    "rrcb_cost_model_num_columns",  # costs().size()
 }
 # Functions in C that are no procedure of their own in Fortran.
 NOT_FORTRAN = {

@@ -572,6 +572,9 @@ TEST(CCostModel, continues_from_saved_bytes) {
         double costs[2][2];
         for (int which : {0, 1}) {
             step(models[which], k);
+            int num_columns = 0;
+            EXPECT_EQ(rrcb_cost_model_num_columns(models[which], &num_columns), RRCB_OK);
+            EXPECT_EQ(num_columns, 2);
             EXPECT_EQ(rrcb_cost_model_costs(models[which], 2, costs[which]), RRCB_OK);
         }
         EXPECT_EQ(costs[0][0], costs[1][0]);

@@ -108,10 +108,10 @@ TEST(Tolerance, takes_no_more_rounds_than_exact_cuts_but_for_the_first_counts) {
         for (const int num_parts : {16, 64}) {
             Options exact = with_parts(num_parts, 1);
             exact.refine = Refine::exact;
-            const Report of_exact = balance(mine.points(), exact, MPI_COMM_WORLD).report;
+            const Report of_exact = balance(mine.points(), exact, {}, MPI_COMM_WORLD).report;
             for (const double tolerance : {1.1, 1.02, 1.003, 1.001}) {
                 const Options options = with_parts(num_parts, tolerance);
-                const Report report = balance(mine.points(), options, MPI_COMM_WORLD).report;
+                const Report report = balance(mine.points(), options, {}, MPI_COMM_WORLD).report;
                 EXPECT_LE(report.details.rounds, of_exact.details.rounds + rounds_more_than_exact)
                     << seed << ", " << num_parts << " parts to " << tolerance;
                 EXPECT_LE(report.imbalance, std::max(tolerance, of_exact.imbalance));

@@ -1,13 +1,14 @@
-// Weights that are all the same, or all 0, give the parts of points without weights.
+// Weights that are all the same, or all 0, give the parts of points without weights, to the bit.
 #include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
 
-#include <rrcb/balance.hpp>
+#include <rrcb/rrcb.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 namespace rrcb {
@@ -16,58 +17,73 @@ namespace {
 using test::num_ranks;
 using test::rank;
 
-struct Result {
-    std::vector<Part> parts;
-    std::vector<Cut> tree;
-    double imbalance;
-};
-
-/// Divides points of one weight; of none if it is negative.
-Result result_with(double weight, const Options& options) {
+/// Divides points of one weight, of none if it is negative; then again after they have moved, by
+/// the cuts and from scratch on their new ranks.
+std::vector<Balance> results_with(double weight, const Options& options) {
     const std::vector<double> all = test::uniform_cloud(1001, 2, 5);
     std::vector<double> mine;
     for (std::size_t i = static_cast<std::size_t>(rank()); i < 1001;
          i += static_cast<std::size_t>(num_ranks()))
         mine.insert(mine.end(), {all[2 * i], all[2 * i + 1]});
     std::vector<double> weights(weight < 0 ? 0 : mine.size() / 2, weight);
-    const Balance made = balance(interleaved_points(mine, 2, weights), options, {}, MPI_COMM_WORLD);
-    return {made.parts, made.cuts.tree, made.report.imbalance};
+    std::vector<Balance> made;
+    made.push_back(balance(interleaved_points(mine, 2, weights), options, {}, MPI_COMM_WORLD));
+    mine = transfer(plan(made[0], MPI_COMM_WORLD), column(mine, 2), MPI_COMM_WORLD);
+    weights.assign(weight < 0 ? 0 : mine.size() / 2, weight);
+    made.push_back(balance(interleaved_points(mine, 2, weights), options, {}, MPI_COMM_WORLD));
+    for (std::size_t i = 0; i < mine.size(); i += 2) mine[i] += 0.2 * mine[i + 1];
+    const Points moved = interleaved_points(mine, 2, weights);
+    made.push_back(balance(moved, options, made[0].cuts, MPI_COMM_WORLD));
+    return made;
 }
 
-bool are_bit_identical(const Result& a, const Result& b) {
-    return a.parts == b.parts && std::ranges::equal(a.tree, b.tree, [](const Cut& x, const Cut& y) {
+bool are_bit_identical(const Balance& a, const Balance& b) {
+    return a.parts == b.parts &&
+           std::bit_cast<std::uint64_t>(a.report.imbalance) ==
+               std::bit_cast<std::uint64_t>(b.report.imbalance) &&
+           a.report.kept == b.report.kept && a.report.details.rounds == b.report.details.rounds &&
+           std::ranges::equal(a.cuts.tree, b.cuts.tree, [](const Cut& x, const Cut& y) {
                return x.axis == y.axis && x.divides == y.divides && x.at == y.at;
            });
 }
 
-TEST(EqualWeights, of_a_power_of_two_and_zero_change_no_bit) {
+TEST(EqualWeights, change_no_bit) {
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact})
         for (int num_parts = 2; num_parts <= 17; ++num_parts) {
             Options options;
             options.num_parts = num_parts;
             options.refine = refine;
-            const Result none = result_with(-1, options);
-            for (const double weight : {0.0, 1.0, 2.0, 0x1p-20, 0x1p40})
-                EXPECT_TRUE(are_bit_identical(result_with(weight, options), none))
-                    << num_parts << " parts, weight " << weight;
+            if (num_parts % 4 == 3) options.tuning.central_parts = 2;
+            const std::vector<Balance> none = results_with(-1, options);
+            for (const double weight : {0.0, 1.0, 3.0, 0.1, 1e-300, 0x1p-20, 0x1p40}) {
+                const std::vector<Balance> equal = results_with(weight, options);
+                for (std::size_t k = 0; k < none.size(); ++k)
+                    EXPECT_TRUE(are_bit_identical(equal[k], none[k]))
+                        << num_parts << " parts, weight " << weight << ", call " << k;
+                const auto& counts = none[0].report.part_weights;
+                for (std::size_t part = 0; part < counts.size(); ++part)
+                    EXPECT_EQ(equal[0].report.part_weights.at(part),
+                              counts[part] * (weight > 0 ? weight : 1));
+            }
         }
 }
 
-TEST(EqualWeights, of_any_size_change_parts_by_rounding_only) {
-    for (int num_parts = 2; num_parts <= 17; ++num_parts) {
+TEST(EqualWeights, of_some_ranks_are_no_counts) {
+    if (num_ranks() < 2) GTEST_SKIP() << "needs ranks of other weights";
+    // Rank 0 has half of the weight in a tenth of the points.
+    const std::size_t count = rank() == 0 ? 100 : 900 / static_cast<std::size_t>(num_ranks() - 1);
+    const std::vector<double> mine = test::uniform_cloud(count, 1, static_cast<unsigned>(rank()));
+    const std::vector<double> weights(count, rank() == 0 ? 9 : 1);
+    for (const double scale : {1.0, 0.0}) {
+        std::vector<double> scaled = weights;
+        if (rank() > 0) std::ranges::fill(scaled, scale);
         Options options;
-        options.num_parts = num_parts;
-        const Result none = result_with(-1, options);
-        for (const double weight : {3.0, 0.1}) {
-            const Result equal = result_with(weight, options);
-            int num_moved = 0;
-            for (std::size_t i = 0; i < none.parts.size(); ++i)
-                num_moved += equal.parts[i] != none.parts[i] ? 1 : 0;
-            MPI_Allreduce(MPI_IN_PLACE, &num_moved, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-            // A cut between the same two points, or one point further.
-            EXPECT_LE(num_moved, 2 * num_parts) << num_parts << " parts, weight " << weight;
-            EXPECT_NEAR(equal.imbalance, none.imbalance, num_parts / 1001.0 + 1e-12);
-        }
+        options.num_parts = 3;
+        options.refine = Refine::none;
+        const Points points = interleaved_points(mine, 1, scaled);
+        const Balance made = balance(points, options, {}, MPI_COMM_WORLD);
+        const auto of_parts = part_weights(points, made.parts, 3, MPI_COMM_WORLD);
+        EXPECT_LT(imbalance(of_parts, {}), 1.25) << scale;
     }
 }
 

@@ -121,7 +121,11 @@ TEST(MinPoints, are_in_each_part_or_none) {
                 options.cuts = kind % 8 == 0 ? HeldCuts::own : HeldCuts::whole;
                 if (kind % 5 == 0)
                     options.part_sizes = {0, 1, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1};
-                if (kind++ % 7 == 0 && count > 1) options.axes.min_width = {1e-9, 1e-9};
+                if (kind % 7 == 0 && count > 1) options.axes.min_width = {1e-9, 1e-9};
+                if (kind % 7 == 3 && count > 2) options.axes.grid = {{0, 1.0 / 64}, {0, 1.0 / 64}};
+                // Machines of four ranks; their parts are the first ones all the same.
+                if (kind % 3 != 1) options.tree.group_size = 4;
+                if (kind++ % 9 == 2 && options.tuning.central_parts > 2) options.tree.dealt = 1;
                 SCOPED_TRACE(std::to_string(count) + " points, least " + std::to_string(least));
                 Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
                 expect_filled(result, options, count);

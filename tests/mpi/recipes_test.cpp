@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -60,7 +61,7 @@ void expect_all_pairs(const std::vector<double>& here, std::vector<double> image
 
 TEST(TiltedBox, gives_all_pairs_without_the_tilt_and_with_a_greater_radius) {
     const std::vector<double> scattered = points_of(rank());
-    const Balance made = balance(interleaved_points(scattered, 2), {}, {}, MPI_COMM_WORLD);
+    const Balance made = balance(interleaved_points(scattered, 2), {}, {}, {}, MPI_COMM_WORLD);
     const std::vector<double> here =
         transfer(plan(made, MPI_COMM_WORLD), column(scattered, 2), MPI_COMM_WORLD);
     const GhostPlan near = ghosts(made.cuts, interleaved_points(here, 2),
@@ -68,6 +69,79 @@ TEST(TiltedBox, gives_all_pairs_without_the_tilt_and_with_a_greater_radius) {
     std::vector<double> images = fetch(near, column(here, 2), MPI_COMM_WORLD);
     apply_shifts(near, images);
     expect_all_pairs(here, images);
+}
+
+/// Edges of a box with the tilts xy, xz and yz, as columns; and the norm of its inverse, the
+/// greatest ratio of distances without the tilts and with them.
+struct TiltedBox {
+    double xy = 0.3;
+    double xz = -0.5;
+    double yz = 0.4;
+
+    Vector place(const Vector& u) const {
+        return {u[0] + xy * u[1] + xz * u[2], u[1] + yz * u[2], u[2]};
+    }
+    Vector without_tilt(const Vector& x) const {
+        const double v = x[1] - yz * x[2];
+        return {x[0] - xy * v - xz * x[2], v, x[2]};
+    }
+    double norm_of_inverse() const {
+        // By the power method, with the transpose of the inverse as the second factor.
+        Vector x{1, 1, 1};
+        double square = 1;
+        for (int k = 0; k < 1000; ++k) {
+            const Vector u = without_tilt(x);
+            const double v = u[1] - xy * u[0];
+            x = {u[0], v, u[2] - xz * u[0] - yz * v};
+            square = std::hypot(x[0], x[1], x[2]);
+            for (double& value : x) value /= square;
+        }
+        return std::sqrt(square);
+    }
+};
+
+double distance(const Vector& a, const Vector& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+TEST(TiltedBox, gives_all_pairs_in_3d_with_the_norm_of_its_inverse) {
+    const TiltedBox box;
+    const double reach = 0.2;
+    const std::vector<double> all = test::uniform_cloud(200, 3, 4);
+    std::vector<double> scattered;
+    for (std::size_t i = 0; i < 200; ++i)
+        if (static_cast<int>(i) % num_ranks() == rank())
+            scattered.insert(scattered.end(), {all[3 * i], all[3 * i + 1], all[3 * i + 2]});
+    const Balance made = balance(interleaved_points(scattered, 3), {}, {}, MPI_COMM_WORLD);
+    const std::vector<double> here =
+        transfer(plan(made, MPI_COMM_WORLD), column(scattered, 3), MPI_COMM_WORLD);
+    const GhostPlan near =
+        ghosts(made.cuts, interleaved_points(here, 3),
+               {.radius = reach * box.norm_of_inverse(), .periodic = unit}, MPI_COMM_WORLD);
+    std::vector<double> images = fetch(near, column(here, 3), MPI_COMM_WORLD);
+    apply_shifts(near, images);
+    images.insert(images.end(), here.begin(), here.end());
+    for (std::size_t i = 0; i < here.size(); i += 3) {
+        const Vector at = box.place({here[i], here[i + 1], here[i + 2]});
+        int found = 0, expected = 0;
+        for (std::size_t j = 0; j < images.size(); j += 3)
+            found += distance(at, box.place({images[j], images[j + 1], images[j + 2]})) <= reach;
+        for (std::size_t j = 0; j < all.size(); j += 3)
+            for (int k = 0; k < 27; ++k) {
+                const Vector image{all[j] + k % 3 - 1, all[j + 1] + k / 3 % 3 - 1,
+                                   all[j + 2] + k / 9 - 1};
+                expected += distance(at, box.place(image)) <= reach;
+            }
+        EXPECT_EQ(found, expected);
+    }
+    // The bound is attained: a shorter reach without the tilts misses pairs.
+    double longest = 0;
+    for (std::size_t i = 0; i < all.size(); i += 3) {
+        const Vector x{all[i] - 0.5, all[i + 1] - 0.5, all[i + 2] - 0.5};
+        longest = std::max(longest, distance(box.without_tilt(x), {}) / distance(x, {}));
+    }
+    EXPECT_LE(longest, box.norm_of_inverse());
+    EXPECT_GT(longest, 0.98 * box.norm_of_inverse());
 }
 
 /// A balancer in C.
@@ -118,7 +192,7 @@ TEST(TiltedBox, gives_all_pairs_in_c) {
 
 TEST(PeriodicFaces, have_no_images_of_floats_inside_the_box_in_c) {
     const std::vector<float> x{0, 1, std::nextafter(1.F, 0.F), static_cast<float>(rank()) / 20};
-    const Balance made = balance(interleaved_points(x, 1), {}, {}, MPI_COMM_WORLD);
+    const Balance made = balance(interleaved_points(x, 1), {}, {}, {}, MPI_COMM_WORLD);
     const std::vector<float> here = transfer(plan(made, MPI_COMM_WORLD), x, MPI_COMM_WORLD);
     Balancer balancer;
     std::vector<std::int32_t> parts(x.size());
@@ -178,7 +252,7 @@ TEST(HalfOpenBoxes, contain_the_points_of_a_lattice_by_plain_cuts) {
         Options options;
         options.axes.plain = plain;
         options.refine = Refine::exact;
-        const Balance made = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD);
+        const Balance made = balance(interleaved_points(x, 2), options, {}, {}, MPI_COMM_WORLD);
         const int outside =
             num_outside(x, made.parts, [&](Part part) { return box_of(made.cuts, part); });
         EXPECT_EQ(outside > 0, !plain && num_ranks() > 1);

@@ -58,7 +58,7 @@ struct VirtualRanks {
         const Points mine = points_of(rank);
         const PointSummary summary = summary_of(mine);
         Contribution all{summarize(summary, false, 0), {}};
-        add_records(mine, bin_by_options(mine, summary.box, options), all);
+        add_records(mine, summary.box, options, all);
         all.summary.first_rank = rank;
         MergeTree{num_ranks()}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);

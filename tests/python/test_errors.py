@@ -53,7 +53,15 @@ def test_raises_the_error_of_one_rank_on_all():
     ):
         given = on_rank(last, bad, x)
         same_error(lambda: rrcb.balance(given, comm=comm), text)
+    keys = np.zeros((len(x), 2), dtype=int)
+    for bad, text in ((keys[1:], "shape"), (keys + 0.5, "integers"), (keys[:, 0], "(n, k)")):
+        given = on_rank(last, bad, keys)
+        if bad.shape != keys[1:].shape:
+            same_error(lambda: rrcb.join_keys(given, comm), text)
+        same_error(lambda: rrcb.groups(x, on_rank(last, bad[:, 0] if bad.ndim > 1 else bad[1:], keys[:, 0]), comm=comm), "keys")
     if RANKS > 1:
+        same_error(lambda: rrcb.join_keys(on_rank(last, keys[:, :1], keys), comm), "of the shape (n, 1) on rank")
+        same_error(lambda: rrcb.groups(x, keys[:, 0], comm=comm, place=on_rank(last, "first_point", "centre")), "place")
         given = on_rank(last, cloud(3), x)
         same_error(lambda: rrcb.balance(given, comm=comm), "dimension")
         different = on_rank(last, 1.2, 1.1)

@@ -70,6 +70,48 @@ def test_continues_from_saved_bytes():
     controller.free()
 
 
+def joined_by_hand(keys):
+    """The least key that each row of keys is connected to, -1 for a row without keys."""
+    least = {}
+
+    def root(key):
+        while least.setdefault(key, key) != key:
+            key = least[key]
+        return key
+
+    for row in keys:
+        lowest, *others = sorted({root(key) for key in row if key >= 0}) or [-1]
+        least.update({other: lowest for other in others})
+    return np.array([min((root(k) for k in row if k >= 0), default=-1) for row in keys])
+
+
+def test_joins_overlapping_groups():
+    for empty in (None, RANKS - 1):
+        x = cloud(2, count=60, empty=empty)
+        rng = np.random.default_rng([5, ME])
+        keys = rng.integers(-1, 90 * RANKS, (len(x), 2))
+        expected = joined_by_hand(everywhere(keys))
+        joined = rrcb.join_keys(keys, comm)
+        assert (everywhere(joined).astype(np.int64) == expected).all()
+        weights = rng.random(len(x))
+        molecules = rrcb.groups(x, keys, weights, comm)
+        assert np.isclose(comm.allreduce(molecules.weights.sum()), comm.allreduce(weights.sum()))
+        made = rrcb.balance(molecules.x, molecules.weights, comm)
+        parts = molecules.distribution(made)
+        here = parts.distribute({"joined": joined, "x": x})
+        assert comm.allreduce(len(here["x"])) == len(expected)
+        own = set(here["joined"].tolist()) - {2**64 - 1}
+        assert len(set().union(*comm.allgather(own))) == sum(comm.allgather(len(own)))
+        # Centres of weight, by hand.
+        rows, of = np.unique(expected[expected >= 0], return_inverse=True)
+        everything = everywhere(x)[expected >= 0], everywhere(weights)[expected >= 0]
+        sums = np.zeros((len(rows), 3))
+        np.add.at(sums, of.ravel(), np.column_stack([everything[0] * everything[1][:, None], everything[1]]))
+        centres = np.concatenate([sums[:, :2] / sums[:, 2:], everywhere(x)[expected < 0]])
+        found = everywhere(molecules.x)
+        assert np.allclose(found[np.lexsort(found.T)], centres[np.lexsort(centres.T)])
+
+
 def test_leaves_parts_empty_for_the_least_number_of_points():
     x = cloud(2, count=5)
     made = rrcb.balance(x, num_parts=4, min_points=len(everywhere(x)), comm=comm)

@@ -141,21 +141,25 @@ TEST(CellRecords, come_back_with_their_boxes) {
     const auto cells = cell_moments(points, mesh);
     const CellSet merged = coarsen(uniform_points(100, 5), 2, 16);
     std::vector<double> records;
-    append_lean_cells(cells, mesh, records);
-    append_cells(merged, 2, records);
-    const CellSet read = read_cells(records, 2);
+    append_lean_cells(cells, mesh, 3, records);
+    append_cells(merged, 2, 0.5, records);
+    const CellSet read = read_cells(records, 2, true);
+    const CellSet weighted = read_cells(records, 2, false);
     ASSERT_EQ(read.cells.size(), cells.size() + merged.cells.size());
     EXPECT_EQ(read.exponent, merged.exponent);
     const LeanCells packed = pack_cells(cells, mesh);
     std::vector<CellMoments> unpacked;
-    unpack_cells(packed, packed.bytes, cells.size(), mesh, unpacked);
+    unpack_cells(packed.exponent, packed.bytes, cells.size(), mesh, unpacked);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         EXPECT_EQ(read.cells[i].moments.mean, unpacked[i].moments.mean);
+        EXPECT_EQ(read.cells[i].moments.weight, cells[i].moments.weight);
+        EXPECT_EQ(weighted.cells[i].moments.weight, 3 * cells[i].moments.weight);
         EXPECT_EQ(read.cells[i].box.lower, cells[i].box.lower);
         EXPECT_EQ(read.cells[i].box.upper, cells[i].box.upper);
     }
     for (std::size_t i = cells.size(); i < read.cells.size(); ++i) {
         const CellMoments& cell = read.cells[i];
+        EXPECT_EQ(weighted.cells[i].moments.weight, cell.moments.weight / 2);
         for (std::size_t a = 0; a < 2; ++a) {
             EXPECT_LE(cell.box.lower[a], cell.moments.mean[a]);
             EXPECT_GT(cell.box.upper[a], cell.moments.mean[a]);

@@ -101,7 +101,7 @@ struct Ranks {
         const Points mine = points_of(rank);
         const PointSummary summary = summary_of(mine);
         Contribution all{summarize(summary, false, 0), {}};
-        add_records(mine, bin_by_options(mine, summary.box, options), all);
+        add_records(mine, summary.box, options, all);
         MergeTree{num_ranks}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);
             all.records.insert(all.records.end(), theirs.records.begin(), theirs.records.end());

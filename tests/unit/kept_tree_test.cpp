@@ -341,14 +341,11 @@ TEST(KeptTree, leave_parts_of_size_zero_empty) {
     EXPECT_FALSE(read({{{0, 0}}, {{1, 0}}, {{2, 0}}, {{3, 0}}}, across({0, 0, 0}, 2), options));
 }
 
-TEST(KeptTree, weigh_what_the_ranks_do_or_count_where_nothing_weighs) {
+TEST(KeptTree, weigh_as_much_as_the_ranks) {
     std::vector<Extent> extents{extent_of({{0, 0}}, 2), extent_of({{1, 0}, {2, 0}}, 2)};
     extents[0].weight = 3.5;
     EXPECT_EQ(read_kept_tree(extents, across({0}, 2), options_for(2))->part_weights,
               (std::vector<double>{3.5, 2}));
-    extents[0].weight = extents[1].weight = 0;
-    EXPECT_EQ(read_kept_tree(extents, across({0}, 2), options_for(2))->part_weights,
-              (std::vector<double>{1, 2}));
 }
 
 }  // namespace

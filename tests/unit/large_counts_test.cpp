@@ -58,7 +58,7 @@ Contribution large_contribution(const Options& options) {
     CellSet set;
     set.cells = cells;
     set.exponent = 0;
-    append_cells(set, 1, all.records);
+    append_cells(set, 1, 1, all.records);
     all.summary.request = request_of(options, 1, nullptr);
     all.summary.num_points = two_to_the_32 * 4;
     all.summary.num_cells = 2;

@@ -154,6 +154,12 @@ RRCB_API int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t
 RRCB_API int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_columns,
                                      const double* columns, double* weights);
 
+/** Writes the number of columns, as of a loaded model. Not collective.
+ *
+ * @param model       of this loop
+ * @param num_columns gets it */
+RRCB_API int rrcb_cost_model_num_columns(const rrcb_cost_model* model, int* num_columns);
+
 /** Writes the seconds of a unit of each column. Not collective.
  *
  * @param model       of this loop

@@ -24,6 +24,7 @@ std::vector<const char*> ignored_parameters(const Parameters& parameters) {
         add_if(parameters.lock_directions != 0, "RCB_LOCK_DIRECTIONS");
         add_if(parameters.reuse_cuts != not_set && parameters.reuse_cuts != 0, "RCB_REUSE");
         add_if(parameters.options.refine == Refine::exact, "RRCB_REFINE");
+        add_if(parameters.options.min_points != 0, "RRCB_MIN_POINTS");
     } else {
         add_if(parameters.cut_rule != Parameters{}.cut_rule, "RRCB_CUT_RULE");
     }

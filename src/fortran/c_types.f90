@@ -1,0 +1,63 @@
+!> Structures of the library in C, only for the other modules.
+module rrcb_c_types
+  use, intrinsic :: iso_c_binding
+  implicit none
+
+  type, bind(c) :: c_cuts
+    integer(c_int) :: dimension = 0, num_parts = 1
+    type(c_ptr) :: tree = c_null_ptr
+    integer(c_int) :: group_size = 1, larger_below = 0, dealt = 0
+  end type
+
+  type, bind(c) :: c_plan
+    integer(c_size_t) :: num_points = 0, num_points_after = 0, num_exports = 0
+    type(c_ptr) :: export_indices = c_null_ptr, export_ranks = c_null_ptr, &
+      export_parts = c_null_ptr
+    integer(c_size_t) :: num_imports = 0
+    type(c_ptr) :: import_ranks = c_null_ptr, import_indices = c_null_ptr, &
+      import_parts = c_null_ptr
+  end type
+
+  type, bind(c) :: c_ghost_options
+    real(c_double) :: radius = -1                           !< not given
+    type(c_ptr) :: radii = c_null_ptr
+    type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
+    integer(c_size_t) :: num_parts = 0
+    integer(c_int) :: needs = 0
+  end type
+
+  type, bind(c) :: c_ghost_plan
+    integer(c_size_t) :: num_points = 0, num_ghosts = 0, num_send_ranks = 0
+    type(c_ptr) :: send = c_null_ptr
+    integer(c_size_t) :: num_sent = 0
+    type(c_ptr) :: send_indices = c_null_ptr
+    integer(c_size_t) :: num_receive_ranks = 0
+    type(c_ptr) :: receive = c_null_ptr, shifts = c_null_ptr
+  end type
+
+  type, bind(c) :: c_verify_options
+    integer(c_size_t) :: sample = 1000
+    real(c_double) :: radius = 0
+    type(c_ptr) :: radii = c_null_ptr
+    integer(c_size_t) :: num_ids = 0
+    type(c_ptr) :: ids = c_null_ptr
+    integer(c_size_t) :: num_ids_before = 0
+    type(c_ptr) :: ids_before = c_null_ptr
+  end type
+
+  type, bind(c) :: c_verification
+    integer(c_int64_t) :: num_pairs = 0, num_faults = 0
+    integer(c_size_t) :: num_missing = 0
+    type(c_ptr) :: missing = c_null_ptr
+    integer(c_size_t) :: num_twice = 0
+    type(c_ptr) :: twice = c_null_ptr
+    integer(c_size_t) :: num_strangers = 0
+    type(c_ptr) :: strangers = c_null_ptr
+  end type
+
+  type, bind(c) :: c_rank_count
+    integer(c_int) :: rank = 0
+    integer(c_size_t) :: count = 0
+  end type
+
+end module rrcb_c_types

@@ -19,8 +19,9 @@ double sum_of_largest(std::vector<double> values, MPI_Comm comm) {
 
 }  // namespace
 
-double network_seconds(const Traffic& traffic, int num_ranks, const Network& network) {
-    const int rounds = std::bit_width(static_cast<unsigned>(num_ranks - 1));
+double network_seconds(const Traffic& traffic, int num_ranks, const Network& network, Waits waits) {
+    const int all_rounds = std::bit_width(static_cast<unsigned>(num_ranks - 1));
+    const int rounds = waits == Waits::in_the_next ? std::min(all_rounds, 1) : all_rounds;
     const auto to_one = static_cast<double>(traffic.messages - traffic.collectives);
     const auto among_all = static_cast<double>(traffic.collectives + traffic.communicators);
     const double latencies = to_one + among_all * rounds;
@@ -41,17 +42,18 @@ PhaseLog::Recording::~Recording() {
 }
 
 double PhaseLog::last_s(int num_ranks) const {
-    return work_s_.back() + network_seconds(traffic_.back(), num_ranks, Network{});
+    return work_s_.back() + network_seconds(traffic_.back(), num_ranks, Network{}, waits_);
 }
 
 PathCost PhaseLog::cost(MPI_Comm comm) const {
     const int num_ranks = size_of(comm);
     std::vector<double> network_s;
-    for (const Traffic& traffic : traffic_) {
-        network_s.push_back(network_seconds(traffic, num_ranks, Network{}));
-    }
+    for (const Traffic& traffic : traffic_)
+        network_s.push_back(network_seconds(traffic, num_ranks, Network{}, waits_));
     PathCost cost;
     cost.work_s = std::accumulate(work_s_.begin(), work_s_.end(), 0.0);
+    cost.root_s = cost.work_s;
+    MPI_Bcast(&cost.root_s, 1, MPI_DOUBLE, 0, comm);
     MPI_Allreduce(MPI_IN_PLACE, &cost.work_s, 1, MPI_DOUBLE, MPI_SUM, comm);
     cost.path_s = sum_of_largest(work_s_, comm);
     cost.network_s = sum_of_largest(std::move(network_s), comm);

@@ -14,13 +14,19 @@ struct Network {
     double bytes_per_second = 12e9;
 };
 
-/// Seconds the network needs for one rank's traffic among `num_ranks`. Not collective.
-double network_seconds(const Traffic& traffic, int num_ranks, const Network& network);
+/// Place where the ranks wait for the collectives of a phase.
+enum class Waits { in_the_phase, in_the_next };
+
+/// Seconds the network needs for one rank's traffic among `num_ranks`. A collective that overlaps
+/// with the work up to the next phase takes one latency. Not collective.
+double network_seconds(const Traffic& traffic, int num_ranks, const Network& network,
+                       Waits waits = Waits::in_the_phase);
 
 /// What phases cost that all ranks start together.
 struct PathCost {
     double work_s = 0;     ///< processor time outside MPI, of all ranks together
     double path_s = 0;     ///< that of the slowest rank of each phase
+    double root_s = 0;     ///< that of rank 0, for which the others may wait
     double network_s = 0;  ///< traffic of the busiest rank of each phase, by network_seconds
 };
 
@@ -30,6 +36,8 @@ struct PathCost {
 /// ranks share one here.
 class PhaseLog {
   public:
+    explicit PhaseLog(Waits waits = Waits::in_the_phase) : waits_(waits) {}
+
     /// Runs `action` as one more phase.
     template <typename Action>
     void record(Action&& action) {
@@ -57,6 +65,7 @@ class PhaseLog {
         double start_ = 0;
     };
 
+    Waits waits_;
     std::vector<double> work_s_;
     std::vector<Traffic> traffic_;
 };

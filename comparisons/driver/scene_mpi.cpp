@@ -119,6 +119,7 @@ int steps_of_failure(MPI_Comm comm) {
 void add_cost(Row& row, const std::string& phase, const PathCost& cost) {
     row.add(phase + "_work_s", cost.work_s)
         .add(phase + "_path_s", cost.path_s)
+        .add(phase + "_root_s", cost.root_s)
         .add(phase + "_network_s", cost.network_s);
 }
 

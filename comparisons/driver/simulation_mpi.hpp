@@ -117,9 +117,9 @@ class TimedSimulation {
     SimulationRun run_;
     PhaseLog steps_;
     PhaseLog balances_;
-    PhaseLog decisions_;
-    std::vector<double> loads_;  ///< points on this rank in each step
-    double moved_lately_ = 0;    ///< share of the points that the latest rebalance moved
+    PhaseLog decisions_{Waits::in_the_next};  ///< the controller reduces during the next step
+    std::vector<double> loads_;               ///< points on this rank in each step
+    double moved_lately_ = 0;  ///< share of the points that the latest rebalance moved
     double seconds_since_record_ = 0;
     int steps_since_record_ = 0;
     int steps_done_ = 0;

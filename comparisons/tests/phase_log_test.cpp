@@ -28,6 +28,26 @@ TEST(PhaseLog, charges_messages_collectives_and_bytes_to_the_network) {
     EXPECT_DOUBLE_EQ(network_seconds(traffic, 1, network), 3 * 2 + 3);
 }
 
+TEST(PhaseLog, charges_one_latency_for_a_collective_that_overlaps) {
+    const Network network{2, 100};
+    Traffic traffic;
+    traffic.messages = traffic.collectives = 1;
+    EXPECT_DOUBLE_EQ(network_seconds(traffic, 8, network), 3 * 2);
+    EXPECT_DOUBLE_EQ(network_seconds(traffic, 8, network, Waits::in_the_next), 2);
+    EXPECT_DOUBLE_EQ(network_seconds(traffic, 1, network, Waits::in_the_next), 0);
+}
+
+TEST(PhaseLog, shows_the_work_of_rank_0) {
+    constexpr double busy_s = 0.03;
+    PhaseLog log;
+    log.record([&] {
+        if (rrcb::test::rank() == 0) work(busy_s);
+    });
+    const PathCost cost = log.cost(MPI_COMM_WORLD);
+    EXPECT_GE(cost.root_s, busy_s);
+    EXPECT_LE(cost.root_s, cost.path_s);
+}
+
 TEST(PhaseLog, adds_the_slowest_rank_of_each_phase) {
     constexpr double busy_s = 0.03;
     const int n = rrcb::test::num_ranks();

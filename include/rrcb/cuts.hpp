@@ -112,7 +112,7 @@ RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 ///
 /// @param cuts   of a balance
 /// @param points of this rank, or none; each rank states the dimension
-/// @param comm   that of the balance
+/// @param comm   of the balance
 /// Throws Error on every rank alike: for coordinates that are NaN or infinite, points of another
 /// dimension than the cuts, cuts that gather_cuts() would refuse, or no memory. Cost: with complete
 /// cuts a local look-up and one reduction; otherwise the ranks ask the owners of the cuts that they
@@ -123,7 +123,7 @@ RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 /// Returns the complete tree of cuts of which each rank holds some. Collective.
 ///
 /// @param cuts of a balance; complete cuts are returned unchanged
-/// @param comm that of the balance
+/// @param comm of the balance
 /// Throws Error on every rank alike: if cuts are no tree, if the ranks' trees differ, if a rank
 /// lacks the cut of a node whose lowest part begins on it, or has no memory. Cost: one reduction of
 /// an entry for each part, which every rank has to hold.

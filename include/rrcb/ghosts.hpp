@@ -24,14 +24,14 @@ enum class Needs : std::int32_t {
     either     ///< it needs both: the points within the greater of two radii
 };
 
-/// Points that this rank sends and receives as ghosts; a list of ranks names each rank once.
+/// Points to send and to receive as ghosts. A list of ranks names each rank once, ascending.
 struct GhostPlan {
-    LocalIndex num_points = 0;    ///< that this rank holds
-    std::vector<RankCount> send;  ///< number of points that each rank needs; ranks ascending
-    std::vector<LocalIndex>
-        send_indices;                ///< for one rank after the other, in ascending order for each
-    std::vector<RankCount> receive;  ///< number of ghosts from each rank; ranks ascending
-    Box periodic{};                  ///< box that repeats; empty: none
+    LocalIndex num_points = 0;    ///< of this rank
+    std::vector<RankCount> send;  ///< number of points for each rank
+    /// Indices of the points to send: for the first rank, ascending, then for the second, ...
+    std::vector<LocalIndex> send_indices;
+    std::vector<RankCount> receive;  ///< number of ghosts from each rank
+    Box periodic{};                  ///< repeated box; empty: none
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
     std::uint64_t group = 0;         ///< as Cuts::group
     /// Number of the call on this rank, with which fetch() recognizes ghosts from before a
@@ -67,7 +67,7 @@ struct GhostOptions {
     Needs needs = Needs::sender;
 };
 
-/// Finds the points that other ranks need, from the cuts. Collective.
+/// Finds the points for other ranks from the cuts. Collective.
 ///
 ///     const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, points, {.radius = 0.1}, comm);
 ///
@@ -77,7 +77,7 @@ struct GhostOptions {
 /// @param cuts    of a balance, whose ranks have the points
 /// @param points  of this rank, after transfer()
 /// @param options radius, periodic box, ranks of the parts
-/// @param comm    that of the balance, or a congruent one
+/// @param comm    of the balance, or a congruent one
 /// Throws Error on every rank alike: for unusable points, those of the balance if one has yet to
 /// leave its rank, a radius that is not finite, below 0 or above 100 periods, a position outside
 /// the periodic box, options or cuts that differ between ranks, another communicator, or no memory.
@@ -90,7 +90,7 @@ RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOpt
 struct VerifyOptions {
     /// Most points, over all ranks, whose neighbours are looked for.
     std::size_t sample = 1000;
-    /// True cut-off, if the ghosts have a skin; NaN: that of ghosts().
+    /// True cut-off, if the ghosts have a skin; NaN: as in ghosts().
     double radius = std::numeric_limits<double>::quiet_NaN();
     std::optional<std::span<const double>> radii{};       ///< needed if ghosts() got some
     std::optional<std::span<const std::uint64_t>> ids{};  ///< of the points; else their indices
@@ -98,21 +98,20 @@ struct VerifyOptions {
     std::optional<std::span<const std::uint64_t>> ids_before{};
 };
 
-/// Point that is not where it should be.
+/// Point in a wrong place.
 struct Fault {
     std::uint64_t id = 0;  ///< of the point
-    int rank = 0;  ///< that holds it, or did before the transfer; -1: several others hold it
+    int rank = 0;          ///< its holder, now or before the transfer; -1: several others hold it
     std::uint64_t needed_by = 0;  ///< point of this rank, or the same id
 };
 
-/// Result of verify(), with the faults that concern this rank.
+/// Result of verify(), with the faults of this rank.
 struct Verification {
-    GlobalCount num_pairs = 0;   ///< of the sample and points of other ranks, over all ranks
-    GlobalCount num_faults = 0;  ///< over all ranks; 0: all is well
-    std::vector<Fault> missing;  ///< near points that are no ghosts here, ids that are lost
-    std::vector<Fault> twice;    ///< ghosts that came twice, ids that another rank has too
-    std::vector<Fault>
-        strangers;  ///< own points that came as ghosts, ids that were not there before
+    GlobalCount num_pairs = 0;     ///< of the sample and points of other ranks, over all ranks
+    GlobalCount num_faults = 0;    ///< over all ranks; 0: all is well
+    std::vector<Fault> missing;    ///< near points without a ghost here, lost ids
+    std::vector<Fault> twice;      ///< ghosts received twice, ids of another rank too
+    std::vector<Fault> strangers;  ///< own points received as ghosts, new ids
 };
 
 /// Compares ghosts with all pairs of a random sample of the points, and ids with those of the other
@@ -124,7 +123,7 @@ struct Verification {
 /// @param near    of ghosts(), or other ghosts
 /// @param points  of this rank, whose ghosts these are
 /// @param options number of points, radii, ids
-/// @param comm    that of the plan
+/// @param comm    of the plan
 /// Throws Error as fetch(). Cost: on every rank the sample, and a pass over the points; time for
 /// the points near the sample; messages for their pairs, all ghosts and all ids.
 RRCB_API Verification verify(const GhostPlan& near, const Points& points,
@@ -213,7 +212,7 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 /// Until then do not wrap positions in a periodic box.
 /// @param plan    of ghosts()
 /// @param columns one entry, or `components`, for each of plan.num_points points
-/// @param comm    that of the plan
+/// @param comm    of the plan
 /// @param limits  as for transfer()
 /// @param report  as for transfer()
 /// @return ghosts by ascending rank, in the order of send_indices there
@@ -249,7 +248,7 @@ template <class GhostColumns>
 /// @param ghost_columns numbers, as many for each ghost as `columns` have for each point, in the
 /// order of fetch()
 /// @param columns       numbers of the same types for each of plan.num_points points
-/// @param comm          that of the plan
+/// @param comm          of the plan
 /// @param limits        as for transfer()
 /// @param report        as for transfer()
 /// @return each point's value plus those of its ghosts by ascending rank: the same arguments give

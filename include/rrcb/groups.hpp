@@ -48,7 +48,7 @@ struct Groups {
 /// rebalances call assign_all() instead of balance().
 /// @param points of this rank
 /// @param keys   one for each point, no_group for a point that needs none
-/// @param comm   the ranks that have the points
+/// @param comm   of the ranks with points
 /// @param place  the same on every rank
 /// @return the groups whose lowest rank with points this is; the same bits for the same input
 /// Throws Error on every rank alike: for unusable points, keys of another length, another `place`
@@ -64,7 +64,7 @@ RRCB_API Groups groups(const Points& points, std::span<const std::uint64_t> keys
 ///
 /// @param keys           `keys_per_point` for each point, no_group for those that a point lacks
 /// @param keys_per_point 1 or more, the same on every rank
-/// @param comm           the ranks that have the points
+/// @param comm           of the ranks with points
 /// @return the least key of the joined groups, no_group for a point without keys
 /// Throws Error on every rank alike: for keys of another length, or no memory. Cost: two exchanges,
 /// as of groups(), and as many more as joined groups pass from one rank to the next.
@@ -77,7 +77,7 @@ RRCB_API Groups groups(const Points& points, std::span<const std::uint64_t> keys
 ///
 /// @param groups     of groups()
 /// @param values     `components` for each point of this rank
-/// @param comm       that of the groups
+/// @param comm       of the groups
 /// @param components sums for each group
 ///
 /// Each rank adds in the order of its points, then partial sums are added by ascending rank. Throws
@@ -96,7 +96,7 @@ RRCB_API void move(const Groups& groups, std::span<const ByteColumn> columns,
 ///
 /// @param groups  of groups()
 /// @param columns one entry, or `components`, for each of the groups of this rank
-/// @param comm    that of the groups
+/// @param comm    of the groups
 /// @param limits  as for transfer()
 /// @param report  as for transfer()
 /// @return as many values for each point of this rank

@@ -57,7 +57,7 @@ struct Plan {
 ///
 /// @param parts     the new part, 0 ... num_parts - 1, of each point of this rank
 /// @param num_parts 1 or more, the same on every rank
-/// @param comm      the ranks that have the points
+/// @param comm      of the ranks with points
 /// Throws Error on every rank alike if some rank gives other numbers. Cost: ceil(log2 R) messages
 /// from each of R ranks, one more from some, one reduction, and one message for each pair between
 /// which points move; memory for these points and for each rank that they go to or come from. None
@@ -67,7 +67,7 @@ struct Plan {
 /// Makes the same lists from a balance. Collective.
 ///
 /// @param balance of the points of this rank
-/// @param comm    that of the balance, or a congruent one
+/// @param comm    of the balance, or a congruent one
 /// Throws Error on every rank also for another communicator.
 [[nodiscard]] RRCB_API Plan plan(const Balance& balance, MPI_Comm comm);
 

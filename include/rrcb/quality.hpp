@@ -43,7 +43,7 @@ RRCB_API double worst_load_unbalance_percent(std::span<const double> part_weight
 /// @param points    of this rank
 /// @param parts     one entry in 0 ... num_parts - 1 for each point
 /// @param num_parts the same on every rank; length of the result
-/// @param comm      the ranks that have the points
+/// @param comm      of the ranks with points
 /// Throws Error on all ranks if one gives other parts or numbers, or weights of another length.
 RRCB_API std::vector<double> part_weights(const Points& points, std::span<const Part> parts,
                                           int num_parts, MPI_Comm comm);
@@ -52,7 +52,7 @@ RRCB_API std::vector<double> part_weights(const Points& points, std::span<const 
 ///
 /// @param points  of this rank
 /// @param balance of these points
-/// @param comm    that of the balance
+/// @param comm    of the balance
 RRCB_API std::vector<double> part_weights(const Points& points, const Balance& balance,
                                           MPI_Comm comm);
 
@@ -72,7 +72,7 @@ RRCB_API double moved_fraction(const Points& points, std::span<const Part> parts
 ///
 /// @param points  of this rank
 /// @param balance of these points
-/// @param comm    that of the balance
+/// @param comm    of the balance
 RRCB_API double moved_fraction(const Points& points, const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -10,13 +10,13 @@
 
 namespace rrcb {
 
-/// A permutation of the part numbers, and the points that it keeps; the same on every rank.
+/// A permutation of the part numbers, and the number of points it keeps; the same on every rank.
 struct Remap {
     std::vector<Part> numbers;    ///< new number of each part
     bool identity = true;         ///< numbers[p] is p: no gain
     GlobalCount num_points = 0;   ///< over all ranks
-    GlobalCount kept_before = 0;  ///< of the points, those that stay when no number changes
-    GlobalCount kept_after = 0;   ///< those that stay under the new numbers, never fewer
+    GlobalCount kept_before = 0;  ///< points that stay when no number changes
+    GlobalCount kept_after = 0;   ///< points that stay under the new numbers, never fewer
 };
 
 /// Numbers the parts of a new partition so that many points stay on their rank. Collective.
@@ -26,8 +26,8 @@ struct Remap {
 /// @param parts          the new part of each point of this rank
 /// @param ranks_of_parts one entry per part, ascending, the same on every rank; of several ranks of
 /// a part the first one counts
-/// @param comm           the ranks that have the points
-/// @param shape          that of the cuts: parts of a group stay in one, which keeps fewer points
+/// @param comm           of the ranks with points
+/// @param shape          of the cuts: parts of a group stay in one, which keeps fewer points
 /// Throws Error on every rank if one names a part that does not exist, ranks that differ or do not
 /// exist, or has no memory. Cost: one pass to rank 0, which decides, and one broadcast; with more
 /// parts and ranks than Tuning::central_parts, passes through all ranks.
@@ -38,7 +38,7 @@ struct Remap {
 /// Numbers the parts so that many points keep the number of their part. Collective.
 ///
 /// @param parts          as above
-/// @param previous       the part that each point was in; parts that no longer exist are ignored
+/// @param previous       the earlier part of each point; parts that no longer exist are ignored
 /// @param ranks_of_parts as above
 /// @param comm           as above
 /// @param shape          as above

@@ -139,7 +139,7 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 ///
 /// @param plan    of the points of this rank
 /// @param columns the same in the same order on every rank, empty on a rank without points
-/// @param comm    that of the plan, or a congruent one
+/// @param comm    of the plan, or a congruent one
 /// @param limits  memory for messages, the same on every rank
 /// @param report  may be null
 /// @return a tuple of vectors for columns(), otherwise a vector: the points that stay, in their

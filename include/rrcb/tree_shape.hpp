@@ -2,20 +2,19 @@
 
 namespace rrcb {
 
-/// Shape of a tree of cuts: the number of parts below each of them.
+/// Shape of a tree of cuts: the number of parts on each side of each cut.
 ///
-/// The ends of the tree, from the lowest, are the parts of one group after the other. The parts of
-/// a group have consecutive numbers, so that end k is part k, or are dealt to the groups in turn.
+/// A group is a set of parts with a node of its own, such as the parts of one machine. A node above
+/// several groups halves their number; a node within a group halves the number of its parts. By
+/// default a group has one part, so every node halves its parts.
 ///
-/// A node of several groups halves the number of groups, a node within one group the number of its
-/// parts. The parts of a group are therefore all parts of one node. The default halves the number
-/// of parts at every node.
+/// The ends of the tree, from the lowest, are the parts of the first group, of the second, and so
+/// on. End k is part k, unless parts are dealt.
 struct TreeShape {
-    int group_size = 1;  ///< parts in a group, such as those of one machine, >= 1; the last group
-                         ///< may have fewer
-    bool larger_below = false;  ///< side of the larger half if the number is odd
-    int dealt = 0;  ///< so many consecutive parts go to the first group, the next to the second,
-                    ///< ...; 0: all parts of a group are consecutive
+    int group_size = 1;         ///< parts in a group, >= 1; the last group may have fewer
+    bool larger_below = false;  ///< side of the larger half of an odd number
+    int dealt = 0;  ///< consecutive parts dealt to a group before the next group gets its turn; 0:
+                    ///< all parts of a group are consecutive
 
     /// Returns the number of a node's parts below its cut; `num_parts` >= 2. Not collective.
     constexpr int lower_parts(int num_parts) const {

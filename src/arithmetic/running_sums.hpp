@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -28,12 +29,12 @@ class RunningSums {
     void empty() {
         constexpr std::size_t most_emptied = 64;
         pour(running_, emptied_);
-        if (++num_emptied_ % most_emptied == 0) pour(emptied_, totals_);
+        if (++num_emptied_ == most_emptied) totals();
     }
 
-    /// Returns the sums of all entries added before the last empty().
+    /// Returns the sums of all entries added before the last empty(). Cheap if called again.
     const std::vector<Sum>& totals() {
-        pour(emptied_, totals_);
+        if (std::exchange(num_emptied_, 0) > 0) pour(emptied_, totals_);
         return totals_;
     }
 
@@ -48,7 +49,7 @@ class RunningSums {
 
     std::vector<Running> running_;
     std::vector<Sum> emptied_;
-    std::size_t num_emptied_ = 0;
+    std::size_t num_emptied_ = 0;  ///< times, since the totals were taken
     std::vector<Sum> totals_;
 };
 

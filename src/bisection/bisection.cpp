@@ -51,8 +51,7 @@ void bisect_piece(Piece piece, Task& task) {
     const Cut cut = choose_cut(piece, below, task);
     task.result.cuts.tree.push_back(cut);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
-    Halves halves = split_domain(domain, cut);
-    piece.domain.patches = {};
+    Halves halves = split_domain(std::move(piece.domain), cut);
     bisect_piece({std::move(halves.lower), at.lower(), box_below(region, cut), depth + 1}, task);
     bisect_piece({std::move(halves.upper), at.upper(), box_above(region, cut), depth + 1}, task);
 }

@@ -61,25 +61,25 @@ Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below
     return {lower, std::nextafter(upper, infinity)};
 }
 
-Halves split_domain(const StatisticalDomain& domain, const Cut& cut) {
-    Halves halves{{domain.dimension, {}}, {domain.dimension, {}}};
-    const std::size_t about_half = domain.patches.size() / 2 + domain.patches.size() / 8;
-    halves.lower.patches.reserve(about_half);
-    halves.upper.patches.reserve(about_half);
-    for (const Patch& patch : domain.patches) {
-        const int axis = deciding_axis(cut, patch, domain.dimension);
+Halves split_domain(StatisticalDomain domain, const Cut& cut) {
+    const int dimension = domain.dimension;
+    StatisticalDomain lower{dimension, {}};
+    lower.patches.reserve(domain.patches.size());
+    auto upper = domain.patches.begin();  // end of those above, which stay in this memory
+    for (Patch& patch : domain.patches) {
+        const int axis = deciding_axis(cut, patch, dimension);
         const double value = cut.at[axis];
         if (patch.lower[axis] >= value) {
-            halves.upper.patches.push_back(patch);
+            *upper++ = patch;
         } else if (patch.upper[axis] <= value) {
-            halves.lower.patches.push_back(patch);
+            lower.patches.push_back(patch);
         } else {
-            const auto [below, above] = divide(patch, axis, value);
-            halves.lower.patches.push_back(below);
-            halves.upper.patches.push_back(above);
+            lower.patches.push_back(cut_off_below(patch, axis, value));
+            *upper++ = patch;
         }
     }
-    return halves;
+    domain.patches.erase(upper, domain.patches.end());
+    return {std::move(lower), std::move(domain)};
 }
 
 }  // namespace rrcb

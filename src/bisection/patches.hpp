@@ -26,6 +26,6 @@ struct Halves {
     StatisticalDomain upper;
 };
 
-Halves split_domain(const StatisticalDomain& domain, const Cut& cut);
+Halves split_domain(StatisticalDomain domain, const Cut& cut);
 
 }  // namespace rrcb

@@ -22,19 +22,18 @@ void restrict_to_first(double t, double& slope, double& bow) {
 
 }  // namespace
 
-std::pair<Patch, Patch> divide(const Patch& patch, std::size_t axis, double value) {
-    Patch below = patch;
-    Patch above = patch;
-    below.upper[axis] = above.lower[axis] = value;
-    below.weight = weight_below(slice_of(patch, axis), value);
-    above.weight -= below.weight;
+Patch cut_off_below(Patch& patch, std::size_t axis, double value) {
     const double t = fraction_below(patch.lower[axis], value, patch.upper[axis]);
+    Patch below = patch;
+    below.weight = weight_below(slice_of(patch, axis), value);
+    below.upper[axis] = patch.lower[axis] = value;
+    patch.weight -= below.weight;
     restrict_to_first(t, below.slope[axis], below.bow[axis]);
     // The upper part is the first of the mirror image.
-    above.slope[axis] = -above.slope[axis];
-    restrict_to_first(1 - t, above.slope[axis], above.bow[axis]);
-    above.slope[axis] = -above.slope[axis];
-    return {below, above};
+    patch.slope[axis] = -patch.slope[axis];
+    restrict_to_first(1 - t, patch.slope[axis], patch.bow[axis]);
+    patch.slope[axis] = -patch.slope[axis];
+    return below;
 }
 
 }  // namespace rrcb

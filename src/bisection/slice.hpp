@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace rrcb {
 
@@ -39,7 +38,8 @@ inline double weight_below(const Slice& slice, double value) {
     return slice.weight * std::clamp(t * mean, 0.0, 1.0);
 }
 
-/// Cuts a patch in two at a value between its ends along an axis; the weights add up.
-std::pair<Patch, Patch> divide(const Patch& patch, std::size_t axis, double value);
+/// Takes the part of a patch below a value between its ends along an axis; the weights add up.
+/// Returns that part.
+Patch cut_off_below(Patch& patch, std::size_t axis, double value);
 
 }  // namespace rrcb

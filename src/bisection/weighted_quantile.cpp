@@ -35,7 +35,11 @@ double pivot_of(std::span<const double> breakpoints) {
     constexpr std::size_t most = 63;
     std::array<double, most> sample;
     const std::size_t size = std::min(most, breakpoints.size());
-    for (std::size_t k = 0; k < size; ++k) sample[k] = breakpoints[k * breakpoints.size() / size];
+    if (size < most)
+        std::ranges::copy(breakpoints, sample.begin());
+    else
+        for (std::size_t k = 0; k < size; ++k)
+            sample[k] = breakpoints[k * breakpoints.size() / size];
     const auto middle = sample.begin() + size / 2;
     std::nth_element(sample.begin(), middle, sample.begin() + size);
     return *middle;
@@ -64,11 +68,12 @@ struct Subset {
     std::size_t axis;
     const std::vector<std::size_t>* patches = nullptr;  ///< null: all
 
+    std::size_t size() const { return patches ? patches->size() : domain.patches.size(); }
+
     /// Calls `visit` with each patch and its number.
     template <class Visit>
     void for_each(Visit&& visit) const {
-        const std::size_t count = patches ? patches->size() : domain.patches.size();
-        for (std::size_t k = 0; k < count; ++k) {
+        for (std::size_t k = 0; k < size(); ++k) {
             const std::size_t p = patches ? (*patches)[k] : k;
             if (domain.patches[p].weight > 0) visit(domain.patches[p], p);
         }
@@ -94,6 +99,7 @@ bool passes(double below, double target) {
 /// Returns the intervals of a range, or of all values if the range does not contain the crossing.
 Crossing crossing_in(const Subset& subset, const Profile::Range& range, double target) {
     Crossing crossing{range.lower, range.upper, 0, {}};
+    if (!range.is_limited()) crossing.active.reserve(subset.size());
     subset.for_each([&](const Patch& patch, std::size_t number) {
         if (subset.ends_before(patch, range.lower)) {
             crossing.below += patch.weight;
@@ -105,7 +111,8 @@ Crossing crossing_in(const Subset& subset, const Profile::Range& range, double t
         !range.is_limited() ||
         (!passes(weight_below(crossing, range.lower), target) &&
          (range.upper == infinity || passes(weight_below(crossing, range.upper), target)));
-    return is_held ? crossing : crossing_in(subset, {}, target);
+    if (!is_held) return crossing_in(subset, {}, target);
+    return crossing;
 }
 
 Crossing find_crossing(const Subset& subset, const Profile::Range& range, double target) {
@@ -239,13 +246,14 @@ Below divide(const Subset& subset, const Profile::Range& range, std::span<const 
 
 Cut weighted_quantile(const Profile& profile, double target, bool plain) {
     const StatisticalDomain& domain = profile.domain();
-    std::vector<int> axes;
+    std::array<int, max_dimension> axes{};
+    std::size_t num_axes = 0;
     for (int a = 0; a < domain.dimension && !plain; ++a)
-        if (a != profile.axis()) axes.push_back(a);
+        if (a != profile.axis()) axes[num_axes++] = a;
     Cut cut{profile.axis(), {}};
     cut.at.fill(-infinity);
-    divide({domain, static_cast<std::size_t>(profile.axis())}, profile.range_of(target), axes,
-           target, cut.at);
+    divide({domain, static_cast<std::size_t>(profile.axis())}, profile.range_of(target),
+           std::span(axes).first(num_axes), target, cut.at);
     return cut;
 }
 

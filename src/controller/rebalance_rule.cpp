@@ -82,24 +82,22 @@ double RebalanceRule::cost() const {
 }
 
 /// Returns whether a rebalance pays if the `excess` has lasted for so many steps.
-bool RebalanceRule::pays(double excess, double lasted) const {
+bool RebalanceRule::pays(double excess, double lasted, const Prospect& next) const {
     if (excess <= std::max(least_, rounding)) return false;
     const double horizon = foresight * lasted;
-    const double mean = cycle_.total().work / static_cast<double>(cycle_.count());
-    double gain = 0;
-    if (knows_rebalances_) {
-        const double least = std::min(cycle_.least_excess(), earlier_.least_excess());
+    double gain = horizon * excess;
+    if (knows_rebalances_)
         gain = std::max({cycle_.gain(excess, horizon), earlier_.gain(excess, horizon),
-                         lasted * (excess - least) / patience});
-    } else {
-        gain = horizon * excess;
-    }
-    return gain * mean > std::max(cost(), rounding * horizon * mean);
+                         lasted * (excess - next.least_excess) / patience});
+    return gain * next.mean > std::max(next.cost, rounding * horizon * next.mean);
 }
 
 bool RebalanceRule::is_due() const {
+    if (!latest_.has(0)) return false;
+    const Prospect next{cycle_.total().work / static_cast<double>(cycle_.count()), cost(),
+                        std::min(cycle_.least_excess(), earlier_.least_excess())};
     for (std::size_t k = 0; latest_.has(k); ++k)
-        if (pays(latest_.lasting(k), LatestSteps::num_blocks * steps_of(k))) return true;
+        if (pays(latest_.lasting(k), LatestSteps::num_blocks * steps_of(k), next)) return true;
     return false;
 }
 

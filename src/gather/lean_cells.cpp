@@ -81,7 +81,8 @@ std::size_t take_number(std::span<const std::byte>& bytes) {
     return number;
 }
 
-/// Appends the numbers as runs: cells left out, cells in the run, and so on.
+/// Appends the numbers as runs: cells left out, cells in the run, and so on. A gap for each cell
+/// would make the cells of a full mesh 10 to 16 % longer.
 void append_numbers(std::span<const CellMoments> cells, std::vector<std::byte>& bytes) {
     LocalIndex next = 0;
     for (std::size_t first = 0; first < cells.size();) {

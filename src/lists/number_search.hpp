@@ -15,8 +15,8 @@ namespace rrcb {
 
 inline constexpr std::int32_t no_origin = -1;
 
-/// Number of points of one origin, a rank or an earlier part, that go to a part. Points that no
-/// number can keep have no_origin.
+/// Number of points from one origin, a rank or an earlier part, in a part. Points without a number
+/// to keep them have no_origin.
 struct Overlap {
     std::int32_t origin = no_origin;
     Part part = 0;
@@ -120,12 +120,12 @@ class NumberSearch {
                        std::vector<double>& joined);
 
   private:
-    /// An overlap of a part, in the order of its offers.
+    /// Offer of a part to an origin, made or still to be made.
     struct Wish {
-        double count = 0;  ///< exact below 2^53
-        bool keeps = false;
-        std::int32_t origin = no_origin;
-        bool is_lost = false;  ///< the origin has larger offers
+        double count = 0;                 ///< points in common; exact below 2^53
+        bool keeps = false;               ///< the part would keep its present number
+        std::int32_t origin = no_origin;  ///< gets the offer
+        bool is_lost = false;             ///< the origin has refused it, or would
     };
 
     /// Count, whether the part keeps its number, and -part: larger ones win.

@@ -61,14 +61,16 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
 /// Limits the search to the overlaps that keep their number and the largest others: 16 for each
 /// part per rank plus 65,536 on all ranks. The others lose their origin.
 void limit_overlaps(const NumberRule& rule, std::vector<Overlap>& overlaps) {
-    std::ranges::sort(overlaps, {}, [&](const Overlap& overlap) {
-        return std::tuple(overlap.origin == no_origin, rule.home_of(overlap.part) != overlap.origin,
-                          -overlap.count, overlap.part, overlap.origin);
-    });
     const auto parts_per_rank = static_cast<std::size_t>((rule.num_parts - 1) / rule.num_ranks + 1);
     const std::size_t limit =
         16 * parts_per_rank + 65536 / static_cast<std::size_t>(rule.num_ranks);
-    for (std::size_t k = limit; k < overlaps.size(); ++k) overlaps[k].origin = no_origin;
+    if (overlaps.size() > limit) {
+        std::ranges::nth_element(overlaps, overlaps.begin() + limit, {}, [&](const Overlap& o) {
+            return std::tuple(o.origin == no_origin, rule.home_of(o.part) != o.origin, -o.count,
+                              o.part, o.origin);
+        });
+        for (std::size_t k = limit; k < overlaps.size(); ++k) overlaps[k].origin = no_origin;
+    }
     std::ranges::sort(overlaps, {}, [](const Overlap& o) { return std::tuple(o.part, o.origin); });
 }
 

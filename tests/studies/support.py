@@ -35,9 +35,9 @@ def simulated(method: str, number: int, path: float, **more: object) -> dict:
     """A row of simulation_runs.csv: ten steps of 1000 points on 4 ranks, 4 s of work in all."""
     names = (
         "wall_s balance_s step_s mean_imbalance worst_imbalance front_x_m moved_m mass_kg step_network_s"
-        " balance_work_s"
+        " balance_work_s step_root_s balance_root_s"
     )
-    decisions = "decide_s decide_work_s decide_path_s decide_network_s"
+    decisions = "decide_s decide_work_s decide_path_s decide_root_s decide_network_s"
     return dict.fromkeys(names.split(), 1) | dict.fromkeys(decisions.split(), 0) | {
         "method": method, "round": number, "seed": None, "ranks": 4, "points": 1000, "steps": 10,
         "every": "auto", "critical_path_s": path, "step_work_s": 4, "step_path_s": 1.1,

@@ -64,7 +64,8 @@ TEST(Slice, of_a_patch_that_was_divided_has_the_same_weight_anywhere) {
         const Slice slice = random_slice(engine);
         Patch patch{{-1, 0, 0}, {1, 1, 0}, 8, {slice.slope, 1, 0}, {slice.bow, 0, 0}};
         const double cut = 2 * test::uniform(engine) - 1;
-        const auto [below, above] = divide(patch, 0, cut);
+        Patch above = patch;
+        const Patch below = cut_off_below(above, 0, cut);
         EXPECT_EQ(below.weight + above.weight, 8);
         EXPECT_EQ(below.upper[0], cut);
         EXPECT_EQ(above.lower[0], cut);
@@ -81,7 +82,8 @@ TEST(Slice, of_a_patch_that_was_divided_has_the_same_weight_anywhere) {
 TEST(Slice, without_weight_on_one_side_is_divided_there) {
     // (1 + u)^2 is 0 at -1: nothing but rounding lies next to it.
     const Patch patch{{-1, 0, 0}, {1, 0, 0}, 1, {1.5, 0, 0}, {0.5, 0, 0}};
-    const auto [below, above] = divide(patch, 0, std::nextafter(-1.0, 0));
+    Patch above = patch;
+    const Patch below = cut_off_below(above, 0, std::nextafter(-1.0, 0));
     EXPECT_GE(below.weight, 0);
     EXPECT_LE(below.weight, 1e-15);
     EXPECT_TRUE(std::isfinite(below.slope[0]) && std::isfinite(below.bow[0]));

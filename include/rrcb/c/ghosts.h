@@ -37,7 +37,7 @@ typedef struct rrcb_ghost_plan {
     size_t num_send_ranks;          /**< length of `send` */
     const rrcb_rank_count* send;    /**< points that each rank needs; ranks ascending */
     size_t num_sent;                /**< length of `send_indices` */
-    const size_t* send_indices;     /**< for one rank after the other, ascending for each */
+    const size_t* send_indices;     /**< for the first rank, ascending, then for the next */
     size_t num_receive_ranks;       /**< length of `receive` */
     const rrcb_rank_count* receive; /**< ghosts from each rank; ranks ascending */
     const int32_t* shifts;          /**< three for each ghost: periods along each axis; null without

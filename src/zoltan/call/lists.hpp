@@ -30,7 +30,7 @@ struct CallerLists {
     CallerList exports;
 };
 
-/// The objects of this rank whose rank or part changes. Without a callback that names parts, an
+/// The moving objects of this rank: their rank or part changes. Without a callback for parts an
 /// object is in the part of its rank's number, as in Zoltan.
 class Moves {
   public:
@@ -39,14 +39,15 @@ class Moves {
 
     int count() const { return count_; }
 
-    /// Writes these objects, in order, to `list`, which has room for them and may hold the ids of
-    /// all objects. Never throws.
+    /// Writes the moving objects to `list` in their order. `list` has room for all of them. It may
+    /// be the room of the objects' own ids, since each is read before it is overwritten. Never
+    /// throws.
     void write(const IdWidths& widths, List& list) const;
 
-    /// Lists all objects with their new ranks and parts, in the room that holds the ids.
+    /// Lists all objects with their new ranks and parts, in the room of their ids.
     List list_all() const;
 
-    /// Takes the room that holds the ids.
+    /// Takes the room of the ids.
     List take_room() const { return std::move(objects_.room); }
 
   private:
@@ -63,7 +64,7 @@ class Moves {
     int count_ = 0;
 };
 
-/// Lists all objects of this rank with the parts they are in, in the room that holds the ids.
+/// Lists all objects of this rank with their present parts, in the room of their ids.
 List list_in_place(Objects&& objects, int my_rank);
 
 }  // namespace rrcb::zoltan

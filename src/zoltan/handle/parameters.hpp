@@ -19,14 +19,14 @@
 
 namespace rrcb::zoltan {
 
-/// Lists that a partitioning call returns (RETURN_LISTS). The largest of all ranks holds, as in
+/// Lists returned by a partitioning call (RETURN_LISTS). The largest of all ranks holds, as in
 /// Zoltan.
 enum class ReturnLists { none, imports, exports, parts, all, candidates };
 
 /// NUM_GLOBAL_PARTS if it is set to its default or to no legal number.
 inline constexpr int one_per_rank = 0;
 
-/// Value of a parameter that is not set and whose default depends on others.
+/// Value of an unset parameter whose default depends on others.
 inline constexpr int not_set = std::numeric_limits<int>::min();
 
 /// Returns the options of a new handle: coincident points are divided, as by RCB.
@@ -36,7 +36,7 @@ Options default_options();
 /// order they have the same effect.
 class GivenParameters {
   public:
-    /// Notes a parameter that was set. Returns whether its value changed.
+    /// Notes a parameter. Returns whether its value changed.
     bool note(const std::string& name, const std::string& value);
 
     /// Returns the value of a parameter, null if it was not set.
@@ -50,7 +50,7 @@ class GivenParameters {
     std::vector<std::pair<std::string, std::string>> entries_;
 };
 
-/// Parameters of a handle that concern the plug-in. The defaults are Zoltan's.
+/// Parameters of a handle for the plug-in. The defaults are Zoltan's.
 struct Parameters {
     bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB and RCB is replaced
     bool replace_rcb = false;  ///< RRCB answers LB_METHOD=RCB
@@ -82,14 +82,14 @@ struct Parameters {
 
     std::string dump_folder;   ///< of the dumped inputs of calls; empty: no dumps
     bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
-    GivenParameters given;     ///< all that was set, as it was set
+    GivenParameters given;     ///< all settings, as given
 };
 
 /// Returns whether RCB_REUSE holds. By default it does if RRCB replaces RCB: a balanced
 /// distribution is then kept.
 bool reuses_cuts(const Parameters& parameters);
 
-// Readers of a value, in upper case except that of RRCB_DUMP. They return false, and set nothing,
+// Readers of a value, in upper case except for RRCB_DUMP. They return false, and set nothing,
 // for an illegal value.
 bool read_integer(int& value, std::string_view text, int least);
 bool read_return_lists(ReturnLists& lists, std::string_view text);
@@ -121,14 +121,14 @@ constexpr int number_of(std::optional<PaperDomain> value) {
     return value ? 1 + static_cast<int>(*value) : 0;
 }
 
-/// Returns the value for DEFAULT and illegal texts: that of a new handle, with two exceptions.
+/// Returns the value for DEFAULT and illegal texts: as in a new handle, with two exceptions.
 template <class Value>
 Value fallback_of(Value Parameters::*field) {
     return Parameters{}.*field;
 }
 int fallback_of(int Parameters::*field);
 
-/// A parameter that has a field of its own.
+/// A parameter with a field of its own.
 struct ParameterRow {
     const char* name;
     bool (*read)(Parameters&, std::string_view text);
@@ -147,14 +147,14 @@ int is_on(const Parameters& parameters) {
     return std::invoke(member, parameters) ? 1 : 0;
 }
 
-/// Row of a parameter that may differ between ranks.
+/// Row of a parameter whose value may differ between ranks.
 template <auto field, auto read>
 constexpr ParameterRow may_differ(const char* name) {
     return {name, [](Parameters& p, std::string_view text) { return read(p.*field, text); },
             [](Parameters& p) { p.*field = fallback_of(field); }, std::nullopt};
 }
 
-/// Row of a parameter that may not.
+/// Row of a parameter whose value may not differ.
 template <auto field, auto read, int (*compared)(const Parameters&) = number_in<field>>
 constexpr ParameterRow must_agree(const char* name) {
     ParameterRow row = may_differ<field, read>(name);
@@ -162,7 +162,7 @@ constexpr ParameterRow must_agree(const char* name) {
     return row;
 }
 
-/// Row of a parameter that is on for any number but 0, on all ranks or on none.
+/// Row of a parameter, on for any number except 0, on all ranks or on none.
 template <auto field>
 constexpr ParameterRow flag(const char* name) {
     return must_agree<field, read_integer<>, is_on<field>>(name);
@@ -171,8 +171,8 @@ constexpr ParameterRow flag(const char* name) {
 /// Name of the one parameter whose value keeps its case.
 inline constexpr const char* dump_folder_name = "RRCB_DUMP";
 
-/// All parameters except LB_METHOD and those of Options, the compared ones in the order in which
-/// differences are reported.
+/// All parameters except LB_METHOD and the parameters of Options, the compared ones in the order in
+/// which differences are reported.
 inline constexpr ParameterRow parameter_table[] = {
     must_agree<&Parameters::num_gid_entries, read_integer<1>>("NUM_GID_ENTRIES"),
     must_agree<&Parameters::num_lid_entries, read_integer<0>>("NUM_LID_ENTRIES"),
@@ -215,10 +215,10 @@ Setting set_own(Parameters& parameters, std::string_view name, const char* value
 /// Sets IMBALANCE_TOL. Returns false for a value that is no number of at least 1, and leaves it.
 bool set_tolerance(Parameters& parameters, std::string_view value);
 
-/// Returns the names that set_own accepts.
+/// Returns all names of set_own().
 std::vector<const char*> own_parameter_names();
 
-/// Notes a parameter that Zoltan itself has accepted, if RRCB needs it. Both are in upper case.
+/// Notes a parameter accepted by Zoltan itself, if RRCB needs it. Both are in upper case.
 void note_common(Parameters& parameters, std::string_view name, std::string_view value);
 
 /// Returns a name or value as Zoltan compares it: in upper case, without leading blanks.

@@ -50,7 +50,6 @@ MPM_VECTOR_CLONES void scatter_column(const std::array<const double*, D>& at,
     constexpr std::size_t N = Shape::num_nodes;
     const auto offsets = node_offsets<D, N>(patch);
     const double inverse_spacing = 1 / patch.shape.spacing;
-    const auto centre = centre_slopes<D>(shape);
     std::size_t filled = next_filled(values.data(), 0, values.size());
     for (const CellRun<D>& run : runs) {
         if (run.end <= filled) continue;
@@ -66,11 +65,7 @@ MPM_VECTOR_CLONES void scatter_column(const std::array<const double*, D>& at,
                 for (std::size_t i = 0; i < N; ++i)
                     weights[axis].value[i] = inverse_spacing * weights[axis].slope[i];
             unrolled<power(N, D)>([&](auto n) __attribute__((always_inline)) {
-                double weight = 0;
-                if constexpr (axis == squared_centre_slopes)
-                    for (const double slope : centre[n]) weight += slope * slope;
-                else
-                    weight = weight_of<D, N, n>(weights);
+                const double weight = axis == on_each_node ? 1 : weight_of<D, N, n>(weights);
                 sums[n] += weight * values[p];
             });
         }

@@ -105,7 +105,7 @@ int first_that_holds(const std::vector<mpm::Box>& boxes, const mpm::Vector& at) 
 /// Its parts, except of points that round-off has put beside their box.
 mpm::Decomposition multijagged_decomposition(mpm::Positions positions, MPI_Comm comm) {
     std::vector<const double*> axes = {positions.x.data(), positions.y.data()};
-    if (!positions.z.empty()) axes.push_back(positions.z.data());
+    if (positions.dimension == 3) axes.push_back(positions.z.data());
     MultijaggedBoxes found =
         divide_multijagged({positions.size(), axes}, multijagged_tolerance, comm);
     mpm::Decomposition decomposition;
@@ -253,8 +253,8 @@ mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
     return [zoltan, parameters](mpm::Positions positions, MPI_Comm comm) {
         if (!*zoltan) *zoltan = std::make_shared<ZoltanPartitioner>(parameters, Workload(), comm);
         const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
-        (*zoltan)->use_points(
-            rrcb::column_points(std::span(columns).first(positions.z.empty() ? 2 : 3)));
+        (*zoltan)->use_points(rrcb::column_points(
+            std::span(columns).first(static_cast<std::size_t>(positions.dimension))));
         return decompose(*zoltan, comm);
     };
 }

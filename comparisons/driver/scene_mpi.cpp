@@ -185,7 +185,7 @@ Workload snapshot(const std::string& name, const mpm::Simulation& simulation) {
     workload.name = name;
     workload.layout = "simulation";
     const mpm::Positions positions = simulation.positions();
-    workload.dimension = positions.z.empty() ? 2 : 3;
+    workload.dimension = positions.dimension;
     workload.coordinates.reserve(static_cast<std::size_t>(workload.dimension) * positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const mpm::Vector at = positions[i];

@@ -214,8 +214,10 @@ if(has_matplotlib)
     set_tests_properties(mpm_${kind}_anchor PROPERTIES FIXTURES_REQUIRED mpm_scene_torpedo_anchor
                                                        TIMEOUT 60 LABELS mpm)
   endforeach()
-  add_test(NAME mpm_pictures
-           COMMAND ${PROJECT_SOURCE_DIR}/examples/mpm/pictures --program=$<TARGET_FILE:rrcb_mpm>
-                   --figures=${CMAKE_CURRENT_BINARY_DIR}/figures --cell-size=5 --end-time=0.4 slope)
-  set_tests_properties(mpm_pictures PROPERTIES TIMEOUT 120 LABELS mpm)
+  # Its own drawings, the probes and the animation; drawings beside theory.
+  set(pictures ${PROJECT_SOURCE_DIR}/examples/mpm/pictures --program=$<TARGET_FILE:rrcb_mpm>
+               --figures=${CMAKE_CURRENT_BINARY_DIR}/figures)
+  add_test(NAME mpm_pictures COMMAND ${pictures} --cell-size=5 --end-time=0.4 slope)
+  add_test(NAME mpm_pictures.theory COMMAND ${pictures} --end-time=0.01 hydrostatic_column)
+  set_tests_properties(mpm_pictures mpm_pictures.theory PROPERTIES TIMEOUT 120 LABELS mpm)
 endif()

@@ -34,7 +34,8 @@ void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
 
 rrcb::Points points_of(mpm::Positions positions) {
     const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
-    return rrcb::column_points(std::span(columns).first(positions.z.empty() ? 2 : 3));
+    return rrcb::column_points(
+        std::span(columns).first(static_cast<std::size_t>(positions.dimension)));
 }
 
 /// The box of a part. A cut on a face of cells leaves the points on it above, so that the box below

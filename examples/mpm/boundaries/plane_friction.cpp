@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace mpm {
 
@@ -35,14 +36,21 @@ struct Ground {
     double level = 0;      ///< along the normal, m
 };
 
-/// Columns of the points for one plane.
+/// Columns of the points for friction on one plane.
+template <int D>
+struct FrictionColumns {
+    std::array<Column, D> anchor{};  ///< of the spring along the plane, m
+    Column damping = 0;              ///< part of the force out of the plane that a dashpot gives, N
+};
+
+/// Columns of the points for one plane. All points have them, near or far: columns travel between
+/// ranks, are sorted and written, which a list of the points at the plane would need as well.
 template <int D>
 struct PlaneColumns {
     MotionColumns motion;
-    std::array<Column, D> force{};   ///< in the next step, N; 0 where they do not touch
-    std::array<Column, D> anchor{};  ///< of the spring along the plane, m
-    Column damping = 0;              ///< part of the force out of the plane that a dashpot gives, N
-    Column reach = 0;                ///< height above the plane below which they touch it, m
+    std::array<Column, D> force{};  ///< in the next step, N; 0 where they do not touch
+    Column reach = 0;               ///< height above the plane below which they touch it, m
+    std::optional<FrictionColumns<D>> friction{};
 };
 
 /// Consecutive points that are skipped together if all are far from the plane.
@@ -52,15 +60,17 @@ constexpr std::size_t seen_together = 32;
 template <int D>
 struct SeenPoints {
     SeenPoints(const Particles& particles, const PlaneColumns<D>& columns)
-        : reach(particles[columns.reach].data()), damping(particles[columns.damping].data()) {
+        : reach(particles[columns.reach].data()) {
         for (std::size_t a = 0; a < D; ++a) {
             position[a] = particles[columns.motion.position[a]].data();
-            force[a] = particles[columns.force[a]].data();
+            before[a] = particles[columns.force[a]].data();
         }
+        before[D] = columns.friction ? particles[columns.friction->damping].data() : before[0];
     }
 
-    std::array<const double*, D> position, force;
-    const double *reach, *damping;
+    std::array<const double*, D> position;
+    std::array<const double*, D + 1> before;  ///< not all 0 on points that touched the plane
+    const double* reach;
 };
 
 /// Whether any of some points is at the plane, or has forces of the step before.
@@ -70,22 +80,21 @@ MPM_VECTOR_CLONES bool touches_any(const SeenPoints<D>& points, const Ground<D>&
     std::uint64_t any = 0;
     for (std::size_t p = begin; p < end; ++p) {
         Components<D> at;
-        any |= std::bit_cast<std::uint64_t>(points.damping[p]);
-        for (std::size_t a = 0; a < D; ++a) {
-            at[a] = points.position[a][p];
-            any |= std::bit_cast<std::uint64_t>(points.force[a][p]);
-        }
+        for (std::size_t a = 0; a < D; ++a) at[a] = points.position[a][p];
+        for (const double* value : points.before) any |= std::bit_cast<std::uint64_t>(value[p]);
         any |= points.reach[p] > ground.height(at) ? 1 : 0;
     }
     return any != 0;
 }
 
-/// A plane that meets points through a layer of springs and dashpots.
+/// A plane that meets points through a layer of springs and, with friction, dashpots.
 ///
 /// The nodes behind an inclined plane are no plane: they shake a body that slides across them,
-/// which then sticks and slips by turns. So the plane meets the points. A dashpot with the
-/// impedance of the body takes its vibrations (Lysmer and Kuhlemeyer 1969), a spring bears it, and
-/// a spring along the plane holds it up to the friction (Cundall and Strack 1979).
+/// which then sticks and slips by turns. So the plane meets the points. A spring bears the body,
+/// and one along the plane holds it up to the friction (Cundall and Strack 1979). A dashpot with
+/// the impedance of the body takes its vibrations (Lysmer and Kuhlemeyer 1969): with a quarter of
+/// it, a body near the limit of friction creeps. Without friction there is none, for it takes a
+/// fifth to a half of the energy of an impact.
 template <int D>
 class RubbingPlane {
   public:
@@ -122,13 +131,14 @@ class RubbingPlane {
     void push_point(Particles& particles, std::size_t p, double time_step) const {
         const Components<D> at = position_of(particles, p);
         const double depth = particles[columns_.reach][p] - ground_.height(at);
-        double& damping = particles.data(columns_.damping)[p];
-        damping = depth > 0 ? damping_of(particles, p, time_step) : 0;
-        const double spring = depth > 0 ? spring_of(particles, p, depth) : 0;
-        damping = std::max(damping, -spring);
-        const double push = spring + damping;
-        const Components<D> held =
-            push > 0 ? friction_on(particles, p, at, push, time_step) : Components<D>{};
+        double push = depth > 0 ? spring_of(particles, p, depth) : 0;
+        Components<D> held{};
+        if (columns_.friction) {
+            double& damping = particles.data(columns_.friction->damping)[p];
+            damping = depth > 0 ? std::max(damping_of(particles, p, time_step), -push) : 0;
+            push += damping;
+            if (push > 0) held = friction_on(particles, p, at, push, time_step);
+        }
         for (std::size_t a = 0; a < D; ++a)
             particles.data(columns_.force[a])[p] = push * ground_.normal[a] + held[a];
     }
@@ -172,10 +182,11 @@ class RubbingPlane {
         const double stiffness =
             std::min(mass_above(particles, p) * rate_ * rate_,
                      particles[columns_.motion.mass][p] / (time_step * time_step));
+        const std::array<Column, D>& anchor = columns_.friction->anchor;
         if (!touched(particles, p))
-            for (std::size_t a = 0; a < D; ++a) particles.data(columns_.anchor[a])[p] = at[a];
+            for (std::size_t a = 0; a < D; ++a) particles.data(anchor[a])[p] = at[a];
         Components<D> stretch;
-        for (std::size_t a = 0; a < D; ++a) stretch[a] = at[a] - particles[columns_.anchor[a]][p];
+        for (std::size_t a = 0; a < D; ++a) stretch[a] = at[a] - particles[anchor[a]][p];
         const double across = along_normal<D>(ground_.normal, stretch);
         double square = 0;
         for (std::size_t a = 0; a < D; ++a) {
@@ -187,7 +198,7 @@ class RubbingPlane {
         Components<D> held;
         for (std::size_t a = 0; a < D; ++a) {
             held[a] = -share * stiffness * stretch[a];
-            particles.data(columns_.anchor[a])[p] = at[a] - share * stretch[a];
+            particles.data(anchor[a])[p] = at[a] - share * stretch[a];
         }
         return held;
     }
@@ -207,16 +218,20 @@ class RubbingPlane {
 
 /// Adds the columns of a plane, and their sums on the nodes.
 template <int D>
-PlaneColumns<D> add_columns(const std::string& plane, Particles& particles, Stages<D>& stages) {
+PlaneColumns<D> add_columns(const std::string& plane, bool has_friction, Particles& particles,
+                            Stages<D>& stages) {
     PlaneColumns<D> columns{.motion = add_motion_columns(particles, D),
-                            .damping = particles.add_column(plane + "_damping"),
                             .reach = particles.add_column(plane + "_reach")};
     for (std::size_t a = 0; a < D; ++a) {
         columns.force[a] = particles.add_column(plane + "_force_" + "xyz"[a]);
-        columns.anchor[a] = particles.add_column(plane + "_anchor_" + "xyz"[a]);
         stages.fields.push_back({"plane_friction", columns.force[a], -1, static_cast<int>(a)});
     }
-    stages.fields.push_back({"plane_friction", columns.damping});
+    if (!has_friction) return columns;
+    FrictionColumns<D>& friction = columns.friction.emplace();
+    friction.damping = particles.add_column(plane + "_damping");
+    for (std::size_t a = 0; a < D; ++a)
+        friction.anchor[a] = particles.add_column(plane + "_anchor_" + "xyz"[a]);
+    stages.fields.push_back({"plane_friction", friction.damping});
     return columns;
 }
 
@@ -225,18 +240,22 @@ PlaneColumns<D> add_columns(const std::string& plane, Particles& particles, Stag
 /// Dashpots do no more in a step than stop a node: one that only few points touch has less mass
 /// than those points stand for. Friction goes with the force out of the plane.
 template <int D>
-NodeKernel<D> force_kernel(const Ground<D>& ground, std::size_t first) {
-    return [ground, first](GridPatch<D>& patch, const StepTime& now) {
-        const std::vector<double>& damping = patch.fields[first + D];
+NodeKernel<D> force_kernel(const Ground<D>& ground, std::size_t first, bool has_friction) {
+    return [=](GridPatch<D>& patch, const StepTime& now) {
+        const double* const damping = has_friction ? patch.fields[first + D].data() : nullptr;
         for (std::size_t n = 0; n < patch.sums.size(); ++n) {
             NodeSums<D>& node = patch.sums[n];
             Components<D> force;
             for (std::size_t a = 0; a < D; ++a) force[a] = patch.fields[first + a][n];
             const double push = along_normal<D>(ground.normal, force);
             if (!(push > 0)) continue;
-            const double stop = -along_normal<D>(ground.normal, node.momentum) / now.time_step;
-            const double left = std::clamp(damping[n], std::min(stop, 0.0), std::max(stop, 0.0));
-            const double share = std::max(0.0, 1 - (damping[n] - left) / push);
+            double share = 1;
+            if (has_friction) {
+                const double stop = -along_normal<D>(ground.normal, node.momentum) / now.time_step;
+                const double left =
+                    std::clamp(damping[n], std::min(stop, 0.0), std::max(stop, 0.0));
+                share = std::max(0.0, 1 - (damping[n] - left) / push);
+            }
             for (std::size_t a = 0; a < D; ++a) node.force[a] += share * force[a];
         }
     };
@@ -268,12 +287,13 @@ void add_plane_friction(const Scene& scene, double wave_speed, Particles& partic
                         Stages<D>& stages) {
     for (std::size_t k = 0; k < scene.planes.size(); ++k) {
         const std::size_t first = stages.fields.size();
+        const bool has_friction = scene.planes[k].friction > 0;
         const RubbingPlane<D> plane(
             scene.planes[k], wave_speed, scene.grid.spacing,
-            add_columns<D>("plane_" + std::to_string(k + 1), particles, stages));
+            add_columns<D>("plane_" + std::to_string(k + 1), has_friction, particles, stages));
         stages.preparations.push_back([plane](Particles& points) { plane.start(points); });
         stages.forces.push_back(
-            {"plane_friction", force_kernel<D>(Ground<D>(scene.planes[k]), first)});
+            {"plane_friction", force_kernel<D>(Ground<D>(scene.planes[k]), first, has_friction)});
         stages.after_materials.push_back(
             {"plane_friction", [plane](Particles& points, const PointBlock<D>& block) {
                  plane.push(points, block);

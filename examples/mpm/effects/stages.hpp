@@ -14,7 +14,7 @@ namespace mpm {
 struct NodeField {
     std::string name;
     Column column;
-    /// Weighted by the shape functions' derivatives along it; -1: by themselves; squared_slopes.
+    /// Weighted by the shape functions' derivatives along it; -1: by themselves; on_each_node.
     int axis = -1;
     int component = -1;  ///< of a vector, which the mirror image in a wall turns; -1: a scalar
     /// Number of a field before it. Nodes where that is not above 0 need no sum. -1: all nodes do.

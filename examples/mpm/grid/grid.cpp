@@ -77,8 +77,8 @@ double move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_
                              [least = least_mass.everywhere](std::size_t) { return least; });
     return move_nodes_of(
         patch, time_step, lightest_point,
-        [factor = least_mass.factor, field = patch.fields[*least_mass.field].data()](
-            std::size_t n) { return factor * field[n]; });
+        [most = least_mass.everywhere, field = patch.fields[*least_mass.field].data()](
+            std::size_t n) { return most * std::sqrt(std::sqrt(std::sqrt(field[n]))); });
 }
 
 template NodeRange<2> intersection<2>(const NodeRange<2>&, const NodeRange<2>&);

@@ -107,10 +107,9 @@ void visit_nodes(const NodeRange<D>& range, Visit visit) {
 template <int D>
 void resize(GridPatch<D>& patch, const NodeRange<D>& nodes);
 
-/// The least mass of a node, kg: the same on all, or a factor of a field of the nodes.
+/// The least mass of a node, kg: the same on all, or times the eighth root of a field of the nodes.
 struct LeastMass {
     double everywhere = 0;
-    double factor = 0;
     std::optional<std::size_t> field = {};  ///< number in GridPatch::fields
 };
 

@@ -20,7 +20,7 @@ std::string text_of(double id, Positions positions, std::size_t p, double now) {
     text << "point " << std::setprecision(15) << id << std::setprecision(6)
          << " has no finite position: x = " << positions.x[p] << " m, y = " << positions.y[p]
          << " m";
-    if (!positions.z.empty()) text << ", z = " << positions.z[p] << " m";
+    if (positions.dimension == 3) text << ", z = " << positions.z[p] << " m";
     text << ", time = " << now << " s: lower the Courant number";
     return text.str();
 }
@@ -141,7 +141,7 @@ void Ownership::find_reassigned(const Decomposition& next, Positions positions,
     if (next.local_owners.empty() && !ask_owners(next, positions)) return;
     const std::vector<int>& owners = next.local_owners.empty() ? owners_ : next.local_owners;
     if (owners.size() != positions.size()) return report(Fault::no_owner);
-    if (positions.z.empty())
+    if (positions.dimension == 2)
         take_owners<2>(next, owners, positions);
     else
         take_owners<3>(next, owners, positions);

@@ -77,9 +77,10 @@ MotionColumns add_motion_columns(Particles& particles, int dimension) {
 }
 
 Positions positions_of(const Particles& particles, const MotionColumns& motion, int dimension) {
-    Positions positions{particles[motion.position[0]], particles[motion.position[1]]};
-    if (dimension == 3) positions.z = particles[motion.position[2]];
-    return positions;
+    const std::span<const double> x = particles[motion.position[0]];
+    const std::span<const double> y = particles[motion.position[1]];
+    if (dimension == 2) return {x, y};
+    return {x, y, particles[motion.position[2]], dimension};
 }
 
 }  // namespace mpm

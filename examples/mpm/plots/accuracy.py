@@ -10,17 +10,14 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.ticker import LogLocator, NullFormatter
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
-
-from exact_problems import PROBLEMS, Problem, history_of  # noqa: E402
-from instructions import call, count  # noqa: E402
+from exact_problems import PROBLEMS, Problem
+from instructions import call, count
+from vtk_files import history_of
 
 FUNCTIONS = ("linear", "quadratic")
 COURANT_NUMBERS = (0.4, 0.1)

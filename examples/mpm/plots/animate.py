@@ -6,28 +6,25 @@ with the imbalance of both over time and marks where boxes have moved."""
 
 from __future__ import annotations
 
-import csv
 import sys
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from PIL import Image
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.axes import Axes  # noqa: E402
-from PIL import Image  # noqa: E402
-
-from draw import Frame, Painter, read_frames  # noqa: E402
-from views import STEEL, VIEWS, read_fall  # noqa: E402
+from draw import Frame, Painter, read_frames
+from views import STEEL, VIEWS
+from vtk_files import history_of
 
 FRAME_MS, LAST_MS = 80, 2000
 NUM_COLOURS = 48
 
 
 def draw_fall(axes: Axes, folder: Path, now: float) -> None:
-    time, tip = read_fall(folder)
+    history = history_of(folder)
+    time, tip = history["time"], history["penetrator_tip_y"]
     axes.plot(time, tip, color="#999999")
     axes.plot(now, np.interp(now, time, tip), "o", color=STEEL)
     axes.set_xlabel("time [s]", fontsize=8)
@@ -36,19 +33,14 @@ def draw_fall(axes: Axes, folder: Path, now: float) -> None:
     axes.grid(lw=0.3)
 
 
-def read_imbalance(folder: Path) -> tuple[np.ndarray, np.ndarray]:
-    with (folder / "history.csv").open(newline="") as file:
-        rows = [(float(row["time"]), float(row["imbalance"])) for row in csv.DictReader(file)]
-    return tuple(np.transpose(rows))
-
-
 def draw_imbalance(axes: Axes, painters: list[Painter], frames: list[Frame], now: float) -> None:
     moved = [b.time for a, b in zip(frames, frames[1:]) if a.boxes != b.boxes]
     axes.vlines(moved, 0, 0.1, transform=axes.get_xaxis_transform(), color="C0", lw=0.8)
     for painter, name in zip(painters, ("rebalanced (marks)", "never rebalanced")):
-        time, imbalance = read_imbalance(painter.folder)
-        line = axes.plot(time[1:], imbalance[1:], lw=1, label=name)[0]
-        axes.plot(now, np.interp(now, time[1:], imbalance[1:]), "o", ms=4, color=line.get_color())
+        history = history_of(painter.folder)
+        time, imbalance = history["time"][1:], history["imbalance"][1:]
+        line = axes.plot(time, imbalance, lw=1, label=name)[0]
+        axes.plot(now, np.interp(now, time, imbalance), "o", ms=4, color=line.get_color())
     axes.set_xlabel("time [s]", fontsize=8)
     axes.set_ylabel("most / mean\npoints of ranks", fontsize=8)
     axes.set_ylim(bottom=0.9)

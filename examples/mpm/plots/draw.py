@@ -10,18 +10,14 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.lines import Line2D  # noqa: E402
-from matplotlib.patches import Patch  # noqa: E402
-
-from views import VIEWS, Moment, View  # noqa: E402
-from vtk_files import arrays_in, frames_of, points_of  # noqa: E402
+from views import VIEWS, Moment, View
+from vtk_files import arrays_in, frames_of, points_of
 
 POINTS_PER_INCH = 72
 SMALLEST_MARKER = 1.5  # printer's points

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from vtk_files import frames_of, points_of
+from vtk_files import frames_of, history_of, points_of
 
 G = 9.81
 
@@ -68,12 +67,6 @@ def ball(centre: tuple[float, float], radius: float) -> str:
 
 def gravity(acceleration: float) -> str:
     return f"  effects:\n    gravity:\n      acceleration: [0, {-acceleration}]\n"
-
-
-def history_of(folder: Path) -> dict[str, np.ndarray]:
-    with (folder / "history.csv").open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
 def end_of(folder: Path) -> dict[str, np.ndarray]:

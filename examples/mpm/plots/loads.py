@@ -6,9 +6,6 @@ slowest ranks take.
 import csv
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 from matplotlib import pyplot
 
 

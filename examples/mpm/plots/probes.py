@@ -10,12 +10,8 @@ from collections import defaultdict
 from collections.abc import Callable
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
+import numpy as np
+from matplotlib import pyplot as plt
 
 PANELS: list[tuple[str, Callable]] = [
     ("way [m]", lambda probe: np.hypot(probe["displacement_x"], probe["displacement_y"])),

@@ -5,31 +5,17 @@ DRAWINGS."""
 
 from __future__ import annotations
 
-import csv
 import sys
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.axes import Axes  # noqa: E402
-
-from scene_text import list_in, number_in  # noqa: E402
-from vtk_files import frames_of, points_of  # noqa: E402
+from scene_text import list_in, number_in
+from vtk_files import frames_of, history_of, points_of
 
 G = 9.81
-
-
-def history_of(folder: Path) -> dict[str, np.ndarray]:
-    with (folder / "history.csv").open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {
-        name: np.array([float(row[name]) for row in rows])
-        for name in ("time", "center_x", "center_y")
-    }
 
 
 def compare(axes: Axes, at: np.ndarray, got: np.ndarray, theory: np.ndarray, name: str) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
 from scene_text import list_in, number_in
+from vtk_files import history_of
 
 WATER, ROCK, STEEL = "#CFE6F5", "#9A9A9A", "#3B4A5A"
 
@@ -59,19 +59,13 @@ class View:
     backdrop: Callable[[Axes, Moment], list[Patch | Line2D]] = lambda axes, moment: []
 
 
-def read_fall(folder: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Times, s, and levels of a penetrator's tip, m."""
-    with (folder / "history.csv").open(newline="") as file:
-        rows = [(float(row["time"]), float(row["penetrator_tip_y"])) for row in csv.DictReader(file)]
-    return tuple(np.transpose(rows))
-
-
 def anchor(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
     """The anchor at its place."""
     radius, cone, length = (
         number_in(moment.scene, key) for key in ("radius", "cone_height", "length")
     )
-    tip = np.interp(moment.time, *read_fall(moment.folder))
+    history = history_of(moment.folder)
+    tip = np.interp(moment.time, history["time"], history["penetrator_tip_y"])
     outline = [(0, 0), (radius, cone), (radius, length), (-radius, length), (-radius, cone)]
     axes.add_patch(Polygon([(x, tip + y) for x, y in outline], facecolor=STEEL, zorder=3))
     return [Patch(facecolor=STEEL, label="anchor")]

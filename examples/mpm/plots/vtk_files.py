@@ -1,8 +1,9 @@
-"""Reads the VTK files that rrcb_mpm writes."""
+"""Reads the files that rrcb_mpm writes."""
 
 from __future__ import annotations
 
 import base64
+import csv
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
@@ -20,6 +21,13 @@ def arrays_in(path: Path) -> dict[str, np.ndarray]:
         width = int(array.get("NumberOfComponents"))
         arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
     return arrays
+
+
+def history_of(folder: Path) -> dict[str, np.ndarray]:
+    """Columns of history.csv."""
+    with (folder / "history.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
 def points_of(files: list[Path]) -> dict[str, np.ndarray]:

@@ -69,12 +69,16 @@ void StartPlaces::visit(const Body& body, const Lattice& lattice, const PointVis
             }
 }
 
+std::size_t StartPlaces::body_of(double number) const {
+    const auto after = std::ranges::upper_bound(lattices_, static_cast<std::int64_t>(number), {},
+                                                &Lattice::first_number);
+    return static_cast<std::size_t>(after - lattices_.begin()) - 1;
+}
+
 Vector StartPlaces::displacement(Positions at, std::span<const double> numbers,
                                  std::size_t point) const {
-    auto number = static_cast<std::int64_t>(numbers[point]);
-    const Lattice& lattice =
-        *(std::ranges::upper_bound(lattices_, number, {}, &Lattice::first_number) - 1);
-    number -= lattice.first_number;
+    const Lattice& lattice = lattices_[body_of(numbers[point])];
+    const std::int64_t number = static_cast<std::int64_t>(numbers[point]) - lattice.first_number;
     const std::int64_t row = number / lattice.count[0];
     const Vector start =
         place(lattice, {number % lattice.count[0], row % lattice.count[1], row / lattice.count[1]});

@@ -20,6 +20,9 @@ class StartPlaces {
   public:
     explicit StartPlaces(const Scene& scene);
 
+    /// Number of the body of the point with a number.
+    std::size_t body_of(double number) const;
+
     /// How far the points with these numbers, now at these positions, have moved, m.
     std::vector<Vector> displacements(Positions at, std::span<const double> numbers) const;
 

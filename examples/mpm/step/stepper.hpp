@@ -19,7 +19,7 @@ namespace mpm {
 /// Least mass of the nodes of a scene under a cure of locking. Where bodies differ in density it
 /// adds a field of the nodes, so that each node goes by the points that touch it.
 template <int D>
-LeastMass add_least_mass(const Scene& scene, Column mass, Stages<D>& stages);
+LeastMass add_least_mass(const Scene& scene, Particles& particles, Stages<D>& stages);
 
 /// A simulation of either dimension. Its virtual calls are per step, never per point.
 class Simulation::Model {

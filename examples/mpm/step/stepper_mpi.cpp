@@ -63,7 +63,7 @@ Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm
       ownership_(ground_.grid, scene_.walls, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, ground_, wave_speed_, particles);
-    least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
+    least_mass_ = add_least_mass<D>(scene_, particles, stages_);
     add_images<D>(ground_, stages_);
     patch_.shape = ground_.grid;
     patch_.margin = transfers_->margin();

@@ -84,17 +84,6 @@ template <int D, std::size_t N, std::size_t n, std::size_t axis>
     return product;
 }
 
-/// Square of the gradient of a shape function, per cell.
-template <int D, std::size_t N, std::size_t n>
-[[gnu::always_inline]] inline double squared_slope_of(const std::array<Weights<N>, D>& weights) {
-    double square = 0;
-    unrolled<D>([&](auto a) __attribute__((always_inline)) {
-        const double slope = slope_of<D, N, n, a>(weights);
-        square += slope * slope;
-    });
-    return square;
-}
-
 /// Slopes of the nodes' shape functions at the centre of the points that share them, per cell: of a
 /// cell, or of the square around a node.
 template <int D, class Shape>

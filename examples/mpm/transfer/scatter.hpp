@@ -65,8 +65,7 @@ MPM_VECTOR_CLONES void scatter_column(const std::array<const double*, D>& at,
                 for (std::size_t i = 0; i < N; ++i)
                     weights[axis].value[i] = inverse_spacing * weights[axis].slope[i];
             unrolled<power(N, D)>([&](auto n) __attribute__((always_inline)) {
-                const double weight = axis == squared_slopes ? squared_slope_of<D, N, n>(weights)
-                                                             : weight_of<D, N, n>(weights);
+                const double weight = axis == on_each_node ? 1 : weight_of<D, N, n>(weights);
                 sums[n] += weight * values[p];
             });
         }

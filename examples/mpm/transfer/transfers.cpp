@@ -74,7 +74,7 @@ class TransfersOf final : public Transfers<D> {
             scatter_column<D, Shape, kind>(at, particles[column], shape_, runs, patch,
                                            field.data());
         };
-        if (axis == squared_slopes) return add(std::integral_constant<int, squared_slopes>{});
+        if (axis == on_each_node) return add(std::integral_constant<int, on_each_node>{});
         if (axis < 0) return add(std::integral_constant<int, -1>{});
         unrolled<D>([&](auto a) {
             if (axis == static_cast<int>(a)) add(std::integral_constant<int, int{a}>{});

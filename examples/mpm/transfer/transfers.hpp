@@ -128,9 +128,8 @@ struct TransferColumns {
     StressColumns<D> stress;
 };
 
-/// In place of an axis: the weight of a point is the square of the shape function's gradient per
-/// cell.
-inline constexpr int squared_slopes = -2;
+/// In place of an axis: a point counts fully on each of its nodes.
+inline constexpr int on_each_node = -2;
 
 /// The transfers between points and nodes, made for a dimension and shape function.
 template <int D>
@@ -160,7 +159,7 @@ class Transfers {
                             VolumeChange change, const PointBlock<D>& block) const = 0;
 
     /// Adds a column of the points to a field of the nodes, weighted by the shape functions, by
-    /// their derivatives along `axis` where that is not -1, or by squared_slopes.
+    /// their derivatives along `axis` where that is not -1, or by on_each_node.
     virtual void scatter(const Particles& particles, Column column, int axis,
                          std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
                          std::vector<double>& field) const = 0;

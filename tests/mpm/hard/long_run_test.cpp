@@ -41,8 +41,8 @@ class Energy {
     std::vector<std::array<double, 2>> velocities_;
 };
 
-/// Largest growth of the energy over that at the start, by it.
-double growth(const Scene& scene, int num_steps) {
+/// Largest growth of the energy over that before step `first`, by it.
+double growth(const Scene& scene, int num_steps, std::int64_t first = 0) {
     Simulation simulation(scene, MPI_COMM_WORLD);
     double start = 0, most = -1;
     while (simulation.step_count() < num_steps) {
@@ -54,8 +54,8 @@ double growth(const Scene& scene, int num_steps) {
         const Energy energy(simulation);
         simulation.step();
         const double now = energy.before_the_step();
-        if (step == 0) start = now;
-        most = std::max(most, now / start - 1);
+        if (step == first) start = now;
+        if (step >= first) most = std::max(most, now / start - 1);
         if (!(most < 1)) break;
     }
     return most;
@@ -82,14 +82,22 @@ Scene free_disk(int points, double radius, ShapeFunction shape, bool has_cure) {
 class FreeDisk : public testing::TestWithParam<std::tuple<std::pair<int, double>, bool, bool>> {};
 
 // A least mass of light nodes that did not enter their motion multiplied it by 100.
+//
+// An odd number of points along a cell begins with points halfway between nodes, where quadratic
+// functions have other nodes on either side. They all cross in the first step, and with the cure
+// their change of volume jumps (docs/energy.md).
 TEST_P(FreeDisk, gains_no_energy_in_thirty_thousand_steps) {
     const auto& [size, is_quadratic, has_cure] = GetParam();
     const ShapeFunction shape = is_quadratic ? ShapeFunction::quadratic : ShapeFunction::linear;
-    EXPECT_LT(growth(free_disk(size.first, size.second, shape, has_cure), 30000), allowed);
+    const bool crosses_at_once = is_quadratic && has_cure && size.first % 2 == 1;
+    EXPECT_LT(
+        growth(free_disk(size.first, size.second, shape, has_cure), 30000, crosses_at_once ? 1 : 0),
+        allowed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, FreeDisk,
-                         testing::Combine(testing::Values(std::pair(2, 2.3), std::pair(4, 1.5),
+                         testing::Combine(testing::Values(std::pair(2, 2.3), std::pair(3, 1.8),
+                                                          std::pair(4, 1.5), std::pair(5, 1.3),
                                                           std::pair(6, 1.2)),
                                           testing::Bool(), testing::Bool()));
 

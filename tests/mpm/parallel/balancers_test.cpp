@@ -200,5 +200,33 @@ TEST(Balancers, of_an_unknown_name_are_refused_with_the_known_ones) {
     }
 }
 
+/// A ball in space that leaves through a side after some steps.
+Scene leaving_ball() {
+    return {.name = "leaving",
+            .dimension = 3,
+            .grid = {.lower = {0, 0, 0}, .spacing = 0.25, .num_cells = {8, 8, 6}},
+            .materials = {elastic_material("rubber", 1000, 1e6, 0.3)},
+            .bodies = {{.contains = ball_region({0.5, 1, 0.75}, 0.3),
+                        .material = "rubber",
+                        .velocity = velocity_field({.constant = {-30, 0, 0}})}}};
+}
+
+// Ranks without points know no dimension by their columns.
+TEST(Balancers, divide_no_points_in_space) {
+    for (const char* name : balancers) {
+        Simulation simulation(leaving_ball(), MPI_COMM_WORLD);
+        const std::optional<Balancer> balancer = make_balancer(name, leaving_ball());
+        while (simulation.totals().num_points > 0) {
+            simulation.step();
+            if (balancer) simulation.rebalance(*balancer);
+        }
+        for (int step = 0; step < 3; ++step) {
+            simulation.step();
+            if (balancer) simulation.rebalance(*balancer);
+        }
+        EXPECT_EQ(simulation.totals().num_points, 0) << name;
+    }
+}
+
 }  // namespace
 }  // namespace mpm::test

@@ -34,6 +34,7 @@ struct Positions {
     std::span<const double> x;
     std::span<const double> y;
     std::span<const double> z = {};
+    int dimension = z.empty() ? 2 : 3;  ///< to be given if there may be no points in three
 
     std::size_t size() const { return x.size(); }
     Vector operator[](std::size_t point) const {

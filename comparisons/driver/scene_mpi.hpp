@@ -49,8 +49,8 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 /// Runs the scene under every method that cuts along the axes, several rounds of all of them,
 /// writes the times and loads of each run, and prints a line a round. Collective over `comm`.
 ///
-/// The first and the last run without rebalancing, "none" and "none again": how far the two differ
-/// is noise.
+/// The first runs without rebalancing, as "none". The second is measured twice, the last of all as
+/// "... again": how far the two differ is noise.
 /// The slope ends when its front lies still, unless steps or simulations only are asked for.
 /// `visit` is called behind the first round, so that nobody waits for all of them to see a table.
 /// With learned costs there are two more: "count" and "learned" weigh the points of rrcb-arrays.

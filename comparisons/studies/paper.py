@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pandas as pd
 import plot
-from accuracy import CLOUDS, add_accuracy, measure_clouds
 from claims import claim_table
 from document import Report, shared_cores, show
 from driver import COMPARE, OUT, Driver, build
@@ -80,7 +79,6 @@ PARTS = {
     "simulations": measure_simulations,
     "ranks": measure_ranks,
     "seeds": measure_seeds,
-    CLOUDS: measure_clouds,
 }
 
 
@@ -113,7 +111,6 @@ def main() -> int:
             show(caption, rows)
     for name in draw_all(out):
         report.picture(name, CAPTIONS[name])
-    add_accuracy(report, out)
     report.write(out / "snapshots/run.txt")
     return 0
 
@@ -122,10 +119,10 @@ def _read_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="comparisons/paper", description=__doc__)
     parser.add_argument("--out", type=Path, default=OUT / "paper",
                         help="folder of the results; comparisons/out/paper")  # fmt: skip
-    usual = [part for part in PARTS if part not in ("seeds", CLOUDS)]
+    usual = [part for part in PARTS if part != "seeds"]
     parser.add_argument("--only", type=_parts, default=usual, metavar="LIST",
-                        help=f"what to measure, by commas: {', '.join(PARTS)}; all but seeds and"
-                        f" {CLOUDS}. The rest is read from the folder.")  # fmt: skip
+                        help=f"what to measure, by commas: {', '.join(PARTS)}; all but seeds."
+                        " The rest is read from the folder.")  # fmt: skip
     parser.add_argument("--quick", action="store_true", help="a small run of everything")
     parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     return parser.parse_args()

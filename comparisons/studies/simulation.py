@@ -81,13 +81,15 @@ def _close_fixed_imbalances(rows: pd.DataFrame, of_method: object) -> None:
 
 
 def noise(runs: pd.DataFrame, calls: pd.DataFrame) -> pd.DataFrame:
-    """How far what was measured twice is from itself: simulations without rebalancing, and calls of
+    """How far what was measured twice is from itself: simulations under the first method, and calls of
     Zoltan's RCB on each workload."""
     cases = []
-    if len(runs) and runs.loc[runs["method"].isin(["none", "none" + AGAIN]), "error"].isna().all():
-        scene = runs["scene"].iloc[0]
-        cases.append((scene, "none", runs, "wall_s", "none", "round"))
-        cases.append((scene, "none critical path", runs, "critical_path_s", "none", "round"))
+    for method in runs.loc[runs["method"].str.endswith(AGAIN), "method"].unique() if len(runs) else ():
+        twice = method.removesuffix(AGAIN)
+        if runs.loc[runs["method"].isin([method, twice]), "error"].isna().all():
+            scene = runs["scene"].iloc[0]
+            cases.append((scene, twice, runs, "wall_s", twice, "round"))
+            cases.append((scene, f"{twice} critical path", runs, "critical_path_s", twice, "round"))
     for workload, turns in calls.groupby("workload", sort=False) if len(calls) else ():
         cases.append((workload, "zoltan-rcb", turns, "time_ms", "zoltan-rcb", "turn"))
     found = []

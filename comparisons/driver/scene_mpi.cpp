@@ -110,7 +110,6 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
             run.seed = method->seed() + static_cast<unsigned>(round);
         if (round > 0) run.history.clear();
     }
-    if (rank_of(comm) == 0) print_round(std::cout, round + 1, all);
 }
 
 /// Steps until the front of the slope lies still, within 0.2 m of where it ends.
@@ -223,8 +222,13 @@ std::vector<SimulationRounds> run_scene(const Arguments& arguments, const Result
                                ? arguments.repeats
                                : std::min(arguments.repeats, max_rounds);
     std::vector<Workload> snapshots;
+    RoundsDone done{0, num_rounds, 0};
     for (int round = 0; round < num_rounds; ++round) {
+        const double start = MPI_Wtime();
         run_round(all, round, plan, snapshots, progress, comm);
+        done.elapsed_s += MPI_Wtime() - start;
+        ++done.number;
+        if (rank_of(comm) == 0) print_round(std::cout, done, all);
         if (round == 0) visit(snapshots);
     }
     const std::span<const SimulationRounds> once(all.data(), all.size() - 1);
@@ -255,7 +259,8 @@ std::string history_csv(std::span<const SimulationRounds> methods) {
     return csv(history_row({}, {.points = {1}, .seconds = {0}}, 0), rows);
 }
 
-void print_round(std::ostream& out, int number, std::span<const SimulationRounds> methods) {
+void print_round(std::ostream& out, const RoundsDone& done,
+                 std::span<const SimulationRounds> methods) {
     std::vector<double> paths;
     for (const SimulationRounds& rounds : methods) {
         const SimulationRun& run = rounds.runs.back();
@@ -265,8 +270,13 @@ void print_round(std::ostream& out, int number, std::span<const SimulationRounds
             paths.push_back(critical_path_s(run));
     }
     const auto [least, most] = range_of(paths);
-    out << "Simulations, round " << number << ": critical paths of " << fixed(least, 3) << " to "
-        << fixed(most, 3) << " s" << std::endl;
+    out << "Round " << done.number << " of " << done.of
+        << ": with a core for every rank a simulation takes " << fixed(least, 3) << " to "
+        << fixed(most, 3) << " s";
+    if (done.number < done.of)
+        out << "; about " << fixed(done.elapsed_s / done.number * (done.of - done.number), 0)
+            << " s left";
+    out << std::endl;
 }
 
 }  // namespace comparisons

@@ -66,7 +66,16 @@ std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
 /// history.csv: the load of every part at the recorded steps of the first round.
 std::string history_csv(std::span<const SimulationRounds> methods);
 
-/// Prints the range of the critical paths in the latest round, in a line, and why a method failed.
-void print_round(std::ostream& out, int number, std::span<const SimulationRounds> methods);
+/// Rounds of simulations: those done, all, and seconds that they took.
+struct RoundsDone {
+    int number = 0;
+    int of = 0;
+    double elapsed_s = 0;
+};
+
+/// Prints the range of the critical paths in the latest round and how long is left, in a line, and
+/// why a method failed.
+void print_round(std::ostream& out, const RoundsDone& done,
+                 std::span<const SimulationRounds> methods);
 
 }  // namespace comparisons

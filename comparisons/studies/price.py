@@ -158,12 +158,14 @@ def _draw_panel(axes: Axes, rows: pd.DataFrame, name: str) -> None:
                 "label": cloud if dimension == 2 else None}  # fmt: skip
         numbers, lows, highs = zip(*((v.number, *v.reach) for v in values))
         plot.draw_line(axes, range(len(values)), numbers, lows, highs, **look)
+    levels: dict[float, list[str]] = {}
     for method in RIVALS if name != "rounds" else ():
         values = [_value(row, name).number for _, row in rows[rows["method"] == method].iterrows()]
         if values:
-            level = float(np.exp(np.mean(np.log(values))))
-            axes.axhline(level, color="#999999", linewidth=0.8, zorder=0)
-            axes.text(0, level, RIVALS[method], fontsize=7, color="#666666", va="bottom")
+            levels.setdefault(round(float(np.exp(np.mean(np.log(values)))), 6), []).append(RIVALS[method])
+    for level, names in levels.items():
+        axes.axhline(level, color="#999999", linewidth=0.8, zorder=0)
+        axes.text(0, level, ", ".join(names), fontsize=7, color="#666666", va="bottom")
     axes.set_yscale("log" if name != "rounds" else "linear")
     axes.grid(True, axis="y")
 

@@ -47,7 +47,7 @@ def measure(driver: Driver, parts: list[int], points: int, repeats: int) -> None
     words = ["--no-data", f"--repeats={repeats}", f"--points={points}"]
     for number in parts:
         meshes = [f"rrcb[mesh={mesh}]" for mesh in MESHES] * (number == parts[0])
-        for cloud in list(CLOUDS)[:: 5 if driver.quick else 1]:
+        for cloud in list(CLOUDS)[:: len(CLOUDS) if driver.quick else 1]:
             for dimension in (2, 3):
                 driver.run(f"{cloud}-{dimension}-{number}", number, methods + meshes, f"--cloud={cloud}",
                            f"--dim={dimension}", *words)  # fmt: skip

@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from methods import RCB, WINNERS, setting_of
+from PIL import Image
 from results import Results, sound
 from simulation import once
 
@@ -38,7 +39,23 @@ def draw_all(out: Path) -> list[str]:
     drawn = {name: figure for name, draw in zip(CAPTIONS, figures) if (figure := draw(out))}
     for name, figure in drawn.items():
         plot.save(figure, out / name)
+    draw_together(out, [name for name in drawn if name != "paper_cycle_map.png"])
     return list(drawn)
+
+
+def draw_together(out: Path, names: list[str]) -> None:
+    """Small, one below the other, for the page that discusses them."""
+    images = [plot.plt.imread(out / name) for name in names]
+    if not images:
+        return
+    heights = [image.shape[0] / image.shape[1] for image in images]
+    figure, grid = plot.panels(len(images), 1, 4, 4 * sum(heights), height_ratios=heights)
+    for axes, image in zip(grid[:, 0], images):
+        axes.imshow(image, interpolation="antialiased")
+        axes.axis("off")
+    path = out / "paper_figure_all.png"
+    plot.save(figure, path)
+    Image.open(path).convert("RGB").quantize(32).save(path, optimize=True)
 
 
 def draw_boxes(out: Path) -> Figure | None:

@@ -13,7 +13,7 @@ from claims import claim_table
 from document import Report, shared_cores, show
 from driver import COMPARE, OUT, Driver, build
 from methods import RCB, STANDARD, WINNERS, setting_of
-from paper_figures import CAPTIONS, CHART_K, draw_all
+from paper_figures import CAPTIONS, CHART_K, draw_all, speed_ups
 from results import measurements, read
 
 GRID = [
@@ -90,6 +90,15 @@ PARTS = {
 }
 
 
+def rank_table(out: Path) -> pd.DataFrame:
+    """The paper's table 1: speed-up over serial by number of processes."""
+    lines = []
+    for ranks in RANKS:
+        speeds = speed_ups(out / f"ranks-{ranks}", out / "ranks-1")
+        lines += [{"processes": f"{ranks}"} | {method: of.text(2) for method, of in speeds.items()}] * bool(speeds)
+    return pd.DataFrame(lines)
+
+
 def seed_table(out: Path) -> pd.DataFrame:
     """Median excess over the seeds in per cent, by mesh and snapshot."""
     rows = measurements(read(out / "seeds/table.csv"))
@@ -113,6 +122,7 @@ def main() -> int:
     report = Report("The paper, measured again", out)
     report.text(shared_cores(max(RANKS)))
     for caption, rows in (("What the paper says", claim_table(out)),
+                          ("Table 1: speed-up by processes", rank_table(out)),
                           ("Excess in %, medians over the seeds", seed_table(out))):  # fmt: skip
         report.table(caption, rows)
         if len(rows):

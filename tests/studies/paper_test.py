@@ -13,6 +13,7 @@ import boxes
 import claims
 import numpy as np
 import pandas as pd
+import paper
 import paper_figures
 from methods import WINNERS
 
@@ -142,6 +143,8 @@ class ClaimsTest(unittest.TestCase):
         self.assertEqual(self.verdicts(), {"4 processes are best": "confirmed"})
         self.write("ranks-8", {"root-rcb": [4.0] * 6})
         self.assertEqual(self.verdicts(), {"4 processes are best": "refuted"})
+        table = paper.rank_table(self.directory)
+        self.assertEqual(table.values.tolist(), [["2", "1.67"], ["4", "2.00"], ["8", "2.50"]])
 
 
 if __name__ == "__main__":

@@ -101,13 +101,13 @@ Row printed_row(const Measurement& measurement, double reference_ms) {
     if (!measurement.error.empty()) return row.add("error", measurement.error);
     const double middle = median(measurement.times_ms);
     const std::optional<Interval> interval = interval95(measurement.times_ms);
-    const std::optional<double> ratio = ratio_of(middle, reference_ms);
+    const std::optional<double> speed_up = ratio_of(reference_ms, middle);
     return row.add("imbalance", fixed(median(measurement.imbalances), 5))
         .add("time ms", fixed(middle, 2))
         .add("95 %", interval ? fixed(interval->low, 2) + " ... " + fixed(interval->high, 2) : "-")
-        .add("of Zoltan's", ratio ? fixed(*ratio, 2) : "-")
+        .add("speed-up", speed_up && reference_ms > 0 ? fixed(*speed_up, 2) : "-")
         .add("bytes", human_bytes(static_cast<double>(measurement.traffic.bytes)))
-        .add("ghosts", measurement.ghosts.sum);
+        .add("ghosts", grouped(measurement.ghosts.sum));
 }
 
 /// Without measurements yet. Collective over `comm`.
@@ -184,7 +184,7 @@ std::string call_times_csv(std::span<const Comparison> comparisons) {
 
 void print_table(std::ostream& out, const Comparison& comparison) {
     out << '\n'
-        << comparison.workload << ": " << comparison.num_points << " points, "
+        << comparison.workload << ": " << grouped(comparison.num_points) << " points, "
         << comparison.dimension << "-D, " << comparison.layout << ", " << comparison.num_ranks
         << " ranks, lists " << lists_name(comparison.plan.lists) << ", median of "
         << comparison.plan.repeats;

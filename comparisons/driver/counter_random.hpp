@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace comparisons {
 
@@ -29,5 +33,16 @@ class CounterRandom {
   private:
     std::uint64_t state_;
 };
+
+/// Numbers 0 ... count - 1 in an order that follows from the seed and the turn, so that no method
+/// always comes after the same other one.
+inline std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed,
+                                            std::uint64_t turn) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    CounterRandom random(seed, turn);
+    for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.next() % i]);
+    return order;
+}
 
 }  // namespace comparisons

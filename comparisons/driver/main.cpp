@@ -11,6 +11,7 @@
 #include <rrcb/version.hpp>
 #include <rrcb/zoltan/rrcb_zoltan.h>
 
+#include <Trilinos_version.h>
 #include <zoltan.h>
 
 #ifdef __GLIBC__
@@ -41,7 +42,7 @@ std::string versions() {
     MPI_Get_library_version(mpi, &length);
     std::ostringstream text;
     text << "rrcb " << rrcb::version() << " (" << git_hash << ")\n"
-         << "Zoltan " << ZOLTAN_VERSION_NUMBER << '\n'
+         << "Zoltan " << ZOLTAN_VERSION_NUMBER << " of Trilinos " << TRILINOS_VERSION_STRING << '\n'
          << trim(mpi) << '\n';
     return text.str();
 }
@@ -76,7 +77,7 @@ constexpr const char* definitions =
     "imbalance: heaviest part / mean part, of 10 seeds the median.\n"
     "time: slowest rank, median of the repeats, first call left out.\n"
     "95 %: confidence interval of the median, for 6 repeats or more.\n"
-    "of Zoltan's: this method's time / zoltan-rcb's.\n"
+    "speed-up: zoltan-rcb's time / this method's.\n"
     "bytes: given to MPI and received from it in one call, all ranks.\n"
     "ghosts: copies of points that parts need from others: a point counts once for each "
     "other\n"

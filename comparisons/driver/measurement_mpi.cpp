@@ -1,5 +1,6 @@
 #include "measurement_mpi.hpp"
 
+#include "counter_random.hpp"
 #include "failure_mpi.hpp"
 #include "partitioner_mpi.hpp"
 #include "statistics.hpp"
@@ -152,11 +153,14 @@ void conclude(Candidate& candidate) {
         judgements[(judgements.size() - 1) / 2].worst_unbalance_percent;
 }
 
-/// A first call that is not timed, then the repeats; between them the points drift.
-void time_in_turns(std::span<Candidate> candidates, int repeats, const Drift& drift,
+/// A first call that is not timed, then the repeats, each turn in an order of its own; between them
+/// the points drift.
+void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan, const Drift& drift,
                    Workload& workload, Progress& progress, MPI_Comm comm) {
-    for (int call = 0; call < repeats + 1; ++call) {
-        for (Candidate& candidate : candidates) {
+    for (int call = 0; call < plan.repeats + 1; ++call) {
+        const auto turn = static_cast<std::uint64_t>(call);
+        for (const std::size_t next : drawn_order(candidates.size(), plan.seed, turn)) {
+            Candidate& candidate = candidates[next];
             progress.advance();
             if (!candidate.partitioner) continue;
             candidate.choose_seed(std::max(0, call - 1));
@@ -203,7 +207,7 @@ std::vector<Measurement> measure(const Workload& workload, std::span<const Metho
         num_calls += plan.repeats + 1 + candidates.back().num_judged();
     }
     progress.start(workload.name + ": methods", num_calls);
-    time_in_turns(candidates, plan.repeats, drift, moving, progress, comm);
+    time_in_turns(candidates, plan, drift, moving, progress, comm);
     judge_all(candidates, moving, drift.moves(), progress, comm);
     const GhostCounter ghosts(moving, plan.ghosts, comm);
     std::vector<Measurement> measurements;

@@ -104,6 +104,7 @@ const std::vector<Entry>& entries() {
         {"zoltan-rcb", "RCB", {}, {"reuse", "lock"}},
         {"zoltan-rib", "RIB", {}, {}},
         {"zoltan-hsfc", "HSFC", {}, {}},
+        {"hilbert-counts", hilbert_counts, {}, {}},
 #ifdef RRCB_HAS_ZOLTAN2
         {"zoltan2-mj", multijagged, {}, {}},
 #endif
@@ -265,6 +266,7 @@ ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
     }
     ZoltanParameters parameters = {
         {"DEBUG_LEVEL", "0"}, {"LB_METHOD", method.lb_method}, {"RETURN_LISTS", lists_name(lists)}};
+    if (method.lb_method == hilbert_counts) return {{"function", hilbert_counts}};
     if (method.lb_method == on_arrays) parameters = {{"function", on_arrays}};
     if (method.options)
         std::visit([&](const auto& options) { add(options, parameters); }, *method.options);

@@ -41,6 +41,9 @@ inline constexpr double multijagged_tolerance = 1.01;
 /// `lb_method` of rrcb::balance on the driver's own arrays: no callbacks, no lists of Zoltan's.
 inline constexpr const char* on_arrays = "rrcb::balance";
 
+/// `lb_method` of a Hilbert curve cut by counted keys, on the driver's own arrays.
+inline constexpr const char* hilbert_counts = "counted keys";
+
 /// Which lists are asked of Zoltan_LB_Partition (RETURN_LISTS).
 enum class Lists { parts, exports, all };
 

@@ -1,6 +1,7 @@
 #include "partitioner_mpi.hpp"
 
 #include "failure_mpi.hpp"
+#include "hilbert_counts_mpi.hpp"
 #include "text.hpp"
 
 #include <rrcb/balance.hpp>
@@ -206,6 +207,7 @@ std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Worklo
     if (method.lb_method == on_arrays) {
         return std::make_unique<ArraysPartitioner>(method, workload, comm);
     }
+    if (method.lb_method == hilbert_counts) return make_hilbert_counts(workload, comm);
 #ifdef RRCB_HAS_ZOLTAN2
     if (method.lb_method == multijagged) {
         std::vector<const double*> axes;

@@ -1,5 +1,6 @@
 #include "scene_mpi.hpp"
 
+#include "counter_random.hpp"
 #include "failure_mpi.hpp"
 #include "partitioner_mpi.hpp"
 #include "row.hpp"
@@ -38,14 +39,15 @@ std::vector<SimulationRounds> contenders(const Arguments& arguments, int every) 
     return all;
 }
 
-/// One for each method that is simulated and interval, between two without rebalancing.
+/// One for each method that is simulated and interval, and none without rebalancing. The second
+/// contender is measured twice, which shows the noise: identical runs must not be told apart.
 std::vector<SimulationRounds> contenders(const Arguments& arguments) {
     const SimulationRounds none{"none", {}, {}, Cost::count, arguments.every.front()};
     std::vector<SimulationRounds> all(1, none);
     for (const int every : arguments.every)
         std::ranges::move(contenders(arguments, every), std::back_inserter(all));
-    all.push_back(none);
-    all.back().method = "none again";
+    all.push_back(all[all.size() > 1 ? 1 : 0]);
+    all.back().method += " again";
     return all;
 }
 
@@ -94,9 +96,12 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
     }
     // Turns are long enough that each simulation finds its points in the cache again.
     constexpr int turn = 50;
-    for (int done = 0; done < plan.num_steps; done += turn)
-        for (const auto& simulation : simulations)
-            if (simulation) simulation->advance(turn);
+    for (int done = 0; done < plan.num_steps; done += turn) {
+        const auto number = static_cast<std::uint64_t>(done / turn);
+        for (const std::size_t next :
+             drawn_order(simulations.size(), static_cast<std::uint64_t>(round), number))
+            if (simulations[next]) simulations[next]->advance(turn);
+    }
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (!simulations[i]) continue;
         SimulationRun& run = all[i].runs.emplace_back(simulations[i]->result());
@@ -105,7 +110,6 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
             run.seed = method->seed() + static_cast<unsigned>(round);
         if (round > 0) run.history.clear();
     }
-    if (rank_of(comm) == 0) print_round(std::cout, round + 1, all);
 }
 
 /// Steps until the front of the slope lies still, within 0.2 m of where it ends.
@@ -219,8 +223,13 @@ std::vector<SimulationRounds> run_scene(const Arguments& arguments, const Result
                                ? arguments.repeats
                                : std::min(arguments.repeats, max_rounds);
     std::vector<Workload> snapshots;
+    RoundsDone done{0, num_rounds, 0};
     for (int round = 0; round < num_rounds; ++round) {
+        const double start = MPI_Wtime();
         run_round(all, round, plan, snapshots, progress, comm);
+        done.elapsed_s += MPI_Wtime() - start;
+        ++done.number;
+        if (rank_of(comm) == 0) print_round(std::cout, done, all);
         if (round == 0) visit(snapshots);
     }
     const std::span<const SimulationRounds> once(all.data(), all.size() - 1);
@@ -251,7 +260,8 @@ std::string history_csv(std::span<const SimulationRounds> methods) {
     return csv(history_row({}, {.points = {1}, .seconds = {0}}, 0), rows);
 }
 
-void print_round(std::ostream& out, int number, std::span<const SimulationRounds> methods) {
+void print_round(std::ostream& out, const RoundsDone& done,
+                 std::span<const SimulationRounds> methods) {
     std::vector<double> paths;
     for (const SimulationRounds& rounds : methods) {
         const SimulationRun& run = rounds.runs.back();
@@ -261,8 +271,13 @@ void print_round(std::ostream& out, int number, std::span<const SimulationRounds
             paths.push_back(critical_path_s(run));
     }
     const auto [least, most] = range_of(paths);
-    out << "Simulations, round " << number << ": critical paths of " << fixed(least, 3) << " to "
-        << fixed(most, 3) << " s" << std::endl;
+    out << "Round " << done.number << " of " << done.of
+        << ": with a core for every rank a simulation takes " << fixed(least, 3) << " to "
+        << fixed(most, 3) << " s";
+    if (done.number < done.of)
+        out << "; about " << fixed(done.elapsed_s / done.number * (done.of - done.number), 0)
+            << " s left";
+    out << std::endl;
 }
 
 }  // namespace comparisons

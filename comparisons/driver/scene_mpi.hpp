@@ -49,8 +49,8 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 /// Runs the scene under every method that cuts along the axes, several rounds of all of them,
 /// writes the times and loads of each run, and prints a line a round. Collective over `comm`.
 ///
-/// The first and the last run without rebalancing, "none" and "none again": how far the two differ
-/// is noise.
+/// The first runs without rebalancing, as "none". The second is measured twice, the last of all as
+/// "... again": how far the two differ is noise.
 /// The slope ends when its front lies still, unless steps or simulations only are asked for.
 /// `visit` is called behind the first round, so that nobody waits for all of them to see a table.
 /// With learned costs there are two more: "count" and "learned" weigh the points of rrcb-arrays.
@@ -66,7 +66,16 @@ std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
 /// history.csv: the load of every part at the recorded steps of the first round.
 std::string history_csv(std::span<const SimulationRounds> methods);
 
-/// Prints the range of the critical paths in the latest round, in a line, and why a method failed.
-void print_round(std::ostream& out, int number, std::span<const SimulationRounds> methods);
+/// Rounds of simulations: those done, all, and seconds that they took.
+struct RoundsDone {
+    int number = 0;
+    int of = 0;
+    double elapsed_s = 0;
+};
+
+/// Prints the range of the critical paths in the latest round and how long is left, in a line, and
+/// why a method failed.
+void print_round(std::ostream& out, const RoundsDone& done,
+                 std::span<const SimulationRounds> methods);
 
 }  // namespace comparisons

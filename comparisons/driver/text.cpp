@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <cstdio>
+#include <cstdlib>
 
 namespace comparisons {
 
@@ -45,6 +46,16 @@ std::string fixed(double value, int digits) {
 std::string nine_digits(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", value);
+    return text;
+}
+
+std::string grouped(std::int64_t number) {
+    const std::string digits = std::to_string(std::abs(number));
+    std::string text(number < 0 ? "-" : "");
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+        text += digits[i];
+    }
     return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -49,6 +50,9 @@ std::string fixed(double value, int digits);
 
 /// `value` to nine digits, for pictures.
 std::string nine_digits(double value);
+
+/// 54464 as "54,464".
+std::string grouped(std::int64_t number);
 
 /// 1536 as "1.5 KiB".
 std::string human_bytes(double bytes);

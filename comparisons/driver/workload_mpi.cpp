@@ -21,9 +21,9 @@ namespace {
 
 using Axes = std::array<std::uint32_t, rrcb::max_dimension>;
 
-Axes grid_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension) {
+Axes grid_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension, int bits) {
     Axes cell{};
-    const double cells = 1 << hilbert_bits(dimension);
+    const double cells = std::ldexp(1, bits);
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
         const double extent = box.upper[a] - box.lower[a];
         const double place = extent > 0 ? (position[a] - box.lower[a]) / extent * cells : 0;
@@ -32,9 +32,9 @@ Axes grid_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension
     return cell;
 }
 
-void transpose_to_hilbert(Axes& x, int dimension) {
+void transpose_to_hilbert(Axes& x, int dimension, int bits) {
     const auto n = static_cast<std::size_t>(dimension);
-    const std::uint32_t top = 1U << (hilbert_bits(dimension) - 1);
+    const std::uint32_t top = 1U << (bits - 1);
     for (std::uint32_t q = top; q > 1; q >>= 1) {
         for (std::size_t i = 0; i < n; ++i) {
             if ((x[i] & q) != 0) {
@@ -119,11 +119,12 @@ void reorder(Workload& workload, const std::vector<std::size_t>& places) {
 
 }  // namespace
 
-std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension) {
-    Axes x = grid_cell(box, position, dimension);
-    transpose_to_hilbert(x, dimension);
+std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension,
+                         int bits) {
+    Axes x = grid_cell(box, position, dimension, bits);
+    transpose_to_hilbert(x, dimension, bits);
     std::size_t place = 0;
-    for (int bit = hilbert_bits(dimension) - 1; bit >= 0; --bit) {
+    for (int bit = bits - 1; bit >= 0; --bit) {
         for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
             place = place << 1 | (x[a] >> bit & 1U);
         }

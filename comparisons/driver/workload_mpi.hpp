@@ -52,10 +52,15 @@ constexpr std::size_t hilbert_cells(int dimension) {
     return std::size_t{1} << (hilbert_bits(dimension) * dimension);
 }
 
-/// Place on the Hilbert curve through `box`, 0 ... hilbert_cells - 1, of a position inside it.
+/// Place on the Hilbert curve through `box` of a position inside it, with `bits` of each axis:
+/// 0 ... hilbert_cells - 1 by default.
 ///
 /// Skilling: Programming the Hilbert curve (2004).
-std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension);
+std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension,
+                         int bits);
+inline std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension) {
+    return hilbert_cell(box, position, dimension, hilbert_bits(dimension));
+}
 
 /// Generates a cloud, every rank its share. Collective over `comm`.
 ///

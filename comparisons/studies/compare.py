@@ -6,9 +6,7 @@ comparisons/run [option ...]
   --ranks=4             MPI ranks, 1 to 256
   --out=DIR             where table, data and pictures go (comparisons/out; of a scene
                         but the slope comparisons/out/NAME)
-  --sweep               the paper's claims and what accuracy costs: comparisons/paper
-  --scaling             up to a million ranks: comparisons/scaling
-  --domains             kinds of statistical domain: comparisons/studies/run domains
+  --price               what accuracy costs, on twelve clouds; --price --help lists its options
   --quick               a small run of everything, to see that it works
  points, one of
   --scene=slope         snapshots of a simulation: slope (the default), submarine_slide,
@@ -22,8 +20,8 @@ comparisons/run [option ...]
   --file=points.csv     columns x, y and optionally z and weight
   --replay=DIR          what the plug-in dumped of a call (RRCB_DUMP)
  what is compared
-  --methods=a,b,c       zoltan-rcb zoltan-rib zoltan-hsfc root-rcb rrcb-sampled rrcb rrcb-exact
-                        rrcb-arrays, and zoltan2-mj where Zoltan2 can be installed;
+  --methods=a,b,c       zoltan-rcb zoltan-rib zoltan-hsfc hilbert-counts root-rcb rrcb-sampled
+                        rrcb rrcb-exact rrcb-arrays, and zoltan2-mj where Zoltan2 can be installed;
                         parameters in brackets: rrcb-sampled[mesh=4,k=2,fraction=0.25];
                         zoltan-rcb, rrcb-sampled, rrcb and rrcb-exact unless told otherwise;
                         all: every method, rrcb-sampled and rrcb in four settings each
@@ -53,11 +51,6 @@ from pathlib import Path
 from driver import COMPARE, OUT, build, has_multijagged, on_ranks
 
 MAX_RANKS = 256
-OTHER_STUDIES = {
-    "--sweep": ["paper", "--only=boxes,snapshots,simulations,ranks,clouds"],
-    "--scaling": ["scaling"],
-    "--domains": ["domains"],
-}
 SCENES = "slope submarine_slide torpedo_anchor dam_break elastic_structure".split()
 METHODS_OF_SCENES = (
     "zoltan-rcb,zoltan-rib,zoltan-hsfc,root-rcb,rrcb-sampled[mesh=4,k=2,fraction=0.125],rrcb,"
@@ -68,10 +61,9 @@ MADE = ("history.csv", "simulation*.csv", "noise.csv")
 
 def main() -> int:
     words = sys.argv[1:]
-    for word, study in OTHER_STUDIES.items():
-        if word in words:
-            others = [other for other in words if other != word]
-            os.execv(Path(__file__).with_name("run"), ["run", *study, *others])
+    if "--price" in words:
+        others = [other for other in words if other != "--price"]
+        os.execv(Path(__file__).with_name("run"), ["run", "price", *others])
     options, others = _read_options(words)
     build("rrcb_compare", multijagged="zoltan2-mj" in options.methods or options.methods == "all")
     others += ["--progress"] * sys.stderr.isatty()

@@ -66,17 +66,3 @@ def draw_seconds(axes: Axes, history: pd.DataFrame) -> None:
     axes.plot(times[windows], means.mean(axis=0), color="black", linestyle="--", linewidth=0.9)
     axes.set_xlabel(TIME)
     axes.grid(True, axis="y")
-
-
-def draw_parts_of(axes: Axes, method: str, history: pd.DataFrame) -> None:
-    """Lu of every part, from least to most of each window."""
-    times, unbalance = per_part(history)
-    axes.axhline(0, color="#999999", linewidth=0.6)
-    windows = _windows(len(times))
-    for part, of_part in enumerate(unbalance):
-        low, high = (end.reduceat(of_part, windows) for end in (np.fmin, np.fmax))
-        look = {"color": plot.PART_COLOURS[part % len(plot.PART_COLOURS)], "linewidth": 0.9}
-        plot.draw_line(axes, times[windows], (low + high) / 2, low, high, 0.35, **look)
-    axes.set_ylabel("Lu [%]")
-    most = np.nanmax(np.abs(unbalance))
-    axes.set_title(f"{method}: |Lu| ≤ {most:.2g} %, a scale of its own", fontsize=9, loc="left")

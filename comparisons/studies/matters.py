@@ -1,15 +1,10 @@
-"""Does the balancer matter? Whole simulations of a dam break and of a fast granular flow under several
-balancers and intervals, from 1,000 to 500,000 points a rank.
+"""Does the balancer matter? Whole simulations of a dam break and of a fast granular flow, from 1,000 to 500,000
+points a rank, each rebalanced when its own controller finds that it pays.
 
-Simulations of a round take turns of 50 steps, so ratios of one round are paired. A ratio counts as a
-difference only if its 95 % interval lies outside 1 +- 1 %, the margin. With a core for each rank the
-time is that of the clock, else the critical path. Rounds that met a busy machine count for nothing.
-
-Expected before it was measured, by docs/design/rebalancing.md: rebalanced at the best interval of k
-steps, balancing takes 2 t_c / (k t_s) of the time; t_s is the time of a step, t_c that of a call with
-all that it moves. If another call takes 1 / r of t_c, it saves 1 - 1 / sqrt(r) of that. With Zoltan's
-RCB and r = 2: at 1,000 points a rank, t_c = 3 t_s and k = 45, overhead 13 % and saved 4 %; at 13,000,
-t_c = 2 t_s and k = 75, 5 and 1.5 %; from 50,000 points on less than the margin.
+Simulations of a round take turns of 50 steps in an order drawn anew, so ratios of one round are paired. With a
+core for each rank the time is that of the clock, else the critical path. Our balancer runs twice in each round.
+A ratio shows a difference only if its 95 % interval is outside 1 +- 1 % and outside the interval of these
+identical runs. Rounds that met a busy machine count for nothing.
 """
 
 from __future__ import annotations
@@ -18,16 +13,16 @@ import argparse
 import re
 import sys
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
 
 import pandas as pd
-import plot
 from document import CORES, Report, show
-from driver import COMPARE, OUT, ROOT, Driver, build, has_multijagged
-from matters_finding import comparisons, draw, finding, summary
+from driver import COMPARE, OUT, ROOT, Driver, build
+from intervals import NOT_TOLD_APART, Value
 from results import read_all
+from simulation import AGAIN, MARGIN, limit_of, paired
 
 STUDIES = Path(__file__).parent
 # File, and points in it times the area of a cell in m2.
@@ -35,15 +30,12 @@ SCENES = {
     "dam_break": (ROOT / "examples/mpm/scenes/dam_break.yaml", 32.0),
     "granular_flow": (STUDIES / "granular_flow.yaml", 4.5),
 }
-ZOLTAN, OURS = "zoltan-rcb", "rrcb-arrays[reuse]"  # the program's own default in a loop
-REUSED = "zoltan-rcb[reuse,lock]"
-ALL = [ZOLTAN, REUSED, "zoltan2-mj", "rrcb[reuse]", OURS, "rrcb-arrays[refine=exact,reuse]"]
-STEPS = {200: 40, 1000: 2000, 3000: 2000, 13_000: 1000, 50_000: 400, 500_000: 60}
-ROUNDS = {200: 2, 1000: 10, 3000: 10, 13_000: 10, 50_000: 6, 500_000: 1}
-PICTURES = {
-    "matters.png": ("overhead", "overhead", "Time above the least time of the steps. Line: without rebalancing."),
-    "matters_ratio.png": ("time_vs_none", "time / none", "Time over that without rebalancing."),
-}
+OURS, ZOLTAN = "rrcb-arrays[reuse]", "zoltan-rcb"  # the program's own default in a loop
+METHODS = f"{OURS},{ZOLTAN},zoltan-rcb[reuse,lock],rrcb[reuse],rrcb-arrays[refine=exact,reuse]"
+SIZES = {  # points a rank: steps, rounds, numbers of ranks
+    1000: (2000, 10, (2, 4, 16)), 3000: (2000, 10, (2, 4)), 13_000: (1000, 10, (2,)),
+    50_000: (400, 6, (2,)), 500_000: (60, 1, (2,)),
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -53,44 +45,33 @@ class Cell:
     scene: str
     points: int  # a rank
     ranks: int
-    methods: list[str]
     every: str
-    learned: bool = False
+    steps: int
+    rounds: int
 
     @property
     def name(self) -> str:
-        return f"{self.scene}-{self.points}-{self.ranks}" + "-learned" * self.learned
+        return f"{self.scene}-{self.points}-{self.ranks}" + f"-{self.every}" * (self.every != "auto")
 
-    def run(self, driver: Driver) -> pd.DataFrame:
+    def run(self, driver: Driver, methods: str) -> pd.DataFrame:
         """One round."""
         folder = driver.out / self.name
         folder.mkdir(parents=True, exist_ok=True)
         scene = folder / f"{self.scene}.yaml"
         scene.write_text(sized(self.scene, self.points * self.ranks))
-        words = [f"--scene={scene}", f"--steps={STEPS[self.points]}", f"--every={self.every}",
-                 "--only=simulations", "--repeats=1", "--no-data", *["--cost=learned"] * self.learned]  # fmt: skip
-        driver.run(self.name, self.ranks, self.methods or ["none"], *words)
+        words = [f"--scene={scene}", f"--steps={self.steps}", f"--every={self.every}", "--only=simulations",
+                 "--repeats=1", "--no-data"]  # fmt: skip
+        driver.run(self.name, self.ranks, [methods], *words)
         rows = read_all(folder / "simulation_runs.csv")
         others = re.search(r"used by other processes: (\d+) %", (folder / "run.txt").read_text())
-        key = {"cell": self.name, "scene": self.scene, "points_a_rank": self.points}
-        return rows.assign(**key, others_percent=float(others[1]) if others else 0.0)
+        return rows.assign(cell=self.name, others_percent=float(others[1]) if others else 0.0)
 
 
-def cells(quick: bool, multijagged: bool) -> list[Cell]:
-    methods = [method for method in ALL if multijagged or method != "zoltan2-mj"]
+def cells(every: list[str], quick: bool) -> list[Cell]:
     if quick:
-        return [Cell(scene, 200, 2, [ZOLTAN, OURS], "1,10,auto") for scene in SCENES]
-    found = []
-    for scene in SCENES:
-        for points in (1000, 3000):
-            found.append(Cell(scene, points, 2, methods, "1,10,100,1000,auto"))
-            found.append(Cell(scene, points, 4, [ZOLTAN, REUSED, OURS], "10,100,auto"))
-        found.append(Cell(scene, 13_000, 2, methods, "10,100,1000,auto"))
-        found.append(Cell(scene, 50_000, 2, [ZOLTAN, REUSED, OURS], "100,auto"))
-        found.append(Cell(scene, 500_000, 2, [ZOLTAN, OURS], "auto"))
-        found.append(Cell(scene, 1000, 16, [ZOLTAN, OURS], "10,100,auto"))
-        found += [Cell(scene, points, 2, [], "auto", learned=True) for points in (1000, 3000, 13_000)]
-    return found
+        return [Cell(scene, 200, 2, "auto", 40, 2) for scene in SCENES]
+    return [Cell(scene, points, number, interval, steps, rounds) for scene in SCENES for interval in every
+            for points, (steps, rounds, ranks) in SIZES.items() for number in ranks]  # fmt: skip
 
 
 def sized(name: str, points: int) -> str:
@@ -104,58 +85,80 @@ def sized(name: str, points: int) -> str:
     return re.sub(r"cells: \[.*\]", f"cells: {count}", text)
 
 
-def measure(driver: Driver, chosen: list[Cell], rounds: int, minutes: float, others: float) -> None:
+def measure(driver: Driver, chosen: list[Cell], methods: str, minutes: float, others: float) -> None:
     """Round by round through all cells, on top of what is there already; writes after each round."""
     path = driver.out / "matters_runs.csv"
     runs = read_all(path)
     end = time.monotonic() + 60 * minutes
-    for number in range(1, rounds + 1):
+    for number in range(1, max(cell.rounds for cell in chosen) + 1):
         for cell in chosen:
-            done = of_cell(runs, cell)
-            if number > ROUNDS[cell.points] or done["chunk"].nunique() >= number:
+            done = runs.loc[runs["cell"] == cell.name, "round"].max() if len(runs) else 0
+            if number > cell.rounds or done >= number:
                 continue
             if time.monotonic() > end:
                 print("Out of time; go on with --resume", file=sys.stderr)
                 return
-            found = cell.run(driver)
+            found = cell.run(driver, methods)
             if found["others_percent"].iloc[0] > others:
                 print("A busy machine: the round does not count", file=sys.stderr)
                 continue
-            chunk = int(done["chunk"].max()) + 1 if len(done) else 1
-            runs = pd.concat([runs, found.assign(chunk=chunk, round=chunk)])
+            runs = pd.concat([runs, found.assign(round=number)])
             runs.to_csv(path, index=False)
 
 
-def of_cell(runs: pd.DataFrame, cell: Cell) -> pd.DataFrame:
-    return runs[runs["cell"] == cell.name] if len(runs) else pd.DataFrame(columns=["chunk"])
+def timed(runs: pd.DataFrame) -> pd.DataFrame:
+    """Adds seconds of all and of steps, and of a rebalance: by the clock if ranks have a core each."""
+    runs = runs[runs["error"].isna()]
+    by_clock = runs["ranks"] <= CORES
+    steps, balance = (runs[f"{of}_path_s"] + runs[f"{of}_network_s"] for of in ("step", "balance"))
+    calls = runs["rebalances"].where(runs["rebalances"] > 0)
+    return runs.assign(
+        time=runs["wall_s"].where(by_clock, runs["critical_path_s"]),
+        step=runs["step_s"].where(by_clock, steps) / runs["steps"],
+        call=runs["balance_s"].where(by_clock, balance) / calls,
+        interval=runs["steps"] / calls,
+    )
 
 
-def report(out: Path, names: list[str]) -> None:
-    runs = read_all(out / "matters_runs.csv")
-    if runs.empty:
-        sys.exit("No round was measured.")
-    rows = summary(runs, CORES)
-    rows.to_csv(out / "matters.csv", index=False, float_format="%.6g")
-    pairs = comparisons(runs, rows, CORES, OURS)
-    pairs.to_csv(out / "matters_pairs.csv", index=False, float_format="%.6g")
-    plot.use_style()
-    for name, (column, label, _) in PICTURES.items():
-        plot.save(draw(rows, column, label), out / name)
-    text, tables = finding(rows, pairs, ZOLTAN, OURS)
-    missing = sorted(set(names) - set(runs["cell"]))
-    text += f"\nNot measured: {', '.join(missing)}." * bool(missing)
-    captions = (f"Time over that of {OURS}, each at its best interval", "The rule, of Zoltan's RCB")
-    for caption, table in zip(captions, tables):
-        show(caption, table)
-    print(f"\n{text}")
-    document = Report("When the balancer matters", out)
-    document.text(__doc__.split("\n\n", 1)[1])
-    for name, (_, _, caption) in PICTURES.items():
-        document.picture(name, caption)
-    for caption, table in zip(captions, tables):
-        document.table(caption, table)
-    document.text(text)
-    document.write(out / runs["cell"].iloc[0] / "run.txt")
+def verdict(ratio: Value, noise: Value) -> str:
+    """Of a time over ours, beside that of ours over itself."""
+    if not (ratio.has_interval and noise.has_interval):
+        return "too few rounds"
+    low, high = min(noise.low, 1 / (1 + MARGIN)), max(noise.high, 1 + MARGIN)
+    if ratio.low > high:
+        return "slower"
+    return "faster" if ratio.high < low else NOT_TOLD_APART
+
+
+def finding(runs: pd.DataFrame) -> pd.DataFrame:
+    """A line of texts for each cell: ratios to our balancer, and the interval below which Zoltan's costs MARGIN."""
+    lines = []
+    for name, of in timed(runs).groupby("cell", sort=False):
+        ratios = {m: paired(of, of["time"], m, OURS) or Value(float("nan")) for m in of["method"].unique()}
+        noise = ratios.pop(OURS + AGAIN)
+        medians = of.groupby("method")[["step", "call", "interval"]].median()
+        ours, zoltan = medians.loc[OURS], medians.loc[ZOLTAN]
+        limit = limit_of(zoltan["call"], ours["call"], zoltan["step"])
+        others = {method: ratio.text(3) for method, ratio in ratios.items() if method not in (OURS, ZOLTAN)}
+        lines.append({
+            "cell": name, "rounds": f"{of['round'].nunique()}", ZOLTAN: ratios[ZOLTAN].text(3),
+            "ours again": noise.text(3), "verdict": verdict(ratios[ZOLTAN], noise),
+            "step, ms": f"{1e3 * zoltan['step']:.3f}", "call, ms": f"{1e3 * zoltan['call']:.2f}",
+            "ours, ms": f"{1e3 * ours['call']:.2f}", "steps between": f"{zoltan['interval']:.0f}",
+            "matters below, steps": f"{limit:.0f}", **others,
+        })  # fmt: skip
+    return pd.DataFrame(lines).fillna("")
+
+
+def sentence(found: pd.DataFrame) -> str:
+    judged = found[~found["verdict"].isin([NOT_TOLD_APART, "too few rounds"])]
+    expected = judged["steps between"].astype(float) < judged["matters below, steps"].astype(float)
+    right = (expected == (judged["verdict"] == "slower")).sum()
+    return (
+        f"Zoltan's RCB is told apart from rrcb in {len(judged)} of {len(found)} cells. Rule: it costs more than 1 % if"
+        f" rebalances pay more often than every 200 (1 - 1 / sqrt r) call / step steps, r the quotient of both"
+        f" calls; right in {right} of these."
+    )
 
 
 def main() -> int:
@@ -166,9 +169,8 @@ def main() -> int:
     parser.add_argument("--resume", action="store_true", help="keep the rounds that are in the folder")
     parser.add_argument("--only", default="*", help="names of cells, with * and ?, by commas:"
                         " dam_break-1000-2 has 1,000 points on each of 2 ranks")  # fmt: skip
-    parser.add_argument("--every", help="intervals of these rounds, by commas; those of the cell")
-    parser.add_argument("--methods", help="methods of these rounds, by commas; those of the cell")
-    parser.add_argument("--rounds", type=int, default=10, help="of a cell; 10, of large ones fewer; 0: report only")
+    parser.add_argument("--every", default="auto", help="auto, or steps between rebalances; several by commas")
+    parser.add_argument("--methods", default=METHODS, help=f"with {OURS} first")
     parser.add_argument("--minutes", type=float, default=1e9, help="begin no round later than that")
     parser.add_argument("--others", type=float, default=10,
                         help="processor time of other processes in %% above which a round does not count; 10")  # fmt: skip
@@ -176,20 +178,24 @@ def main() -> int:
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
     if not given.driver:
-        build("rrcb_compare", multijagged=not given.quick)
-    program = given.driver or COMPARE
+        build("rrcb_compare", multijagged=False)
     if not given.resume:
         (given.out / "matters_runs.csv").unlink(missing_ok=True)
-    every = cells(given.quick, has_multijagged(program))
-    chosen = [cell for cell in every if any(fnmatch(cell.name, part) for part in given.only.split(","))]
-    if given.every:
-        chosen = [replace(cell, every=given.every) for cell in chosen]
-    if given.methods:
-        methods = re.findall(r"[^,\[]+(?:\[[^\]]*\])?", given.methods)
-        chosen = [replace(cell, methods=methods) for cell in chosen if not cell.learned]
-    others = 100 if given.quick else given.others
-    measure(Driver(given.out, program), chosen, given.rounds, given.minutes, others)
-    report(given.out, [cell.name for cell in every])
+    chosen = [cell for cell in cells(given.every.split(","), given.quick)
+              if any(fnmatch(cell.name, part) for part in given.only.split(","))]  # fmt: skip
+    driver = Driver(given.out, given.driver or COMPARE)
+    measure(driver, chosen, given.methods, given.minutes, 100 if given.quick else given.others)
+    runs = read_all(given.out / "matters_runs.csv")
+    if runs.empty:
+        sys.exit("No round was measured.")
+    found = finding(runs)
+    show("Time over that of " + OURS, found)
+    print(f"\n{sentence(found)}")
+    document = Report("When the balancer matters", given.out)
+    document.text(__doc__.split("\n\n", 1)[1])
+    document.table(f"Time over that of {OURS}", found)
+    document.text(sentence(found))
+    document.write(given.out / runs["cell"].iloc[0] / "run.txt")
     return 0
 
 

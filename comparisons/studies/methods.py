@@ -1,4 +1,4 @@
-"""What the names of methods say: their parameters, and whose they are."""
+"""What the names of methods say: their parameters."""
 
 from __future__ import annotations
 
@@ -17,10 +17,6 @@ WINNERS = (  # the settings with which it was faster than RCB in the paper
 def parse(method: str) -> tuple[str, dict[str, str]]:
     name, _, inside = method.partition("[")
     return name, dict(re.findall(r"(\w+)=([^,\]]+)", inside))
-
-
-def is_ours(method: str) -> bool:
-    return parse(method)[0] in ("rrcb", "rrcb-exact")
 
 
 def setting_of(method: str) -> tuple[float, ...]:

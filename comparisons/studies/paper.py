@@ -9,12 +9,11 @@ from pathlib import Path
 
 import pandas as pd
 import plot
-from accuracy import CLOUDS, add_accuracy, measure_clouds
 from claims import claim_table
 from document import Report, shared_cores, show
 from driver import COMPARE, OUT, Driver, build
-from methods import RCB, STANDARD, WINNERS
-from paper_figures import CAPTIONS, draw_all
+from methods import RCB, STANDARD, WINNERS, setting_of
+from paper_figures import CAPTIONS, CHART_K, draw_all, speed_ups
 from results import measurements, read
 
 GRID = [
@@ -25,12 +24,12 @@ GRID = [
 ]
 FINEST = "rrcb-sampled[mesh=10,k=1.5,fraction=1]"  # of figures 3 and 4
 RANKS = (2, 4, 6, 8)
-STEPS, STEPS_BY_RANKS, SELDOM = 1000, 500, 300
+STEPS, STEPS_BY_RANKS, STEPS_OF_GRID, SELDOM = 1000, 500, 200, 300
 SEEDS = 200
 
 
 def measure_boxes(driver: Driver) -> None:
-    """Figures 2 to 4, and the statistical domains of the four settings."""
+    """Figures 2 to 4, and the drawn points of the four settings."""
     runs = {"six": RCB, "mesh": FINEST} | {f"setting-{n}": s for n, s in enumerate(WINNERS, 1)}
     for name, method in runs.items():
         driver.run(name, 6 if name == "six" else 4, [method], "--only=calls", "--repeats=1")
@@ -60,6 +59,13 @@ def measure_simulations(driver: Driver) -> None:
     driver.run("seldom", 4, [RCB], "--only=simulations", f"--every={SELDOM}", "--repeats=1")
 
 
+def measure_grid(driver: Driver) -> None:
+    """Figure 5: every mesh, k and fraction of the paper's charts, in the same rounds."""
+    methods = [RCB, *(setting for setting in GRID if setting_of(setting)[1] in CHART_K)]
+    _simulate(driver, "grid", 4, methods[:: 9 if driver.quick else 1], STEPS_OF_GRID, 6)
+    _simulate(driver, "grid-serial", 1, ["none"], STEPS_OF_GRID, 6)
+
+
 def measure_ranks(driver: Driver) -> None:
     """The paper's table 1: other numbers of processes."""
     for ranks in RANKS[:1] if driver.quick else RANKS:
@@ -78,10 +84,19 @@ PARTS = {
     "boxes": measure_boxes,
     "snapshots": measure_snapshots,
     "simulations": measure_simulations,
+    "grid": measure_grid,
     "ranks": measure_ranks,
     "seeds": measure_seeds,
-    CLOUDS: measure_clouds,
 }
+
+
+def rank_table(out: Path) -> pd.DataFrame:
+    """The paper's table 1: speed-up over serial by number of processes."""
+    lines = []
+    for ranks in RANKS:
+        speeds = speed_ups(out / f"ranks-{ranks}", out / "ranks-1")
+        lines += [{"processes": f"{ranks}"} | {method: of.text(2) for method, of in speeds.items()}] * bool(speeds)
+    return pd.DataFrame(lines)
 
 
 def seed_table(out: Path) -> pd.DataFrame:
@@ -107,13 +122,13 @@ def main() -> int:
     report = Report("The paper, measured again", out)
     report.text(shared_cores(max(RANKS)))
     for caption, rows in (("What the paper says", claim_table(out)),
+                          ("Table 1: speed-up by processes", rank_table(out)),
                           ("Excess in %, medians over the seeds", seed_table(out))):  # fmt: skip
         report.table(caption, rows)
         if len(rows):
             show(caption, rows)
     for name in draw_all(out):
         report.picture(name, CAPTIONS[name])
-    add_accuracy(report, out)
     report.write(out / "snapshots/run.txt")
     return 0
 
@@ -122,10 +137,10 @@ def _read_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="comparisons/paper", description=__doc__)
     parser.add_argument("--out", type=Path, default=OUT / "paper",
                         help="folder of the results; comparisons/out/paper")  # fmt: skip
-    usual = [part for part in PARTS if part not in ("seeds", CLOUDS)]
+    usual = [part for part in PARTS if part not in ("seeds", "grid")]
     parser.add_argument("--only", type=_parts, default=usual, metavar="LIST",
                         help=f"what to measure, by commas: {', '.join(PARTS)}; all but seeds and"
-                        f" {CLOUDS}. The rest is read from the folder.")  # fmt: skip
+                        " grid, of a quarter of an hour. The rest is read from the folder.")  # fmt: skip
     parser.add_argument("--quick", action="store_true", help="a small run of everything")
     parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     return parser.parse_args()

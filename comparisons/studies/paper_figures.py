@@ -9,22 +9,25 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import plot
-from history import TIME, draw_history, draw_parts_of
+from history import draw_history
+from intervals import Value, median_of
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
-from methods import RCB, WINNERS
-from results import Results
+from methods import RCB, WINNERS, setting_of
+from PIL import Image
+from results import Results, sound
+from simulation import once
 
 START = "slope-start"
+CHART_K = (1, 1.5, 2)  # of figure 5
 CAPTIONS = {
     "paper_figure_2.png": "Figure 2: the slope in six boxes, by the paper's RCB.",
     "paper_figure_3.png": "Figure 3: the support mesh of 10 × 10 cells (red) of one sub-domain of"
     " four, and the centroids of its cells (green).",
-    "paper_figure_4.png": "Figure 4: the statistical domain of that sub-domain, 1.5 σ, 100 % of the"
+    "paper_figure_4.png": "Figure 4: the statistical domain of the four sub-domains, 1.5 σ, 100 % of the"
     " points. Bands between the cells stay empty, and the incline is poorly represented.",
-    "paper_figure_5.png": "Figure 5: load unbalance of the four sub-domains over the steps, under"
-    " RCB and four settings of RRCB. Scales differ.",
+    "paper_figure_5.png": "Figure 5: speed-up of the whole simulation on 4 ranks, rebalanced at each step.",
     "paper_figure_6.png": "Figure 6: the largest load unbalance of a sub-domain over the steps.",
     "paper_cycle_map.png": "The map from one cut to the next.",
 }
@@ -32,11 +35,27 @@ CAPTIONS = {
 
 def draw_all(out: Path) -> list[str]:
     """Draws the figures whose files are there; returns their names."""
-    figures = (draw_boxes, draw_mesh, draw_domain, draw_unbalance, draw_largest, draw_map)
+    figures = (draw_boxes, draw_mesh, draw_domain, draw_speed_ups, draw_largest, draw_map)
     drawn = {name: figure for name, draw in zip(CAPTIONS, figures) if (figure := draw(out))}
     for name, figure in drawn.items():
         plot.save(figure, out / name)
+    draw_together(out, [name for name in drawn if name != "paper_cycle_map.png"])
     return list(drawn)
+
+
+def draw_together(out: Path, names: list[str]) -> None:
+    """Small, one below the other, for the page that discusses them."""
+    images = [plot.plt.imread(out / name) for name in names]
+    if not images:
+        return
+    heights = [image.shape[0] / image.shape[1] for image in images]
+    figure, grid = plot.panels(len(images), 1, 4, 4 * sum(heights), height_ratios=heights)
+    for axes, image in zip(grid[:, 0], images):
+        axes.imshow(image, interpolation="antialiased")
+        axes.axis("off")
+    path = out / "paper_figure_all.png"
+    plot.save(figure, path)
+    Image.open(path).convert("RGB").quantize(32).save(path, optimize=True)
 
 
 def draw_boxes(out: Path) -> Figure | None:
@@ -66,13 +85,11 @@ def draw_mesh(out: Path) -> Figure | None:
 
 
 def draw_domain(out: Path) -> Figure | None:
-    results = Results(out / "mesh")
-    cells, points = sub_domain(results), results.data("statistical", START)
+    points = Results(out / "mesh").data("statistical", START)
     if points.empty:
         return None
-    inside = points["x"].between(cells["lower_x"].min(), cells["upper_x"].max())
-    figure, axes = _panel(points[inside])
-    plot.draw_cloud(axes, points[inside], plot.POINT_COLOUR, largest=2)
+    figure, axes = _panel(points)
+    plot.draw_cloud(axes, points, plot.POINT_COLOUR, largest=2)
     plot.show_lengths(axes)
     return figure
 
@@ -93,16 +110,37 @@ def _histories(out: Path) -> dict[str, pd.DataFrame]:
     return {name: found[name] for name in (RCB, *WINNERS) if name in found}
 
 
-def draw_unbalance(out: Path) -> Figure | None:
-    histories = _histories(out)
-    if not histories:
+def draw_speed_ups(out: Path) -> Figure | None:
+    speeds = speed_ups(out / "grid", out / "grid-serial")
+    settings = {method: setting_of(method) for method in speeds if setting_of(method)}
+    if not settings:
         return None
-    figure, grid = plot.panels(len(histories), 1, 8, 1.6 * len(histories) + 0.8, sharex=True)
-    for axes, (method, history) in zip(grid[:, 0], histories.items()):
-        draw_parts_of(axes, method, history)
-        axes.grid(True, axis="y")
-    grid[-1, 0].set_xlabel(TIME)
-    return figure
+    fractions = sorted({setting[2] for setting in settings.values()}, reverse=True)
+    figure, grid = plot.panels(1, len(fractions), 3 * len(fractions) + 0.5, 3.4, sharey=True)
+    points = Results(out / "grid").all_runs["points"].iloc[0]
+    for axes, fraction in zip(grid[0], fractions):
+        for k, line in zip(CHART_K, (":", "-", "--")):
+            found = sorted((mesh, speeds[method]) for method, (mesh, of, part) in settings.items()
+                           if (of, part) == (k, fraction))  # fmt: skip
+            if found:
+                meshes, values = zip(*found)
+                numbers, lows, highs = zip(*((v.number, *v.reach) for v in values))
+                look = {"color": plot.method_style("rrcb-sampled").colour, "linestyle": line, "marker": "."}
+                plot.draw_line(axes, meshes, numbers, lows, highs, label=f"k = {k:g}", **look)
+        axes.axhline(speeds[RCB].number, color=plot.method_style(RCB).colour, label="the paper's RCB")
+        axes.set(title=f"{points * fraction:,.0f} points drawn", xlabel="cells along an axis")
+        axes.grid(True)
+    grid[0, 0].set_ylabel("speed-up of the simulation")
+    return plot.legend_above(figure, grid[0, 0])
+
+
+def speed_ups(folder: Path, serial: Path) -> dict[str, Value]:
+    """Of each method: median serial critical path / its own, over the rounds."""
+    runs, alone = (once(sound(Results(of).all_runs)) for of in (folder, serial))
+    if runs.empty or alone.empty:
+        return {}
+    ratios = alone["critical_path_s"].median() / runs.set_index("method")["critical_path_s"]
+    return {method: median_of(of) for method, of in ratios.groupby(level=0, sort=False)}
 
 
 def draw_largest(out: Path) -> Figure | None:

@@ -175,8 +175,8 @@ def parts_in(points: pd.DataFrame, boxes: pd.DataFrame) -> np.ndarray:
 
 def draw_unbalance(results: Results) -> Figure | None:
     """The largest load unbalance of a part over the steps of the simulation, the worst of each window
-    of steps."""
-    return draw_history(results.histories())
+    of steps. Without learned costs, which even the time and not the points."""
+    return draw_history({name: of for name, of in results.histories().items() if name != "learned"})
 
 
 def draw_rank_times(results: Results) -> Figure | None:

@@ -12,6 +12,7 @@ import pandas as pd
 from intervals import Value, interval95, median_of
 
 AGAIN = " again"  # behind the name of what is measured a second time
+MARGIN = 0.01  # of the time of a program, from which a difference matters
 KEY = ["ranks", "points", "steps", "every"]
 MEDIANS = (
     "wall_s balance_s step_s mean_imbalance worst_imbalance front_x_m moved_m mass_kg path_points"
@@ -82,13 +83,15 @@ def _close_fixed_imbalances(rows: pd.DataFrame, of_method: object) -> None:
 
 
 def noise(runs: pd.DataFrame, calls: pd.DataFrame) -> pd.DataFrame:
-    """How far what was measured twice is from itself: simulations without rebalancing, and calls of
+    """How far what was measured twice is from itself: simulations under the first method, and calls of
     Zoltan's RCB on each workload."""
     cases = []
-    if len(runs) and runs.loc[runs["method"].isin(["none", "none" + AGAIN]), "error"].isna().all():
-        scene = runs["scene"].iloc[0]
-        cases.append((scene, "none", runs, "wall_s", "none", "round"))
-        cases.append((scene, "none critical path", runs, "critical_path_s", "none", "round"))
+    for method in runs.loc[runs["method"].str.endswith(AGAIN), "method"].unique() if len(runs) else ():
+        twice = method.removesuffix(AGAIN)
+        if runs.loc[runs["method"].isin([method, twice]), "error"].isna().all():
+            scene = runs["scene"].iloc[0]
+            cases.append((scene, twice, runs, "wall_s", twice, "round"))
+            cases.append((scene, f"{twice} critical path", runs, "critical_path_s", twice, "round"))
     for workload, turns in calls.groupby("workload", sort=False) if len(calls) else ():
         cases.append((workload, "zoltan-rcb", turns, "time_ms", "zoltan-rcb", "turn"))
     found = []
@@ -131,10 +134,23 @@ def uneven_work(rounds: pd.DataFrame) -> pd.Series:
 
 def slope_of_work(rounds: pd.DataFrame) -> Value | None:
     """Per cent that the steps take longer for 1 % more points on the fullest rank: the slope of a
-    line through all methods of a round, median of the rounds."""
+    line through the balanced methods of a round, median of the rounds. Without balancing the points
+    lie elsewhere, which is not what uneven points cost."""
     slopes = []
-    for _, simulated in rounds.groupby("round"):
+    for _, simulated in rounds[rounds["rebalances"] > 0].groupby("round"):
         points, work = uneven_points(simulated), uneven_work(simulated)
-        if len(simulated) > 2 and points.max() - points.min() > 0.01:
+        if len(simulated) > 2 and points.max() - points.min() > 0.001:
             slopes.append(np.polyfit(points, work, 1)[0])
     return median_of(slopes) if slopes else None
+
+
+def limit_of(call: float, other: float, step: float) -> float:
+    """Steps between rebalances below which the slower of two balancers costs a program MARGIN of its
+    time; call, other and step in the same unit.
+
+    At the best interval of k steps balancing takes 2 call / (k step) of the time, by
+    docs/design/rebalancing.md; the best interval grows with the root of the call, so a call that takes
+    1 / r of the time saves 1 - 1 / sqrt(r) of that.
+    """
+    slower, faster = max(call, other), min(call, other)
+    return 2 * (1 - (faster / slower) ** 0.5) * slower / (MARGIN * step)

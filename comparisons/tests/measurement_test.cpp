@@ -49,6 +49,15 @@ TEST_F(MeasurementTest, exact_methods_are_exact_with_any_lists) {
     }
 }
 
+TEST_F(MeasurementTest, counted_keys_cut_the_curve_within_a_hundredth_of_a_part) {
+    for (const Measurement& result :
+         run(read_methods("hilbert-counts,zoltan-hsfc"), Lists::parts)) {
+        EXPECT_EQ(result.error, "") << result.method;
+        EXPECT_LE(result.imbalances.at(0), 1.01) << result.method;
+        EXPECT_LT(result.traffic.bytes, 400'000) << result.method;
+    }
+}
+
 TEST_F(MeasurementTest, all_lists_tell_the_same_parts) {
     const std::vector<Method> methods =
         read_methods("zoltan-rcb,zoltan-hsfc,rrcb-sampled,rrcb,rrcb-arrays");

@@ -68,6 +68,7 @@ TEST(Method, compares_every_method_in_its_best_settings_if_asked_for_all) {
     const std::vector<std::string> expected = {"zoltan-rcb",
                                                "zoltan-rib",
                                                "zoltan-hsfc",
+                                               "hilbert-counts",
                                                "root-rcb",
                                                "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",
                                                "rrcb-sampled[mesh=4,k=2,fraction=0.125]",

@@ -54,10 +54,12 @@ TEST(SimulationRounds, have_a_row_for_each_run) {
 
 TEST(SimulationRounds, print_their_paths_and_why_one_failed) {
     std::ostringstream out;
-    print_round(out, 2, two_methods());
-    EXPECT_EQ(out.str(),
-              "broken failed: no balance today\n"
-              "Simulations, round 2: critical paths of 16.625 to 16.625 s\n");
+    print_round(out, {2, 6, 30.2}, two_methods());
+    EXPECT_EQ(
+        out.str(),
+        "broken failed: no balance today\n"
+        "Round 2 of 6: with a core for every rank a simulation takes 16.625 to 16.625 s; about "
+        "60 s left\n");
 }
 
 }  // namespace

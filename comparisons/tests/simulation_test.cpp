@@ -281,7 +281,8 @@ TEST(Simulation, rounds_take_another_seed_each_and_keep_the_first_history) {
     ASSERT_EQ(methods.size(), 4U);
     EXPECT_EQ(methods[0].method, "none");
     EXPECT_EQ(methods[2].method, "rrcb-sampled[mesh=2]");
-    EXPECT_EQ(methods[3].method, "none again");
+    EXPECT_EQ(methods[3].method, "zoltan-rcb again");
+    EXPECT_EQ(methods[3].runs[2].mean_imbalance, methods[1].runs[2].mean_imbalance);
     for (const SimulationRounds& rounds : methods) {
         ASSERT_EQ(rounds.runs.size(), 3U) << rounds.method;
         for (std::size_t round = 0; round < 3; ++round) {

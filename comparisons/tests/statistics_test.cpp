@@ -1,7 +1,10 @@
 #include "statistics.hpp"
 
+#include "counter_random.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace comparisons {
@@ -64,6 +67,17 @@ TEST(Statistics, divides_what_was_measured_in_the_same_turn) {
     EXPECT_EQ(paired_ratios(times, reference), (std::vector<double>{0.5, 3}));
     EXPECT_TRUE(paired_ratios(times, std::vector<double>{4}).empty());
     EXPECT_TRUE(paired_ratios(times, std::vector<double>{4, 0}).empty());
+}
+
+TEST(DrawnOrder, has_each_number_once_in_another_order_each_turn) {
+    const std::vector<std::size_t> first = drawn_order(20, 1, 0);
+    EXPECT_EQ(first, drawn_order(20, 1, 0));
+    EXPECT_NE(first, drawn_order(20, 1, 1));
+    EXPECT_NE(first, drawn_order(20, 2, 0));
+    std::vector<std::size_t> ascending = first;
+    std::ranges::sort(ascending);
+    for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(ascending[i], i);
+    EXPECT_TRUE(drawn_order(0, 1, 0).empty());
 }
 
 }  // namespace

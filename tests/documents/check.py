@@ -19,7 +19,7 @@ from reference import faulty_comments  # noqa: E402
 
 # What stands for names in messages.
 PLACE = re.compile(r"\b(?:[A-Z]|[A-Z]{4,})\b")
-FOLDERS = ("benchmarks", "cmake", "comparisons", "docs", "examples", "include", "packaging", "python", "src",
+FOLDERS = ("cmake", "comparisons", "docs", "examples", "include", "packaging", "python", "src",
            "tests", "tools")
 # Made by a run.
 MADE = ("comparisons/out", "examples/mpm/out")

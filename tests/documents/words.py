@@ -18,8 +18,8 @@ LONG_SHARE = 0.03
 # Words as `wc -w` counts them. Others may have 250; all but examples/mpm together TOTAL.
 TOTAL = 16000
 BUDGETS = {
-    "README.md": 820, "CHANGELOG.md": 300, "CONTRIBUTING.md": 480, "comparisons/README.md": 800,
-    "comparisons/columns.md": 950, "docs/choosing.md": 1080, "docs/edge_cases.md": 350,
+    "README.md": 820, "CHANGELOG.md": 300, "CONTRIBUTING.md": 480, "comparisons/README.md": 700,
+    "comparisons/columns.md": 950, "docs/choosing.md": 1130, "docs/edge_cases.md": 350,
     "docs/errors.md": 830, "docs/first_program.md": 380, "docs/hosts.md": 640,
     "docs/install.md": 600, "docs/loop.md": 510, "docs/machines.md": 490,
     "docs/parameters.md": 880, "docs/performance.md": 730, "docs/python.md": 400,

@@ -81,9 +81,9 @@ class SentenceTest(FolderTest):
         self.assertNotIn("time of rrcb-arrays", call)  # whose exact setting is not there
         self.assertIn("took 0.500 of the time without rebalancing", gain)
         self.assertIn("1.000 [0.990, 1.010] of that under Zoltan's RCB (not told apart); medians of 6", gain)
-        # A step takes 100 ms; the 200 ms between the two are 1 % of 200 steps.
+        # A step takes 100 ms; r = 3: 200 (1 - 1 / sqrt 3) 300 / 100.
         self.assertIn("100 ms, 1 steps, under rrcb and 300 ms, 3 steps, under Zoltan's RCB", matter)
-        self.assertIn("one every 200 steps or more often", matter)
+        self.assertIn("a rebalance pays every 254 steps or more often", matter)
 
     def test_say_that_methods_are_not_told_apart(self) -> None:
         rows = [measured("zoltan-rcb", 8, 1), measured("rrcb", 6, 1, spread=0.5)]
@@ -103,12 +103,18 @@ class SentenceTest(FolderTest):
         _, ghosts = report.sentences(self.results(ROWS))
         self.assertIn("15 % of the points, 3 times those of Zoltan's RCB", ghosts)
 
-    def test_work_follows_points_by_the_slope_through_methods(self) -> None:
-        # none: points 60 % above the others, work 1.58 against 1.1: 0.48 / 0.6.
-        text = report.work_sentence(pd.DataFrame(ROUNDS))
-        self.assertIn("made the steps 0.80 % longer", text)
-        self.assertIn("held 0.0 % more points than the mean", text)
-        self.assertIn("took 10.0 % longer than the mean", text)
+    def test_work_follows_points_by_the_slope_through_balanced_methods(self) -> None:
+        balanced = [("a", 2500, 1.1), ("b", 2550, 1.12), ("c", 2600, 1.14)]
+        rounds = [simulated(m, i, 1, path_points=n, step_path_s=s) for i in range(6) for m, n, s in balanced]
+        # Of 2 and 4 % more points 2 and 4 % of a second more; a run that does not balance has no say.
+        text = report.work_sentence(pd.DataFrame(rounds + ROUNDS[::4]))
+        self.assertIn("made the steps 1.00 % longer.", text)
+        self.assertEqual(report.work_sentence(pd.DataFrame(ROUNDS)), "")
+
+    def test_a_step_pays_for_uneven_points_and_time(self) -> None:
+        paid = report.paid_table(pd.DataFrame(ROUNDS)).set_index("method")
+        self.assertEqual(paid.loc["none", ["uneven points %", "uneven time %"]].tolist(), ["60.00", "58.00"])
+        self.assertEqual(paid.loc["rrcb", ["uneven points %", "uneven time %"]].tolist(), ["0.00", "10.00"])
 
 
 class TableTest(FolderTest):
@@ -127,7 +133,7 @@ class TableTest(FolderTest):
         row = report.simulation_table(results.runs, results.rounds).set_index("method").loc["rrcb"]
         self.assertEqual(row["critical path s"], "2.500 [1.000, 5.000]")
         self.assertEqual(row["speed-up over none"], "2.00")
-        self.assertEqual(row["as zoltan-rcb"], "1.00 [0.99, 1.01], not told apart")
+        self.assertEqual(row["speed-up over zoltan-rcb"], "1.00 [0.99, 1.01], not told apart")
         self.assertEqual((row["rebalances"], row["moved %"]), ("2", "12.5"))
 
 

@@ -7,8 +7,10 @@ from math import isnan
 
 import support  # noqa: F401, before the studies
 
+import matters
 import pandas as pd
-from simulation import KEY, MEDIANS, noise, summarise
+from intervals import NOT_TOLD_APART, Value
+from simulation import KEY, MEDIANS, limit_of, noise, summarise
 
 
 def run(method: str, number: int, steps: float, balance: float = 0, **more: object) -> dict:
@@ -75,7 +77,7 @@ class SummaryTest(unittest.TestCase):
 
 class NoiseTest(unittest.TestCase):
     def test_is_that_of_pairs(self) -> None:
-        again = [run("none again", i, path) for i, path in enumerate((10, 16, 9))]
+        again = [run("fast again", i, path) for i, path in enumerate((5, 20, 7.5))]
         calls = pd.DataFrame(
             [(name, "fog", turn, time) for name, times in (("zoltan-rcb", (4, 8)), ("rrcb", (1, 1)),
                                                            ("zoltan-rcb again", (5, 8)))
@@ -83,10 +85,25 @@ class NoiseTest(unittest.TestCase):
         )  # fmt: skip
         rows = noise(pd.DataFrame([*RUNS, *again]), calls)
         self.assertEqual(rows["workload"].tolist(), ["slope", "slope", "fog"])
-        self.assertEqual(rows["what"].tolist(), ["none", "none critical path", "zoltan-rcb"])
+        self.assertEqual(rows["what"].tolist(), ["fast", "fast critical path", "zoltan-rcb"])
         self.assertEqual(rows["ratio"].tolist(), [1, 1, 1.125])
-        again[2] = FAILED | {"method": "none again"}
+        again[2] = FAILED | {"method": "fast again"}
         self.assertEqual(len(noise(pd.DataFrame([*RUNS, *again]), calls)), 1)
+
+
+class MatterTest(unittest.TestCase):
+    def test_the_limit_is_that_of_both_best_intervals(self) -> None:
+        # r = 4: 200 (1 - 1/2) 8 / 2 steps, whichever of the two is slower.
+        self.assertEqual([limit_of(8, 2, 2), limit_of(2, 8, 2)], [400, 400])
+        self.assertEqual(limit_of(5, 5, 1), 0)
+
+    def test_identical_runs_are_not_told_apart(self) -> None:
+        noise = Value(1.02, 1.015, 1.03)
+        self.assertEqual(matters.verdict(noise, noise), NOT_TOLD_APART)
+        self.assertEqual(matters.verdict(Value(1.06, 1.04, 1.08), noise), "slower")
+        self.assertEqual(matters.verdict(Value(0.9, 0.85, 0.95), noise), "faster")
+        self.assertEqual(matters.verdict(Value(1.06, 1.02, 1.08), noise), NOT_TOLD_APART)
+        self.assertEqual(matters.verdict(Value(2), noise), "too few rounds")
 
 
 if __name__ == "__main__":

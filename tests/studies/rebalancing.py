@@ -7,11 +7,13 @@ import ctypes
 from collections.abc import Iterator
 from pathlib import Path
 
+import support  # noqa: F401, before the studies
+
 import numpy as np
 import pandas as pd
 import plot
 from document import markdown_table
-from driver import OUT, PROGRAMS, Driver, build
+from driver import OUT, ROOT, Driver, build
 from load_histories import NOISES, History, false_starts, foreign, generated, noise, recorded, strangers
 from matplotlib.figure import Figure
 
@@ -168,7 +170,7 @@ def draw_intervals(rows: pd.DataFrame) -> Figure:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="comparisons/studies/run controller", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tests/studies/rebalancing.py", description=__doc__)
     parser.add_argument("--out", type=Path, default=OUT, help="folder of the results; comparisons/out")
     parser.add_argument("--quick", action="store_true", help="coarse scenes, one seed")
     arguments = parser.parse_args()
@@ -184,7 +186,7 @@ def main() -> None:
         "false starts": false_starts(SEEDS[0]),
         "recorded": [history for run in runs for history in recorded(run)],
     }
-    rows = study(Replay(PROGRAMS / "librrcb_rule_replay.so"), groups)
+    rows = study(Replay(ROOT / "build/release/tests/studies/librrcb_rule_replay.so"), groups)
     columns = ["trace", "rule", "cost", "regret"]
     rows[columns].to_csv(arguments.out / "controller.csv", index=False, float_format="%.6g")
     plot.use_style()

@@ -1,0 +1,249 @@
+"""What accuracy costs: one call of RRCB at nine tolerances on twelve sorted clouds, six shapes in 2-D and 3-D.
+
+Methods take turns, each turn in an order drawn anew, and times are ratios to Zoltan's RCB of the same turn.
+Rounds, bytes, imbalance and ghosts are exact counts, which no busy machine disturbs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from math import inf
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import plot
+from document import CORES, Report, show
+from driver import COMPARE, OUT, Driver, build, has_multijagged
+from intervals import ONE, Value, in_digits, mean_of
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from results import measurements, read
+from simulation import AGAIN, paired
+
+CLOUDS = {
+    "uniform": "#000000", "slope": "#0072B2", "spiral": "#009E73",
+    "clusters": "#D55E00", "lattice": "#CC79A7", "shell": "#E69F00",
+}  # fmt: skip
+ZOLTAN, EXACT = "zoltan-rcb", "rrcb-exact"
+TOLERANCES = {
+    "none": "rrcb[refine=none]", "1.1": "rrcb[tol=1.1]", "1.05": "rrcb[tol=1.05]", "1.02": "rrcb[tol=1.02]",
+    "1.01": "rrcb", "1.003": "rrcb[tol=1.003]", "1.001": "rrcb[tol=1.001]", "1.0003": "rrcb[tol=1.0003]",
+    "exact": EXACT,
+}  # fmt: skip
+RIVALS = {
+    ZOLTAN: "Zoltan's RCB", "zoltan-hsfc": "Zoltan's HSFC", "hilbert-counts": "counted keys",
+    "zoltan2-mj": "multijagged",
+}  # fmt: skip
+MESHES = (2, 4, 8, 16, 32)
+LOOKS = {"bytes": "bytes / Zoltan's RCB", "excess_percent": "imbalance left [%]"}
+
+
+def measure(driver: Driver, parts: list[int], points: int, repeats: int) -> None:
+    methods = [*TOLERANCES.values(), *RIVALS]
+    if not has_multijagged(driver.program):
+        methods.remove("zoltan2-mj")
+    words = ["--no-data", f"--repeats={repeats}", f"--points={points}"]
+    for number in parts:
+        meshes = [f"rrcb[mesh={mesh}]" for mesh in MESHES] * (number == parts[0])
+        for cloud in list(CLOUDS)[:: len(CLOUDS) if driver.quick else 1]:
+            for dimension in (2, 3):
+                driver.run(f"{cloud}-{dimension}-{number}", number, methods + meshes, f"--cloud={cloud}",
+                           f"--dim={dimension}", *words)  # fmt: skip
+
+
+def rows_of(out: Path) -> pd.DataFrame:
+    """A row for each cloud, number of parts and method; times as ratios to Zoltan's RCB and to exact."""
+    found = []
+    for folder in sorted(path.parent for path in out.glob("*/call_times.csv")):
+        turns = read(folder / "call_times.csv")
+        for row in measurements(read(folder / "table.csv")).to_dict("records"):
+            times = {of: _ratio(turns, row["method"], of) for of in (ZOLTAN, EXACT)}
+            found.append(row | {"cloud": row["workload"], "time": times[ZOLTAN], "time_over_exact": times[EXACT],
+                                "is_timed": row["repeats"] > 1})  # fmt: skip
+    rows = pd.DataFrame(found)
+    for name in ("bytes", "ghosts"):
+        of = rows[rows["method"] == ZOLTAN].set_index(["case", "ranks"])[name]
+        keys = pd.MultiIndex.from_frame(rows[["case", "ranks"]])
+        rows[f"{name}_over_zoltan"] = rows[name] / of.reindex(keys).to_numpy()
+    return rows
+
+
+def _ratio(turns: pd.DataFrame, method: str, reference: str) -> Value:
+    return paired(turns, turns["time_ms"], method, reference, "turn") or Value(float("nan"))
+
+
+def noise_of(out: Path) -> Value:
+    """Zoltan's RCB over itself, of all turns: an A/A test, whose interval must contain 1."""
+    turns = pd.concat([read(path).assign(turn=lambda of, path=path: path.parent.name + of["turn"].astype(str))
+                       for path in out.glob("*/call_times.csv")])  # fmt: skip
+    return _ratio(turns, ZOLTAN + AGAIN, ZOLTAN)
+
+
+def break_even(row: pd.Series, exact: pd.Series, step_ns: float) -> float:
+    """Steps between two rebalances from which exact cuts pay: what they cost more over what each step
+    then saves. Calls and steps share the cores alike."""
+    dearer = exact["time_ms"] - row["time_ms"]
+    saved = (row["imbalance"] - exact["imbalance"]) * row["points"] / min(CORES, row["ranks"]) * step_ns / 1e6
+    return 0.0 if dearer <= 0 else dearer / saved if saved > 0 else inf
+
+
+def table_of(rows: pd.DataFrame, parts: int, step_ns: float) -> pd.DataFrame:
+    """A line for each setting: the median of the clouds, and the worst in brackets."""
+    rows = rows[rows["ranks"] == parts].set_index("case")
+    by_method = dict(iter(rows.groupby("method")))
+    exact, lines = by_method[EXACT], []
+    for name, method in [*TOLERANCES.items(), *((name, method) for method, name in RIVALS.items())]:
+        if method not in by_method:
+            continue
+        of = by_method[method].loc[exact.index]
+        line = {"setting": name, "imbalance left, %": _both(100 * (of["imbalance"] - 1), ".3f"),
+                "bytes / exact": _both(of["bytes"] / exact["bytes"], ".2f"),
+                "rounds": _both(of["rounds"], ".0f") if of["rounds"].notna().all() else "–",
+                "ghosts / Zoltan's RCB": _both(of["ghosts_over_zoltan"], ".2f")}  # fmt: skip
+        if of["is_timed"].all():
+            steps = pd.Series([break_even(of.loc[case], exact.loc[case], step_ns) for case in exact.index])
+            line["time / exact"] = mean_of(of["time_over_exact"]).text(2) if method != EXACT else "1"
+            line["exact pays from, steps"] = _both(steps, ".0f") if name in TOLERANCES and method != EXACT else "–"
+        lines.append(line)
+    return pd.DataFrame(lines).fillna("–")
+
+
+def _both(values: pd.Series, form: str) -> str:
+    return f"{values.median():{form}} ({values.max():{form}})"
+
+
+def choice_table(rows: pd.DataFrame, parts: int) -> pd.DataFrame:
+    """For each cloud the finest tolerance that costs no more than the widest: in rounds and bytes, to 10 %."""
+    lines = []
+    for case, of in rows[rows["ranks"] == parts].groupby("case", sort=False):
+        by = of.set_index("method")
+        least = by.loc[TOLERANCES["1.1"]]
+        free = [name for name, method in TOLERANCES.items() if name != "none"
+                and by.loc[method, "rounds"] <= least["rounds"] and by.loc[method, "bytes"] <= 1.1 * least["bytes"]]
+        default, exact = by.loc["rrcb"], by.loc[EXACT]
+        lines.append({
+            "points": case.removesuffix(" sorted"), "costs no more than 1.1": free[-1],
+            "rounds of 1.01": f"{default['rounds']:.0f}", "of exact": f"{exact['rounds']:.0f}",
+            "bytes of exact / of 1.01": in_digits(exact["bytes"] / default["bytes"], 2),
+            "left at 1.01, %": f"{100 * (default['imbalance'] - 1):.3f}",
+        })  # fmt: skip
+    return pd.DataFrame(lines)
+
+
+def draw(rows: pd.DataFrame) -> Figure:
+    """The price of accuracy: a call of RRCB by the tolerance asked for, a line for each cloud (2-D solid, 3-D
+    dashed) and a column for each number of parts. Grey: other methods, geometric means over the clouds."""
+    parts = sorted(rows["ranks"].unique())
+    first = "time / Zoltan's RCB" if rows["is_timed"].any() else "rounds of counting"
+    figure, grid = plot.panels(3, len(parts), 3.6 * len(parts) + 0.6, 7.5, sharex=True, sharey="row")
+    for column, number in enumerate(parts):
+        here = rows[rows["ranks"] == number]
+        for axes, name in zip(grid[:, column], ("time" if "time" in first else "rounds", *LOOKS)):
+            _draw_panel(axes, here, name)
+        grid[0, column].set_title(f"{number} parts")
+    for axes, label in zip(grid[:, 0], (first, *LOOKS.values())):
+        axes.set_ylabel(label)
+    for axes in grid[-1]:
+        axes.set_xticks(range(len(TOLERANCES)), TOLERANCES, rotation=60)
+        axes.set_xlabel("tolerance asked for")
+    return plot.legend_above(figure, grid[0, 0], inches=1.2)
+
+
+def _draw_panel(axes: Axes, rows: pd.DataFrame, name: str) -> None:
+    for (cloud, dimension), of in rows.groupby(["cloud", "dim"], sort=False):
+        values = [_value(of[of["method"] == method].iloc[0], name) for method in TOLERANCES.values()]
+        look = {"color": CLOUDS[cloud], "linestyle": "-" if dimension == 2 else "--", "marker": ".",
+                "label": cloud if dimension == 2 else None}  # fmt: skip
+        numbers, lows, highs = zip(*((v.number, *v.reach) for v in values))
+        plot.draw_line(axes, range(len(values)), numbers, lows, highs, **look)
+    levels: dict[float, list[str]] = {}
+    for method in RIVALS if name != "rounds" else ():
+        values = [_value(row, name).number for _, row in rows[rows["method"] == method].iterrows()]
+        if values:
+            levels.setdefault(round(float(np.exp(np.mean(np.log(values)))), 6), []).append(RIVALS[method])
+    for level, names in levels.items():
+        axes.axhline(level, color="#999999", linewidth=0.8, zorder=0)
+        axes.text(0, level, ", ".join(names), fontsize=7, color="#666666", va="bottom")
+    axes.set_yscale("log" if name != "rounds" else "linear")
+    axes.grid(True, axis="y")
+
+
+def _value(row: pd.Series, name: str) -> Value:
+    if name == "time":
+        return row["time"]
+    return Value({"rounds": row["rounds"], "bytes": row["bytes_over_zoltan"],
+                  "excess_percent": 100 * row["excess"]}[name])  # fmt: skip
+
+
+def draw_meshes(rows: pd.DataFrame) -> Figure:
+    """The support mesh: cost of a call to 1.01 with a mesh of so many cells along an axis, over that of RRCB's
+    own choice."""
+    names = ["rounds", "bytes", *["time"] * bool(rows["is_timed"].any())]
+    rows = rows[rows["ranks"] == rows["ranks"].min()].set_index("method")
+    figure, grid = plot.panels(1, len(names), 3.4 * len(names), 3.2)
+    for axes, name in zip(grid[0], names):
+        for (cloud, dimension), of in rows.groupby(["cloud", "dim"], sort=False):
+            values = of["time"].map(lambda v: v.number) if name == "time" else of[name]
+            ratios = [values[f"rrcb[mesh={mesh}]"] / values["rrcb"] for mesh in MESHES]
+            axes.plot(MESHES, ratios, color=CLOUDS[cloud], linestyle="-" if dimension == 2 else "--",
+                      label=cloud if dimension == 2 else None)  # fmt: skip
+        axes.set(xscale="log", yscale="log", title=f"{name} / those of the own mesh", xlabel="cells along an axis")
+        axes.set_xticks(MESHES, map(str, MESHES))
+        axes.grid(True)
+    return plot.legend_above(figure, grid[0, 0], inches=1.2)
+
+
+def report(out: Path, step_ns: float) -> None:
+    rows = rows_of(out)
+    timed, parts = bool(rows["is_timed"].any()), sorted(rows["ranks"].unique())
+    most = max(rows.loc[rows["is_timed"] == timed, "ranks"].min(), min(16, parts[-1]))
+    counts = rows[["cloud", "dim", "ranks", "method", "imbalance", "rounds", "bytes", "ghosts"]]
+    counts.to_csv(out / "price.csv", index=False, float_format="%.9g")
+    plot.use_style()
+    pictures = {"price.png": draw, "meshes.png": draw_meshes}
+    for name, make in pictures.items():
+        plot.save(make(rows), out / name)
+    tables = {f"{most} parts: median of the clouds, worst in brackets": table_of(rows, most, step_ns),
+              f"{most} parts: by cloud": choice_table(rows, most)}  # fmt: skip
+    found = Report("What accuracy costs", out)
+    for name, make in pictures.items():
+        found.picture(name, " ".join(make.__doc__.split()))
+    for caption, table in tables.items():
+        found.table(caption, table)
+        show(caption, table)
+    if timed:
+        again = noise_of(out)
+        verdict = "told apart from itself: do not believe the times" if again.is_apart(ONE) else "not told apart"
+        text = f"A/A: Zoltan's RCB over itself {again.text(3)}, {verdict}. A step takes {step_ns:g} ns a point."
+        found.text(text)
+        print(f"\n{text}")
+    found.write(next(out.glob("*/run.txt"), out))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="comparisons/run --price", description=__doc__,
+                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
+    parser.add_argument("--out", type=Path, default=OUT / "price", help="folder of the results; comparisons/out/price")
+    parser.add_argument("--parts", default="4,16", help="numbers of parts, one a rank; 4,16")
+    parser.add_argument("--points", type=int, default=100_000, help="of each cloud; 100000")
+    parser.add_argument("--repeats", type=int, default=7, help="turns; 7. With 1 counts alone, no times")
+    parser.add_argument("--step-ns", type=float, default=25,
+                        help="of your program for a point, for the steps from which exact cuts pay; 25")  # fmt: skip
+    parser.add_argument("--keep", action="store_true", help="report what is in the folder")
+    parser.add_argument("--quick", action="store_true", help="a small run of everything")
+    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
+    given = parser.parse_args()
+    given.out.mkdir(parents=True, exist_ok=True)
+    if not given.keep:
+        if not given.driver:
+            build("rrcb_compare", multijagged=True)
+        driver = Driver(given.out, given.driver or COMPARE, given.quick)
+        measure(driver, sorted(map(int, given.parts.split(","))), given.points, given.repeats)
+    report(given.out, given.step_ns)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -14,7 +14,7 @@ namespace comparisons {
 
 /// Cut-off and machines that ghosts are counted by.
 struct GhostRule {
-    std::optional<double> radius{};       ///< above 0; without it twice the mean spacing
+    std::optional<double> radius{};       ///< above 0; without it twice the median spacing
     std::optional<int> ranks_per_node{};  ///< machines hold so many consecutive parts
 };
 

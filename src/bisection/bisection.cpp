@@ -3,6 +3,7 @@
 #include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/limited_bisection.hpp"
+#include "bisection/near_weight.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/weighted_quantile.hpp"
 #include "options/option_table.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 struct Task {
     const Options& options;
-    const AxisChoice& axis_of;
+    const AxisChoice& axis_choice;
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
     Bisection result;
@@ -31,13 +32,30 @@ struct Task {
 Cut choose_cut(const Piece& piece, double below, Task& task) {
     const double weight = weight_of(piece.domain);
     const Box extent = extent_of(piece.domain);
-    const int axis = task.axis_of(piece.at.node, piece.depth, extent);
+    const auto axes = task.axis_choice(piece.at.node, piece.depth);
+    const int longest = longest_axis(extent, axes, nearly);
     if (task.limits && task.limits->divides(piece.at))
-        return cut_in_places(piece, below, axis, extent, task.options.axes.plain, *task.limits);
+        return cut_in_places(piece, below, longest, extent, task.options, *task.limits);
     // First: a side of size 0 is empty even if the domain has no weight.
-    if (below >= 1) return plane(axis, infinity);
-    if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
-    return weighted_quantile(Profile(piece.domain, axis), below * weight, task.options.axes.plain);
+    if (below >= 1) return plane(longest, infinity);
+    if (below <= 0 || !(weight > 0)) return plane(longest, -infinity);
+    const auto cut_across = [&](int axis) {
+        return weighted_quantile(Profile(piece.domain, axis), below * weight,
+                                 task.options.axes.plain);
+    };
+    Cut best = cut_across(longest);
+    if (axes.size() == 1 || task.options.axes.order.is_longest()) return best;
+    const NearWeight near(piece.domain, extent, true);
+    double fewest = near(best);
+    for (const int axis : axes) {
+        if (axis == longest || !(extent.lower[axis] < extent.upper[axis])) continue;
+        const Cut cut = cut_across(axis);
+        const double fewer = near(cut);
+        if (!(fewer < nearly * fewest)) continue;
+        best = cut;
+        fewest = fewer;
+    }
+    return best;
 }
 
 void bisect_piece(Piece piece, Task& task) {
@@ -59,8 +77,8 @@ void bisect_piece(Piece piece, Task& task) {
 
 /// Bisects with all cuts at allowed places, if there are limits.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
-                 const AxisChoice& axis_of, CutLimits* limits) {
-    Task task{options, axis_of, limits, with_brackets, {}};
+                 const AxisChoice& axis_choice, CutLimits* limits) {
+    Task task{options, axis_choice, limits, with_brackets, {}};
     task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
     const Box region = limits ? limits->region() : everywhere;
     bisect_piece({std::move(domain), root_of(task.result.cuts), region, 0}, task);
@@ -81,18 +99,18 @@ double expected_error(int depth) {
 }
 
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets) {
-    const AxisChoice axis_of(options, extent_of(domain), domain.dimension);
-    return bisect(std::move(domain), options, with_brackets, axis_of, nullptr);
+    const AxisChoice axis_choice(options, extent_of(domain), domain.dimension);
+    return bisect(std::move(domain), options, with_brackets, axis_choice, nullptr);
 }
 
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
                         bool with_brackets) {
     const int dimension = domain.dimension;
-    const AxisChoice axis_of(options, points, dimension);
-    const std::vector<int> given = axis_of.given(root_of(options.num_parts, options.tree));
+    const AxisChoice axis_choice(options, points, dimension);
+    const std::vector<int> given = axis_choice.given(root_of(options.num_parts, options.tree));
     CutLimits limits(options, points, dimension, {given, {}});
     limits.require_room();
-    return bisect(std::move(domain), options, with_brackets, axis_of, &limits);
+    return bisect(std::move(domain), options, with_brackets, axis_choice, &limits);
 }
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes) {

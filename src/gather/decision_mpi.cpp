@@ -3,8 +3,10 @@
 #include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/limited_bisection.hpp"
+#include "bisection/near_weight.hpp"
 #include "collective/communicator.hpp"
 #include "collective/meeting_mpi.hpp"
+#include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "options/rejection.hpp"
@@ -126,6 +128,18 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
 }
 
+/// Returns true if the weight near the cuts between the ranks is about that near the estimated
+/// cuts, or is not compared. This is less strict than for the axis of a new cut; otherwise cuts
+/// might turn in every call.
+bool costs_as_few_ghosts(const Cuts& kept, const Cuts& estimate, const Contribution& all,
+                         const Options& options) {
+    constexpr double enough = 0.8;
+    const bool compares = !options.axes.order.is_longest() && !are_cuts_limited(options);
+    if (!compares || axes_of(kept.tree) == axes_of(estimate.tree)) return true;
+    const StatisticalDomain domain = build_domain(all, estimate.dimension);
+    return enough * near_weight(domain, kept) <= near_weight(domain, estimate);
+}
+
 /// Reads the parts that the ranks hold from the extents of their points.
 void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.bisection.cuts;
@@ -133,7 +147,7 @@ void weigh_kept(const Contribution& all, const Options& options, Decision& decis
     if (extents.empty() || extents.size() != decision.kept.parts.size()) return;
     if (all.summary.num_points == 0) return;
     auto kept = read_kept_tree(extents, estimate, options);
-    if (!kept) return;
+    if (!kept || !costs_as_few_ghosts(kept->cuts, estimate, all, options)) return;
     decision.verdict.kept_imbalance = kept->imbalance;
     decision.verdict.keeps = keeps_at_once(kept->imbalance, options.imbalance_tolerance) ? 1 : 0;
     decision.kept = std::move(*kept);

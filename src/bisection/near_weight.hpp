@@ -1,0 +1,30 @@
+#pragma once
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/method/statistical_domain.hpp>
+
+namespace rrcb {
+
+/// Estimates the ghosts that a cut of a domain costs, by the weight near it: within half a mean
+/// side of the patches, a length that is the same across all axes.
+///
+/// If the patches have no sides, or if `counts` is false, the domain is taken as an even box: the
+/// weight over its extent across the cut. Then the longest axis costs the least.
+class NearWeight {
+  public:
+    /// `extent` is the box of the domain, which is borrowed.
+    NearWeight(const StatisticalDomain& domain, const Box& extent, bool counts);
+
+    /// Returns the whole weight if all of it is on one side.
+    double operator()(const Cut& cut) const;
+
+  private:
+    const StatisticalDomain& domain_;
+    const Box& extent_;
+    double reach_ = 0;
+};
+
+/// Returns the sum over the cuts of a tree, each in the part of the domain that it divides.
+double near_weight(const StatisticalDomain& domain, const Cuts& cuts);
+
+}  // namespace rrcb

@@ -28,6 +28,11 @@ struct Task {
     Bisection result;
 };
 
+double share_below_node(const Descent& at, const Options& options) {
+    const auto sizes = std::span(options.part_sizes).subspan(at.first_part, at.num_parts);
+    return share_below(sizes, at.lower_parts());
+}
+
 /// Returns the cut that leaves the share `below` (0 ... 1) of the piece's weight below it.
 Cut choose_cut(const Piece& piece, double below, Task& task) {
     const double weight = weight_of(piece.domain);
@@ -64,8 +69,7 @@ void bisect_piece(Piece piece, Task& task) {
         task.result.part_weights.push_back(weight_of(domain));
         return;
     }
-    const auto sizes = std::span(task.options.part_sizes).subspan(at.first_part, at.num_parts);
-    const double below = share_below(sizes, at.lower_parts());
+    const double below = share_below_node(at, task.options);
     const Cut cut = choose_cut(piece, below, task);
     task.result.cuts.tree.push_back(cut);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
@@ -73,6 +77,27 @@ void bisect_piece(Piece piece, Task& task) {
     piece.domain.patches = {};
     bisect_piece({std::move(halves.lower), at.lower(), box_below(region, cut), depth + 1}, task);
     bisect_piece({std::move(halves.upper), at.upper(), box_above(region, cut), depth + 1}, task);
+}
+
+/// Returns true if the axes of the cuts at and below a piece are good enough.
+bool are_axes_good(Piece piece, const Cuts& cuts, Task& task) {
+    constexpr double enough = 0.8;
+    if (piece.at.is_part() || piece.domain.patches.empty()) return true;
+    const Cut& cut = cuts.tree[piece.at.node];
+    const double below = share_below_node(piece.at, task.options);
+    const Cut best = choose_cut(piece, below, task);
+    if (cut.axis != best.axis) {
+        const Box extent = extent_of(piece.domain);
+        const NearWeight near(piece.domain, extent, true);
+        if (near.is_known() && !(enough * near(cut) <= near(best))) return false;
+    }
+    Halves halves = split_domain(piece.domain, cut);
+    piece.domain.patches = {};
+    const int depth = piece.depth + 1;
+    return are_axes_good({std::move(halves.lower), piece.at.lower(), everywhere, depth}, cuts,
+                         task) &&
+           are_axes_good({std::move(halves.upper), piece.at.upper(), everywhere, depth}, cuts,
+                         task);
 }
 
 /// Bisects with all cuts at allowed places, if there are limits.
@@ -101,6 +126,12 @@ double expected_error(int depth) {
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets) {
     const AxisChoice axis_choice(options, extent_of(domain), domain.dimension);
     return bisect(std::move(domain), options, with_brackets, axis_choice, nullptr);
+}
+
+bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const Options& options) {
+    const AxisChoice axis_choice(options, extent_of(domain), domain.dimension);
+    Task task{options, axis_choice, nullptr, false, {}};
+    return are_axes_good({std::move(domain), root_of(cuts), everywhere, 0}, cuts, task);
 }
 
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,

@@ -2,7 +2,6 @@
 
 #include "bisection/patches.hpp"
 #include "bisection/slice.hpp"
-#include "cuts/tree.hpp"
 
 #include <cmath>
 
@@ -22,16 +21,6 @@ double mean_half_side(const StatisticalDomain& domain) {
     return weight > 0 && std::isfinite(sum) ? sum / weight : 0;
 }
 
-double near_weight_of(const StatisticalDomain& domain, const Cuts& cuts, const Descent& at) {
-    if (at.is_part() || domain.patches.empty()) return 0;
-    const Cut& cut = cuts.tree[at.node];
-    Halves halves = split_domain(domain, cut);
-    double sum = near_weight_of(halves.lower, cuts, at.lower()) +
-                 near_weight_of(halves.upper, cuts, at.upper());
-    if (std::isfinite(cut.at[cut.axis])) sum += NearWeight(domain, extent_of(domain), true)(cut);
-    return sum;
-}
-
 }  // namespace
 
 NearWeight::NearWeight(const StatisticalDomain& domain, const Box& extent, bool counts)
@@ -42,17 +31,13 @@ double NearWeight::operator()(const Cut& cut) const {
     const double at = cut.at[axis];
     const double half_extent = extent_.upper[axis] / 2 - extent_.lower[axis] / 2;
     if (!std::isfinite(at)) return weight_of(domain_);
-    if (!(reach_ > 0)) return weight_of(domain_) / half_extent;
+    if (!is_known()) return weight_of(domain_) / half_extent;
     double weight = 0;
     for (const Patch& patch : domain_.patches) {
         const Slice slice = slice_of(patch, static_cast<std::size_t>(axis));
         weight += weight_below(slice, at + reach_) - weight_below(slice, at - reach_);
     }
     return weight;
-}
-
-double near_weight(const StatisticalDomain& domain, const Cuts& cuts) {
-    return near_weight_of(domain, cuts, root_of(cuts));
 }
 
 }  // namespace rrcb

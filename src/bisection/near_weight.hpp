@@ -15,6 +15,9 @@ class NearWeight {
     /// `extent` is the box of the domain, which is borrowed.
     NearWeight(const StatisticalDomain& domain, const Box& extent, bool counts);
 
+    /// Returns true if the patches have sides.
+    bool is_known() const { return reach_ > 0; }
+
     /// Returns the whole weight if all of it is on one side.
     double operator()(const Cut& cut) const;
 
@@ -23,8 +26,5 @@ class NearWeight {
     const Box& extent_;
     double reach_ = 0;
 };
-
-/// Returns the sum over the cuts of a tree, each in the part of the domain that it divides.
-double near_weight(const StatisticalDomain& domain, const Cuts& cuts);
 
 }  // namespace rrcb

@@ -3,7 +3,6 @@
 #include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/limited_bisection.hpp"
-#include "bisection/near_weight.hpp"
 #include "collective/communicator.hpp"
 #include "collective/meeting_mpi.hpp"
 #include "cuts/tree.hpp"
@@ -128,16 +127,12 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
 }
 
-/// Returns true if the weight near the cuts between the ranks is about that near the estimated
-/// cuts, or is not compared. This is less strict than for the axis of a new cut; otherwise cuts
-/// might turn in every call.
-bool costs_as_few_ghosts(const Cuts& kept, const Cuts& estimate, const Contribution& all,
-                         const Options& options) {
-    constexpr double enough = 0.8;
+/// Returns true if new cuts might be across the axes of the cuts between the ranks.
+bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contribution& all,
+                       const Options& options) {
     const bool compares = !options.axes.order.is_longest() && !are_cuts_limited(options);
-    if (!compares || axes_of(kept.tree) == axes_of(estimate.tree)) return true;
-    const StatisticalDomain domain = build_domain(all, estimate.dimension);
-    return enough * near_weight(domain, kept) <= near_weight(domain, estimate);
+    return !compares || axes_of(kept.tree) == axes_of(estimate.tree) ||
+           are_axes_good(build_domain(all, estimate.dimension), kept, options);
 }
 
 /// Reads the parts that the ranks hold from the extents of their points.
@@ -147,7 +142,7 @@ void weigh_kept(const Contribution& all, const Options& options, Decision& decis
     if (extents.empty() || extents.size() != decision.kept.parts.size()) return;
     if (all.summary.num_points == 0) return;
     auto kept = read_kept_tree(extents, estimate, options);
-    if (!kept || !costs_as_few_ghosts(kept->cuts, estimate, all, options)) return;
+    if (!kept || !crosses_good_axes(kept->cuts, estimate, all, options)) return;
     decision.verdict.kept_imbalance = kept->imbalance;
     decision.verdict.keeps = keeps_at_once(kept->imbalance, options.imbalance_tolerance) ? 1 : 0;
     decision.kept = std::move(*kept);

@@ -43,8 +43,8 @@ std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axi
 /// - that of the same cut in `estimate`, if all cuts above it are across those of `estimate` too,
 /// - or a long axis of the points that it divides. Slabs of a cube are therefore no bisection.
 ///
-/// Limited cuts, and those of fewest_ghosts(), may be across any allowed axis. The caller compares
-/// the weight near the latter with that near the estimate.
+/// Limited cuts, and those of fewest_ghosts(), may be across any allowed axis. For the latter the
+/// caller calls are_axes_good().
 std::optional<KeptTree> read_kept_tree(std::span<const Extent> extents, const Cuts& estimate,
                                        const Options& options);
 

@@ -2,6 +2,7 @@
 
 #include "cuts/cut_limits.hpp"
 #include "gather/cell_records.hpp"
+#include "passes/frame.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 
@@ -73,6 +74,7 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
         mesh.cells[a] = static_cast<int>(cells);
         mesh.cells_per_length[a] = cells / extent;
     }
+    mesh.frame = mesh.box;
     return mesh;
 }
 
@@ -103,7 +105,7 @@ BinnedPoints bin_by_options(const Points& points, const Box& box, const Options&
             return bin_by_cell(points, *mesh);
     const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count, options)
                                    : options.tuning.support_mesh;
-    return bin_by_cell(points, make_support_mesh(box, dimension, cells));
+    return bin_by_cell(points, make_framed_mesh(points, box, cells));
 }
 
 Summary summarize(const PointSummary& points, bool are_weighted, int rank) {

@@ -5,6 +5,7 @@
 
 #include <mpi.h>
 
+#include <limits>
 #include <vector>
 
 namespace rrcb {
@@ -25,6 +26,10 @@ struct ReportDetails {
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
     int surplus_parts = 0;          ///< parts that must stay empty: more parts than points
+    /// Share of the weight near the cuts, Cuts::near: an estimate of ghosts. NaN if not known, as
+    /// without earlier cuts.
+    double near_before = std::numeric_limits<double>::quiet_NaN();
+    double near_after = std::numeric_limits<double>::quiet_NaN();  ///< of the new cuts
 };
 
 /// Result of a call; the same on every rank.
@@ -73,6 +78,7 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 ///
 /// Collective. The cuts are kept while the parts are within the tolerance, and always with
 /// Refine::none. Otherwise few points change parts; with Refine::exact all cuts are searched.
+/// Cuts are made anew if others save a sixth of the ghosts, as estimated.
 /// Limits may move cuts to other axes than Axes::order.
 /// @param points   as for balance()
 /// @param options  as for balance()

@@ -26,6 +26,7 @@ struct Task {
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
     Bisection result;
+    double near_weight = 0;  ///< within the reach of the result
 };
 
 double share_below_node(const Descent& at, const Options& options) {
@@ -72,6 +73,8 @@ void bisect_piece(Piece piece, Task& task) {
     const double below = share_below_node(at, task.options);
     const Cut cut = choose_cut(piece, below, task);
     task.result.cuts.tree.push_back(cut);
+    if (std::isfinite(cut.at[cut.axis]))
+        task.near_weight += weight_within(domain, cut, task.result.cuts.near.reach);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
     Halves halves = split_domain(domain, cut);
     piece.domain.patches = {};
@@ -106,7 +109,11 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
     Task task{options, axis_choice, limits, with_brackets, {}};
     task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
     const Box region = limits ? limits->region() : everywhere;
+    const double weight = weight_of(domain);
+    NearCuts& near = task.result.cuts.near;
+    near.reach = mean_half_side(domain);
     bisect_piece({std::move(domain), root_of(task.result.cuts), region, 0}, task);
+    if (weight > 0) near.share = task.near_weight / weight;
     return std::move(task.result);
 }
 

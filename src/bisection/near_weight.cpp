@@ -7,9 +7,6 @@
 
 namespace rrcb {
 
-namespace {
-
-/// Returns the mean side of the patches, by weight; half of it, so that it does not overflow.
 double mean_half_side(const StatisticalDomain& domain) {
     double sum = 0;
     double weight = 0;
@@ -21,7 +18,15 @@ double mean_half_side(const StatisticalDomain& domain) {
     return weight > 0 && std::isfinite(sum) ? sum / weight : 0;
 }
 
-}  // namespace
+double weight_within(const StatisticalDomain& domain, const Cut& plane, double reach) {
+    const double at = plane.at[plane.axis];
+    double weight = 0;
+    for (const Patch& patch : domain.patches) {
+        const Slice slice = slice_of(patch, static_cast<std::size_t>(plane.axis));
+        weight += weight_below(slice, at + reach) - weight_below(slice, at - reach);
+    }
+    return weight;
+}
 
 NearWeight::NearWeight(const StatisticalDomain& domain, const Box& extent, bool counts)
     : domain_(domain), extent_(extent), reach_(counts ? mean_half_side(domain) : 0) {}
@@ -32,12 +37,7 @@ double NearWeight::operator()(const Cut& cut) const {
     const double half_extent = extent_.upper[axis] / 2 - extent_.lower[axis] / 2;
     if (!std::isfinite(at)) return weight_of(domain_);
     if (!is_known()) return weight_of(domain_) / half_extent;
-    double weight = 0;
-    for (const Patch& patch : domain_.patches) {
-        const Slice slice = slice_of(patch, static_cast<std::size_t>(axis));
-        weight += weight_below(slice, at + reach_) - weight_below(slice, at - reach_);
-    }
-    return weight;
+    return weight_within(domain_, cut, reach_);
 }
 
 }  // namespace rrcb

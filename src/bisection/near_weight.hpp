@@ -5,6 +5,12 @@
 
 namespace rrcb {
 
+/// Returns half the mean side of the patches, by weight.
+double mean_half_side(const StatisticalDomain& domain);
+
+/// Returns the weight within `reach` of a plane.
+double weight_within(const StatisticalDomain& domain, const Cut& plane, double reach);
+
 /// Estimates the ghosts that a cut of a domain costs, by the weight near it: within half a mean
 /// side of the patches, a length that is the same across all axes.
 ///

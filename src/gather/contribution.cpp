@@ -127,9 +127,12 @@ void add_records(const Points& points, const BinnedPoints& binned, Contribution&
     mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
 }
 
-void add_totals(const PartTotals& totals, Contribution& mine) {
+void add_totals(const PartTotals& totals, const NearShare& near, Contribution& mine) {
     mine.part_totals = totals.weights;
     mine.part_totals.insert(mine.part_totals.end(), totals.counts.begin(), totals.counts.end());
+    if (totals.counts.empty()) return;
+    mine.part_totals.push_back(near.by_weight * mine.summary.weight);
+    mine.part_totals.push_back(near.by_count * static_cast<double>(mine.summary.num_points));
 }
 
 std::size_t most_cells(const Options& options) {

@@ -39,6 +39,7 @@ Verdict verdict_of(const Summary& summary, const Bisection& bisection,
     verdict.num_records = summary.num_cells;
     verdict.total_weight = summary.weight;
     verdict.box = summary.box;
+    verdict.near = bisection.cuts.near;
     const bool estimates = !bisection.part_weights.empty() || summary.num_points == 0;
     verdict.estimated_imbalance =
         estimates ? imbalance(bisection.part_weights, part_sizes) : not_known;
@@ -122,8 +123,12 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     const std::size_t num_parts = decision.part_weights.size();
     if (num_parts == 0 || all.summary.num_points == 0) return;
     const std::span<const double> totals(all.part_totals);
-    std::ranges::copy(all.summary.weight > 0 ? totals.first(num_parts) : totals.last(num_parts),
-                      decision.part_weights.begin());
+    std::ranges::copy(
+        all.summary.weight > 0 ? totals.first(num_parts) : totals.subspan(num_parts, num_parts),
+        decision.part_weights.begin());
+    decision.verdict.near.share = all.summary.weight > 0
+                                      ? totals[2 * num_parts] / all.summary.weight
+                                      : totals.back() / static_cast<double>(all.summary.num_points);
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
 }
 

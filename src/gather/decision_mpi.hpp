@@ -34,6 +34,7 @@ struct Verdict {
     Box box{};                              ///< of all points, if cells were gathered
     double kept_imbalance = not_kept;       ///< of the parts that the ranks hold
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
+    NearCuts near{};                        ///< of the new cuts, or counted for the earlier ones
 };
 
 /// First message from the root, for any options: the verdict, and as much of the decision as fits.

@@ -1,11 +1,10 @@
 #include "passes/frame.hpp"
 
-#include "arithmetic/mix.hpp"
+#include "passes/sample.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace rrcb {
 
@@ -13,13 +12,6 @@ namespace {
 
 constexpr std::size_t sample_size = 512;
 constexpr std::size_t left_out = sample_size / 64;  // at each end: more than strays are
-
-/// Returns numbers of points, evenly spread at random: a lattice would alias with regular steps.
-std::vector<LocalIndex> sample_of(LocalIndex count) {
-    std::vector<LocalIndex> sample(sample_size);
-    for (std::size_t k = 0; k < sample_size; ++k) sample[k] = mix(k + 1) % count;
-    return sample;
-}
 
 /// Ends of most of the points along an axis.
 struct Span {
@@ -34,10 +26,10 @@ struct Span {
     }
 };
 
-Span span_of(const Points& points, std::span<const LocalIndex> sample, int axis) {
+Span span_of(const Points& points, int axis) {
     std::array<double, sample_size> values;
-    std::ranges::transform(sample, values.begin(),
-                           [&](LocalIndex i) { return points.coordinate(i, axis); });
+    for (std::size_t k = 0; k < sample_size; ++k)
+        values[k] = points.coordinate(sampled(k, points.count), axis);
     const auto first = values.begin() + left_out;
     const auto last = values.end() - 1 - left_out;
     std::ranges::nth_element(values, first);
@@ -69,9 +61,8 @@ void frame_axis(const Span& span, std::size_t axis, SupportMesh& mesh) {
 SupportMesh make_framed_mesh(const Points& points, const Box& box, int cells_per_axis) {
     SupportMesh mesh = make_support_mesh(box, points.dimension, cells_per_axis);
     if (points.count < sample_size) return mesh;
-    const std::vector<LocalIndex> sample = sample_of(points.count);
     for (int a = 0; a < points.dimension; ++a)
-        frame_axis(span_of(points, sample, a), static_cast<std::size_t>(a), mesh);
+        frame_axis(span_of(points, a), static_cast<std::size_t>(a), mesh);
     return mesh;
 }
 

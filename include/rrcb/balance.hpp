@@ -76,10 +76,9 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 ///
 ///     balance = rrcb::rebalance(points, options, balance.cuts, comm);
 ///
-/// Collective. The cuts are kept while the parts are within the tolerance, and always with
-/// Refine::none. Otherwise few points change parts; with Refine::exact all cuts are searched.
-/// Cuts are made anew if others save a sixth of the ghosts, as estimated.
-/// Limits may move cuts to other axes than Axes::order.
+/// Collective. The cuts are kept while the parts are within the tolerance, unless others save many
+/// ghosts, and always with Refine::none. Otherwise few points change parts; with Refine::exact all
+/// cuts are searched. Limits may move cuts to other axes than Axes::order.
 /// @param points   as for balance()
 /// @param options  as for balance()
 /// @param previous the same on every rank, or those that each rank got from a balance on `comm`; of

@@ -53,11 +53,13 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     if (axes.size() == 1 || task.options.axes.order.is_longest()) return best;
     const NearWeight near(piece.domain, extent, true);
     double fewest = near(best);
+    // Few patches show the weight near a cut with a large error.
+    const double enough = nearly - 1 / std::sqrt(static_cast<double>(piece.domain.patches.size()));
     for (const int axis : axes) {
         if (axis == longest || !(extent.lower[axis] < extent.upper[axis])) continue;
         const Cut cut = cut_across(axis);
         const double fewer = near(cut);
-        if (!(fewer < nearly * fewest)) continue;
+        if (!(fewer < enough * fewest)) continue;
         best = cut;
         fewest = fewer;
     }

@@ -1,6 +1,7 @@
 #include "clouds.hpp"
 #include "passes/assignment.hpp"
-#include "passes/sorted_points.hpp"
+#include "passes/binned_points.hpp"
+#include "passes/collected.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/method/moments.hpp>
@@ -66,8 +67,8 @@ void bins(benchmark::State& state) {
     run(state, bin);
 }
 
-void sort(benchmark::State& state) {
-    run(state, [](const Points& points) { return sort_by_cell(bin(points)); });
+void all(benchmark::State& state) {
+    run(state, [](const Points& points) { return collect_all(points); });
 }
 
 void moments(benchmark::State& state) {
@@ -116,7 +117,7 @@ int main(int argc, char** argv) {
     for (const Stage& stage : {Stage{"sum", sum},
                                {"bounding_box", box},
                                {"bin_by_cell", bins},
-                               {"sort_by_cell", sort},
+                               {"collect_all", all},
                                {"cell_moments", moments},
                                {"assign", assignment},
                                {"balance", whole},

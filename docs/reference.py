@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 
 CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts",
-       "groups", "remap", "quality", "controller", "cost", "stages", "error", "version", "eigen",
+       "groups", "remap", "quality", "controller", "cost", "restart", "stages", "error", "version", "eigen",
        "paper", "method/support_mesh", "method/moments", "method/statistical_domain",
        "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters",
        "teuchos/time_monitor")

@@ -23,8 +23,8 @@ MENU = {
                "docs/design/many_ranks", "docs/design/rebalancing", "docs/design/testing",
                "docs/design/xsdk", "CONTRIBUTING", "SECURITY"],
     "Examples": ["examples/lammps/README", "examples/mpm/README",
-                 "examples/mpm/docs/method", "examples/mpm/docs/scene_files",
-                 "examples/mpm/docs/parallel"],
+                 "examples/mpm/docs/method", "examples/mpm/docs/energy",
+                 "examples/mpm/docs/scene_files", "examples/mpm/docs/parallel"],
 }
 
 

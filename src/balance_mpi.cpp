@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
 
@@ -52,7 +51,7 @@ struct Call {
     bool is_spread = false;  ///< many ranks make the parts
     Contribution mine;
     Decision decision;
-    BinnedPoints binned;
+    Box box;  ///< of the points of this rank
     Settlement settlement;
     Balance result;
 };
@@ -102,8 +101,7 @@ void estimate(Call& call, Participant& self) {
     decide_together(call.mine, options, call.decision, self);
     call.result.report = report_of(call.decision.verdict, options.num_parts, options.part_sizes);
     call.result.cuts = std::move(call.decision.bisection.cuts);
-    if (call.result.report.details.all_weights_zero)
-        call.points.weights = call.binned.points.weights = {};
+    if (call.result.report.details.all_weights_zero) call.points.weights = {};
 }
 
 /// Prepares a call from scratch. Not collective.
@@ -114,13 +112,13 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     introduce(given, summary, nullptr, call, self);
     const Options& options = call.options;
     const bool reads_kept = !call.is_spread && reads_kept_tree(options, mpi::size_of(self.comm));
-    call.binned = bin_by_options(points, summary.box, options);
+    call.box = summary.box;
     call.settlement.prepare(options, call.is_spread, reads_kept, self);
     call.decision.bisects = !call.is_spread;
     if (call.is_spread) return;
     if (reads_kept && may_keep) append_extent(summary.extent, points.dimension, call.mine.extents);
     make_buffers(call.decision, options, points.dimension, reads_kept);
-    add_records(points, call.binned, call.mine);
+    add_records(points, bin_by_options(points, summary.box, options), call.mine);
 }
 
 /// Makes the parts, from the cuts of rank 0 if it makes them. Collective.
@@ -128,10 +126,9 @@ void settle(Call& call, Participant& self) {
     Settlement& settlement = call.settlement;
     const Verdict& verdict = call.decision.verdict;
     if (call.is_spread) {
-        settlement.search(call.binned, verdict, call.result, self);
+        settlement.search(call.points, verdict, call.result, self);
     } else if (is_refined(call.options) && verdict.num_points > 0) {
-        const auto bin = [&]() -> const BinnedPoints& { return call.binned; };
-        settlement.refine(call.points, std::ref(bin), call.decision, call.result, self);
+        settlement.refine(call.points, call.box, call.decision, call.result, self);
     } else {
         settlement.assign(call.points, verdict.kept_imbalance < not_kept, call.result, self);
     }
@@ -259,12 +256,7 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
             call.points.weights.empty() ? earlier.totals.counts : earlier.totals.weights,
             decision.part_weights);
     bracket_earlier(call.result.cuts, whole, decision.bisection.brackets);
-    // A correction of all cuts at once needs no cells.
-    const auto bin = [&]() -> const BinnedPoints& {
-        if (call.binned.counts.empty()) call.binned = bin_by_options(call.points, box, options);
-        return call.binned;
-    };
-    call.settlement.refine(call.points, std::ref(bin), decision, call.result, self);
+    call.settlement.refine(call.points, box, decision, call.result, self);
 }
 
 Balance balance_from_earlier(const Points& points, const Options& given, const Cuts& previous,
@@ -304,8 +296,8 @@ Ranks ranks_of(Participant& self) {
     return {mpi::size_of(self.comm), machines.num_ranks, machines.dealt};
 }
 
-Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
-                Participant& self, std::vector<Part> memory) {
+Balance balance_once(const Points& points, const Options& options, const Cuts* previous,
+                     bool may_keep, Participant& self, std::vector<Part> memory) {
     Balance result =
         previous
             ? balance_from_earlier(points, options, *previous, may_keep, self, std::move(memory))

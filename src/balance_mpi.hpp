@@ -20,4 +20,8 @@ Ranks ranks_of(Participant& self);
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self, std::vector<Part> memory = {});
 
+/// Does the same without Options::min_points.
+Balance balance_once(const Points& points, const Options& options, const Cuts* previous,
+                     bool may_keep, Participant& self, std::vector<Part> memory);
+
 }  // namespace rrcb

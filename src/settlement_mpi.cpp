@@ -64,7 +64,7 @@ void Settlement::take_counts(std::span<const double> here, std::span<const doubl
     sums_.set(here, sums);
 }
 
-void Settlement::refine(const Points& points, const Bin& bin, Decision& decision, Balance& result,
+void Settlement::refine(const Points& points, const Box& box, Decision& decision, Balance& result,
                         Participant& self) {
     const StageScope stage(options_->observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
@@ -79,7 +79,7 @@ void Settlement::refine(const Points& points, const Bin& bin, Decision& decision
                       !decision.bisects,
                       verdict.box,
                       report.details.num_points};
-    Refined refined = refinement_->refine(std::move(estimate), points, bin, result.parts, self);
+    Refined refined = refinement_->refine(std::move(estimate), points, box, result.parts, self);
     report_measured(refined.imbalance, options_->imbalance_tolerance, report);
     report.part_weights = sums_.take();
     report.details.rounds = refined.rounds;
@@ -87,7 +87,7 @@ void Settlement::refine(const Points& points, const Bin& bin, Decision& decision
     result.cuts = std::move(refined.cuts);
 }
 
-void Settlement::search(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
+void Settlement::search(const Points& points, const Verdict& verdict, Balance& result,
                         Participant& self) {
     const StageScope stage(options_->observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
@@ -95,7 +95,7 @@ void Settlement::search(const BinnedPoints& binned, const Verdict& verdict, Bala
     tree.weight = weight_of(report);
     tree.rule.common_weight = verdict.common_weight;
     tree.rule.heaviest = verdict.heaviest;
-    Refined refined = of_many_->refine(verdict.box, tree, binned, result.parts, self);
+    Refined refined = of_many_->refine(verdict.box, tree, points, result.parts, self);
     agree(self);
     result.cuts = std::move(refined.cuts);
     if (report.details.num_points > 0)

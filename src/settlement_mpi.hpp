@@ -25,12 +25,11 @@ class Settlement {
     void take_counts(std::span<const double> here, std::span<const double> sums);
 
     /// Moves the cuts by counts of all ranks, and assigns the points by them. Collective.
-    void refine(const Points& points, const Bin& bin, Decision& decision, Balance& result,
+    void refine(const Points& points, const Box& box, Decision& decision, Balance& result,
                 Participant& self);
 
     /// Makes the parts by a search of many ranks. Collective.
-    void search(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
-                Participant& self);
+    void search(const Points& points, const Verdict& verdict, Balance& result, Participant& self);
 
   private:
     const Options* options_ = nullptr;

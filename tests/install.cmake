@@ -17,11 +17,16 @@ add_test(
     -DEXPECT_TEUCHOS=${RRCB_TEUCHOS}
     "-DMPIEXEC_PREFLAGS=${RRCB_MPIEXEC_FLAGS}" --test-command ${CMAKE_CTEST_COMMAND}
     --output-on-failure --no-tests=error)
+# Compiles what is installed; examples and benchmarks it only configures.
+set(targets --build-target my_program)
+if(RRCB_FORTRAN)
+  list(APPEND targets --build-target rrcb_fortran)
+endif()
 add_test(
   NAME install.builds_without_trilinos
   COMMAND
     ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/install/embedded
-    ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos --build-generator ${CMAKE_GENERATOR}
+    ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos --build-generator ${CMAKE_GENERATOR} ${targets}
     --build-options -DRRCB_SOURCE=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON
     -DCMAKE_CXX_FLAGS_DEBUG= -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_MPM=OFF -DRRCB_EXAMPLES=ON -DRRCB_EIGEN_DIR=${eigen}

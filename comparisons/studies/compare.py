@@ -12,8 +12,8 @@ comparisons/run [option ...]
   --quick               a small run of everything, to see that it works
  points, one of
   --scene=slope         snapshots of a simulation: slope (the default), submarine_slide,
-                        torpedo_anchor, anchor_plate, dam_break, elastic_structure, a scene
-                        file, or all: one after the other, and their balance side by side
+                        torpedo_anchor, dam_break, elastic_structure, a scene file,
+                        or all: one after the other, and their balance side by side
   --cloud=NAME          generated: uniform, slope, clusters, lattice, run_out, polygon,
                         shell or spiral, with
       --points=N            how many over all ranks
@@ -58,7 +58,7 @@ OTHER_STUDIES = {
     "--scaling": ["scaling"],
     "--domains": ["domains"],
 }
-SCENES = "slope submarine_slide torpedo_anchor anchor_plate dam_break elastic_structure".split()
+SCENES = "slope submarine_slide torpedo_anchor dam_break elastic_structure".split()
 METHODS_OF_SCENES = (
     "zoltan-rcb,zoltan-rib,zoltan-hsfc,root-rcb,rrcb-sampled[mesh=4,k=2,fraction=0.125],rrcb,"
     "rrcb-exact,rrcb-arrays"

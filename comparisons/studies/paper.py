@@ -62,7 +62,7 @@ def measure_simulations(driver: Driver) -> None:
 
 def measure_ranks(driver: Driver) -> None:
     """The paper's table 1: other numbers of processes."""
-    for ranks in RANKS:
+    for ranks in RANKS[:1] if driver.quick else RANKS:
         _simulate(driver, f"ranks-{ranks}", ranks, [RCB, STANDARD], STEPS_BY_RANKS, 6)
     _simulate(driver, "ranks-1", 1, ["none"], STEPS_BY_RANKS, 6)
 

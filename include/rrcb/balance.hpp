@@ -18,14 +18,14 @@ struct ReportDetails {
     double estimated_imbalance =
         1;  ///< of the statistical domain, see quality.hpp; NaN if there
             ///< is none: from earlier cuts, or if many ranks make the parts
-    /// Lower bound of the imbalance of any partition: a part cannot weigh less than the heaviest
-    /// point.
+    /// Lower bound of the imbalance of any partition: by the heaviest point, or by the number of
+    /// points if all weigh the same, as 1.6 for 20 points in 16 parts.
     double least_imbalance = 1;
     int coincident_cuts = 0;        ///< that would divide points which no allowed cut separates;
                                     ///< counted by the refinement
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
-    int surplus_parts = 0;          ///< parts that must stay empty: more parts than points
+    int surplus_parts = 0;          ///< parts that stay empty: more than points, or by min_points
     /// Share of the weight near the cuts, Cuts::near: an estimate of ghosts. NaN if not known, as
     /// without earlier cuts.
     double near_before = std::numeric_limits<double>::quiet_NaN();

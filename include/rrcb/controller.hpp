@@ -8,6 +8,8 @@
 
 namespace rrcb {
 
+struct Restart;
+
 /// Decides when a rebalance pays, from the time of the steps and of the rebalances.
 ///
 ///     rrcb::Controller controller(comm);
@@ -78,6 +80,7 @@ class Controller {
 
   private:
     friend class CostModel;
+    friend struct Restart;
     struct State;
     explicit Controller(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;

@@ -82,7 +82,9 @@ class CostModel {
     RRCB_API std::string report() const;
 
   private:
+    friend struct Restart;
     struct State;
+    explicit CostModel(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 

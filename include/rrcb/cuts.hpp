@@ -98,10 +98,12 @@ RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> par
 
 /// Returns the region of a part; sides without a cut are +-infinity. Not collective.
 ///
+/// With Axes::plain the region is [lower, upper) along each axis, for codes with lists of cells. By
+/// other cuts, points exactly on a face, as those of a lattice, may belong to either side (see
+/// Cut).
 /// @param cuts of a balance
 /// @param part 0 ... num_parts - 1
-/// @return a box whose lower faces belong to the region and whose upper faces do not, except for
-/// ties (see Cut); the empty box if the cuts leave no position to the part, as for parts of size 0
+/// @return the empty box if the cuts leave no position to the part, as for parts of size 0
 /// Throws Error for a number that is no part and cuts that are no tree. With HeldCuts::own it also
 /// throws, on this rank only, if the rank lacks a cut above the part: call gather_cuts() before.
 RRCB_API Box box_of(const Cuts& cuts, Part part);

@@ -17,6 +17,13 @@ namespace rrcb {
 /// Periods along each axis.
 using Shift = std::array<std::int32_t, 3>;
 
+/// Whose radius counts, if points have different ones.
+enum class Needs : std::int32_t {
+    sender,    ///< a rank needs the points whose radii reach one of its parts
+    receiver,  ///< it needs the points within the radius of a point of one of its parts
+    either     ///< it needs both: the points within the greater of two radii
+};
+
 /// Points that this rank sends and receives as ghosts; a list of ranks names each rank once.
 struct GhostPlan {
     LocalIndex num_points = 0;    ///< that this rank holds
@@ -27,6 +34,11 @@ struct GhostPlan {
     Box periodic{};                  ///< box that repeats; empty: none
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
     std::uint64_t group = 0;         ///< as Cuts::group
+    /// Number of the call on this rank, with which fetch() recognizes ghosts from before a
+    /// transfer. Set it to 0 if as many other points were transferred.
+    std::uint64_t stamp = 0;
+    double radius = std::numeric_limits<double>::quiet_NaN();  ///< as in the options
+    Needs needs = Needs::sender;                               ///< as in the options
 };
 
 /// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
@@ -34,19 +46,25 @@ struct GhostPlan {
 struct GhostOptions {
     /// Cut-off of all points, in the unit of the coordinates; NaN: not given.
     double radius = std::numeric_limits<double>::quiet_NaN();
-    /// One radius for each point instead; for contacts of spheres the diameters. Of two points on
-    /// different ranks, nearer than the greater of their radii, the one with that radius is a ghost
-    /// on the other's rank, the other not always. To meet each pair once, skip a ghost of a smaller
-    /// radius than the point's, or of an equal one and a smaller number. If both ranks need all
-    /// their pairs, use the greatest as `radius`.
+    /// One radius for each point instead; for contacts of spheres the diameters. Unless `needs`
+    /// says otherwise: of two points on different ranks, nearer than the greater of their radii,
+    /// the one with that radius is a ghost on the other's rank, the other not always. To meet each
+    /// pair once, skip a ghost of a smaller radius than the point's, or of an equal one and a
+    /// smaller number.
     std::optional<std::span<const double>> radii{};
-    /// Box that contains the points, including its faces. It repeats along each axis on which its
-    /// two ends are finite; on the others they are infinite. A rank may need several images of one
+    /// Box that contains the points, [lower, upper) along each axis on which it repeats, on which
+    /// its two ends are finite; on the others they are infinite. A point on an upper face, as
+    /// wrapping may round it, is taken for one just below it. A rank may need several images of one
     /// point, also of its own. Each is a ghost with its entry in GhostPlan::shifts: the image of x
     /// is at x + shift * (upper - lower), each operation rounded to a double. Wrap positions first.
     std::optional<Box> periodic{};
     /// Ranks of each part, as after a remap(), if not ranks_of_part().
     std::optional<std::span<const RankRange>> ranks_of_parts{};
+    /// Whose radii count. With the radii of receivers, a part gets the points within its greatest
+    /// radius of the box of its points with more than half of that radius, and those within the
+    /// greatest other radius of the box of its other points. Cost: a pass of counts, two
+    /// reductions, one of up to 14 doubles a part, and two passes over the points.
+    Needs needs = Needs::sender;
 };
 
 /// Finds the points that other ranks need, from the cuts. Collective.
@@ -55,7 +73,7 @@ struct GhostOptions {
 ///
 /// A rank needs the points of others at most the radius, plus round-off, away from the closed
 /// region of one of its parts. If points are outside the regions of their rank, such as members of
-/// groups, add the greatest of their distances from these, over all ranks, to the radius.
+/// groups, add the greatest of their distances from these to the radius.
 /// @param cuts    of a balance, whose ranks have the points
 /// @param points  of this rank, after transfer()
 /// @param options radius, periodic box, ranks of the parts
@@ -63,12 +81,58 @@ struct GhostOptions {
 /// Throws Error on every rank alike: for unusable points, those of the balance if one has yet to
 /// leave its rank, a radius that is not finite, below 0 or above 100 periods, a position outside
 /// the periodic box, options or cuts that differ between ranks, another communicator, or no memory.
-/// Cost: as plan(); a periodic box adds a pass of counts.
+/// Cost: as plan(); a periodic box adds a pass of counts, `needs` what is written there.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 
+/// Scope of verify(). The same on every rank, except the spans, which ranks without points may
+/// leave out.
+struct VerifyOptions {
+    /// Most points, over all ranks, whose neighbours are looked for.
+    std::size_t sample = 1000;
+    /// True cut-off, if the ghosts have a skin; NaN: that of ghosts().
+    double radius = std::numeric_limits<double>::quiet_NaN();
+    std::optional<std::span<const double>> radii{};       ///< needed if ghosts() got some
+    std::optional<std::span<const std::uint64_t>> ids{};  ///< of the points; else their indices
+    /// Ids of the points that this rank held before a transfer, of which each is still there.
+    std::optional<std::span<const std::uint64_t>> ids_before{};
+};
+
+/// Point that is not where it should be.
+struct Fault {
+    std::uint64_t id = 0;  ///< of the point
+    int rank = 0;  ///< that holds it, or did before the transfer; -1: several others hold it
+    std::uint64_t needed_by = 0;  ///< point of this rank, or the same id
+};
+
+/// Result of verify(), with the faults that concern this rank.
+struct Verification {
+    GlobalCount num_pairs = 0;   ///< of the sample and points of other ranks, over all ranks
+    GlobalCount num_faults = 0;  ///< over all ranks; 0: all is well
+    std::vector<Fault> missing;  ///< near points that are no ghosts here, ids that are lost
+    std::vector<Fault> twice;    ///< ghosts that came twice, ids that another rank has too
+    std::vector<Fault>
+        strangers;  ///< own points that came as ghosts, ids that were not there before
+};
+
+/// Compares ghosts with all pairs of a random sample of the points, and ids with those of the other
+/// ranks. Collective.
+///
+///     const rrcb::Verification seen = rrcb::verify(near, points, {.sample = 1000}, comm);
+///
+/// Prints nothing.
+/// @param near    of ghosts(), or other ghosts
+/// @param points  of this rank, whose ghosts these are
+/// @param options number of points, radii, ids
+/// @param comm    that of the plan
+/// Throws Error as fetch(). Cost: on every rank the sample, and a pass over the points; time for
+/// the points near the sample; messages for their pairs, all ghosts and all ids.
+RRCB_API Verification verify(const GhostPlan& near, const Points& points,
+                             const VerifyOptions& options, MPI_Comm comm);
+
 /// Moves fetched positions of ghosts to those of the images; does nothing without a periodic box.
-/// Not collective.
+/// Images of positions in the box that rounding leaves in [lower, upper) come to the next number
+/// outside. Not collective.
 ///
 /// @param plan      of the ghosts
 /// @param positions the axes of one ghost after the other
@@ -145,7 +209,7 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 /// @param limits  as for transfer()
 /// @param report  as for transfer()
 /// @return ghosts by ascending rank, in the order of send_indices there
-/// Throws Error as transfer().
+/// Throws Error as transfer(), and if the points were transferred by a plan made since.
 template <class Columns>
 [[nodiscard]] auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
                          const TransferLimits& limits = {}, TransferReport* report = nullptr) {

@@ -84,8 +84,9 @@ class AxisOrder {
 
 /// Axes that are cut, and the positions of cuts along them. All limits hold at once.
 struct Axes {
-    AxisOrder order{};   ///< such as AxisOrder::longest(); default: fewest_ghosts()
-    bool plain = false;  ///< planes only: points on a plane stay together
+    AxisOrder order{};  ///< such as AxisOrder::longest(); default: fewest_ghosts()
+    /// Planes only: points on a plane stay together, above it, so that regions are half-open boxes.
+    bool plain = false;
 
     /// Least extent of every part along each axis, > 0 and finite, one per axis of the points;
     /// empty: any. Between two cuts `upper - lower >= min_width` holds as doubles compute it. On a
@@ -120,6 +121,11 @@ struct Options {
     /// No effect with Refine::none and with plain cuts.
     Coincident coincident = Coincident::together;
     HeldCuts cuts = HeldCuts::whole;  ///< cuts that each rank gets if many ranks make the parts
+
+    /// Least number of points of a part that has any, 0 or more. Parts with points are the first
+    /// ones, except those of size 0. If the cuts leave fewer, the points are divided anew, exactly
+    /// if need be, among fewer parts: see ReportDetails::surplus_parts.
+    int min_points = 0;
 
     Axes axes{};  ///< axes and positions of the cuts
 

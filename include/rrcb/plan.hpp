@@ -48,6 +48,7 @@ struct Plan {
     std::vector<LocalIndex> import_indices;  ///< their index there, ascending per rank
     std::vector<Part> import_parts;          ///< their new parts
     std::uint64_t group = 0;                 ///< as Cuts::group
+    std::uint64_t stamp = 0;                 ///< number of the plan on this rank; 0: made by hand
 };
 
 /// Makes the export and import lists of the points whose rank changes. Collective.

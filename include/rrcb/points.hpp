@@ -41,8 +41,9 @@ struct Box {
 /// Coordinate a of point i is `axes[a][i * stride]`; the axes may be in one array or in several.
 /// Floats are in `float_axes` instead, and count as the doubles of the same values. `weights` is
 /// empty on every rank that has points (every point weighs 1), or holds one finite, non-negative
-/// weight per point. The arrays must outlive the view. Nothing is checked here: `balance` checks on
-/// all ranks together, so that no rank fails alone.
+/// weight per point. Weights of 0, or of one power of two, give the same bits as none; other equal
+/// ones may round a cut to a neighbouring point. The arrays must outlive the view. Nothing is
+/// checked here: `balance` checks on all ranks together, so that no rank fails alone.
 struct Points {
     int dimension = 0;       ///< 1 to 3, on every rank the same
     LocalIndex count = 0;    ///< points of this rank

@@ -12,6 +12,7 @@
 #include <rrcb/points.hpp>
 #include <rrcb/quality.hpp>
 #include <rrcb/remap.hpp>
+#include <rrcb/restart.hpp>
 #include <rrcb/stages.hpp>
 #include <rrcb/transfer.hpp>
 #include <rrcb/version.hpp>

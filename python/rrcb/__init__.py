@@ -12,7 +12,7 @@ from . import _library
 from ._balance import Balance, Distribution, Report, assign, balance
 from ._controller import Controller, CostModel
 from ._cuts import Cuts
-from ._ghosts import Ghosts
+from ._ghosts import Ghosts, Verification
 from ._library import Error
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "Error",
     "Ghosts",
     "Report",
+    "Verification",
     "assign",
     "balance",
     "build_info",

@@ -32,7 +32,7 @@ class Report:
     rounds: int  #: of counting, to correct the cuts
     coincident_cuts: int  #: that would divide points which no allowed cut separates
     all_weights_zero: bool  #: balanced by count instead
-    surplus_parts: int  #: parts that must stay empty: more parts than points
+    surplus_parts: int  #: parts that stay empty: more than points, or by min_points
     near_before: float  #: share of the weight near the earlier cuts; NaN if not known
     near_after: float  #: share of the weight near the cuts; NaN if not known
 
@@ -87,15 +87,16 @@ class Distribution:
         c.call("transfer", self._own, *columns.as_bytes(), None, None)
         return columns.result()
 
-    def ghosts(self, x: Any, radius: Any, period: Any = None) -> Ghosts:
+    def ghosts(self, x: Any, radius: Any, period: Any = None, needs: str = "sender") -> Ghosts:
         """Finds the points that other ranks need within a radius. Collective.
 
         `x` are the positions on this rank, after distribute(); those before it are refused.
         `radius` is a number, or an array with a radius for each point, within which other ranks
-        need it (docs/loop.md). `period` is the length of a periodic box from 0, one number or one
+        need it; with `needs` "receiver" within which the point needs others, with "either" both
+        (docs/loop.md). `period` is the length of a periodic box from 0, one number or one
         for each axis (infinity: not periodic), or its corners (lower, upper).
         """
-        return Ghosts(self.comm, self._own, x, radius, period)
+        return Ghosts(self.comm, self._own, x, radius, period, needs)
 
     def _plan(self) -> int:
         if self._num_points_after is None:

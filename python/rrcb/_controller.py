@@ -73,6 +73,23 @@ class Controller(Owner):
         self._own = c.Handle("controller_create_fortran", "controller_destroy", self._comm.py2f())
         self._models: weakref.WeakSet[CostModel] = weakref.WeakSet()
 
+    def save(self) -> bytes:
+        """Returns the state as bytes, the same on every rank. Collective."""
+        communicator(self._comm)
+        return c.saved("controller_save", self._own)
+
+    @classmethod
+    def load(cls, saved: bytes, comm: MPI.Comm | None = None) -> Controller:
+        """Returns a controller that continues from the bytes of save(). Collective over `comm`."""
+        made = cls.__new__(cls)
+        made._comm = communicator(comm)
+        data = prepare(made._comm, lambda: bytes(saved))
+        made._own = c.Handle(
+            "controller_load_fortran", "controller_destroy", made._comm.py2f(), data, len(data)
+        )
+        made._models = weakref.WeakSet()
+        return made
+
     def free(self) -> None:
         """Frees the object and its cost models. Collective."""
         for model in self._models:
@@ -108,6 +125,16 @@ class Controller(Owner):
         c.call("controller_rebalanced", self._own, report, number(cost))
 
 
+def address_of(controller: Controller | None) -> Any:
+    """Returns the address of a controller, or None. Raises Error for what is none."""
+    if controller is None:
+        return None
+    if not isinstance(controller, Controller):
+        raise c.Error(f"controller must be a Controller, not {type(controller).__name__}")
+    controller._own.require_alive()
+    return controller._own._as_parameter_
+
+
 class CostModel(Owner):
     """Learns the seconds that points cost. Making one is collective.
 
@@ -119,27 +146,42 @@ class CostModel(Owner):
         self, num_columns: int, controller: Controller | None = None, comm: MPI.Comm | None = None
     ) -> None:
         chosen = communicator(comm)
-
-        def local() -> tuple[Any, int]:
-            columns = index_of(num_columns)
-            if controller is None:
-                return None, columns
-            if not isinstance(controller, Controller):
-                raise c.Error(f"controller must be a Controller, not {type(controller).__name__}")
-            controller._own.require_alive()
-            return controller._own._as_parameter_, columns
-
-        given, self.num_columns = prepare(chosen, local)
-        self._comm, self._controller = chosen, controller
-        self._own = c.Handle(
-            "cost_model_create_fortran",
-            "cost_model_destroy",
-            chosen.py2f(),
-            given,
-            self.num_columns,
+        self.num_columns, given = prepare(
+            chosen, lambda: (index_of(num_columns), address_of(controller))
         )
+        self._make("cost_model_create_fortran", chosen, controller, given, self.num_columns)
+
+    def _make(
+        self, create: str, comm: MPI.Intracomm, controller: Controller | None, *arguments: Any
+    ) -> None:
+        self._comm, self._controller = comm, controller
+        self._own = c.Handle(create, "cost_model_destroy", comm.py2f(), *arguments)
         if controller is not None:
             controller._models.add(self)
+
+    def save(self) -> bytes:
+        """Returns the state as bytes, the same on every rank; save its controller, too. Collective."""
+        communicator(self._comm)
+        return c.saved("cost_model_save", self._own)
+
+    @classmethod
+    def load(
+        cls, saved: bytes, controller: Controller | None = None, comm: MPI.Comm | None = None
+    ) -> CostModel:
+        """Returns a model that continues from the bytes of save(). Collective.
+
+        `controller` is the loaded controller of the saved model, if it had one.
+        """
+        made = cls.__new__(cls)
+        chosen = communicator(comm)
+        given, data = prepare(chosen, lambda: (address_of(controller), bytes(saved)))
+        made._make("cost_model_load_fortran", chosen, controller, given, data, len(data))
+        # The first word after the head, in the byte order of the head.
+        columns = data[40:48]
+        if not data.startswith(b"RRCBstat"):
+            columns = columns[::-1]
+        made.num_columns = int.from_bytes(columns, "big")
+        return made
 
     def step(self, seconds: float, columns: Any) -> None:
         """Records a step: seconds of this rank's own work, its number of each column. Collective."""

@@ -42,6 +42,17 @@ class Cuts:
     def __repr__(self) -> str:
         return f"<rrcb.Cuts of {self.num_parts} parts in {self.dimension} dimensions>"
 
+    def save(self) -> bytes:
+        """Returns the cuts as bytes, which programs in all languages load."""
+        return c.saved("save_cuts", self._handle())
+
+    @staticmethod
+    def load(saved: bytes) -> Cuts:
+        """Returns cuts from the bytes of save()."""
+        own = c.OwnedHandle("create_fortran", "destroy", communicator(MPI.COMM_SELF).py2f())
+        c.call("load_cuts", own, bytes(saved), len(saved))
+        return cuts_of(own)
+
     def part_of(self, points: Any) -> Any:
         """Returns the part of each of (n, d) positions, or of one position."""
         position = np.ndim(points) == (0 if self.dimension == 1 else 1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 from typing import Any, Callable
 
 import numpy as np
@@ -11,6 +12,22 @@ from mpi4py import MPI
 from . import _library as c
 from ._agreement import communicator, prepare, together
 from ._arrays import FLOATS, NUMBERS, Array, Columns, Points, axes_of, numbers_in, pointer
+
+NEEDS = ("sender", "receiver", "either")
+
+
+FAULT = np.dtype([("id", "u8"), ("rank", "i4"), ("needed_by", "u8")], align=True)
+
+
+@dataclasses.dataclass(frozen=True)
+class Verification:
+    """Result of Ghosts.verify(), with the faults that concern this rank: fields id, rank, needed_by."""
+
+    num_pairs: int  #: of the sample, over all ranks
+    num_faults: int  #: over all ranks
+    missing: Array  #: near points that are no ghosts, ids that are lost
+    twice: Array  #: ghosts that came twice, ids that another rank has too
+    strangers: Array  #: own points that came as ghosts, new ids
 
 
 class Ghosts:
@@ -26,16 +43,24 @@ class Ghosts:
     sent: dict[int, Array]  #: rows of the points that each rank needs
 
     def __init__(
-        self, comm: MPI.Intracomm, balancer: c.Handle, x: Any, radius: Any, period: Any
+        self,
+        comm: MPI.Intracomm,
+        balancer: c.Handle,
+        x: Any,
+        radius: Any,
+        period: Any,
+        needs: str = "sender",
     ) -> None:
-        def local() -> tuple[Points, Array, Array | None]:
+        def local() -> tuple[Points, c.GhostOptions, Array, Array | None]:
             points = Points(x)
-            return points, radius_of(radius, points.count), box_of(period, points.dimension)
+            radii, box = radius_of(radius, points.count), box_of(period, points.dimension)
+            return points, options_of(radii, box, needs), radii, box
 
-        def collective(points: Any = None, radii: Any = None, box: Any = None) -> None:
-            options = None if points is None else options_of(radii, box)
+        def collective(
+            points: Any = None, options: Any = None, radii: Any = None, box: Any = None
+        ) -> None:
             self._own = c.OwnedHandle("ghosts_create", "ghosts_destroy", balancer, points, options)
-            self._box = box
+            self._box, self._radii = box, radii
             self._read(points.dimension)
 
         self.comm = communicator(comm)
@@ -71,6 +96,43 @@ class Ghosts:
         )
         c.call("ghosts_accumulate", self._own, *columns.as_numbers(), None, None)
         return columns.result()
+
+    def verify(
+        self, x: Any, sample: int = 1000, radius: Any = None, ids: Any = None, ids_before: Any = None
+    ) -> Verification:
+        """Compares the ghosts with all pairs of a random sample of the points. Collective.
+
+        `x` are the positions on this rank. `sample` is the most points, over all ranks, whose
+        neighbours are looked for. `radius` is the true one, if the ghosts have a skin. `ids` are
+        numbers of the points, `ids_before` those of the points of this rank before distribute().
+        """
+        seen, kept = c.Verification(), []
+
+        def numbers(values: Any) -> tuple[int, int | None]:
+            if values is None:
+                return 0, None
+            kept.append(np.ascontiguousarray(values, dtype=np.uint64).ravel())
+            return len(kept[-1]), pointer(kept[-1])
+
+        def local() -> tuple[Points, c.VerifyOptions]:
+            points = Points(x)
+            radii = self._radii if radius is None else radius_of(radius, points.count)
+            each = pointer(radii) if radii.ndim else None
+            once = 0.0 if radii.ndim or radius is None else float(radii)
+            return points, c.VerifyOptions(sample, once, each, *numbers(ids), *numbers(ids_before))
+
+        together(
+            self.comm, local, lambda p=None, o=None: c.call("ghosts_verify", self._own, p, o, seen)
+        )
+        lists = [
+            np.frombuffer(ctypes.string_at(address, count * FAULT.itemsize), dtype=FAULT)
+            for address, count in (
+                (seen.missing, seen.num_missing),
+                (seen.twice, seen.num_twice),
+                (seen.strangers, seen.num_strangers),
+            )
+        ]
+        return Verification(seen.num_pairs, seen.num_faults, *lists)
 
     def _fetch(self, data: Any, check: Callable[[], None]) -> Any:
         def local() -> Columns:
@@ -126,9 +188,12 @@ def radius_of(radius: Any, count: int) -> Array:
     return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii.copy()
 
 
-def options_of(radii: Array, box: Array | None) -> c.GhostOptions:
+def options_of(radii: Array, box: Array | None, needs: str) -> c.GhostOptions:
     """Returns the library's options, which borrow the arrays."""
+    if needs not in NEEDS:
+        raise c.Error(f"needs must be one of {', '.join(NEEDS)}, not {needs!r}")
     options = c.GhostOptions()
+    options.needs = NEEDS.index(needs)
     if radii.ndim == 0:
         options.radius = float(radii)
     else:

@@ -123,6 +123,7 @@ class GhostOptions(Structure):
         ("upper", c_void_p),
         ("ranks_of_parts", c_void_p),
         ("num_parts", c_size_t),
+        ("needs", c_int),
     ]
 
 
@@ -154,6 +155,35 @@ class GhostPlan(Structure):
     ]
 
 
+class VerifyOptions(Structure):
+    """rrcb_verify_options."""
+
+    _fields_ = [
+        ("sample", c_size_t),
+        ("radius", c_double),
+        ("radii", c_void_p),
+        ("num_ids", c_size_t),
+        ("ids", c_void_p),
+        ("num_ids_before", c_size_t),
+        ("ids_before", c_void_p),
+    ]
+
+
+class Verification(Structure):
+    """rrcb_verification."""
+
+    _fields_ = [
+        ("num_pairs", c_int64),
+        ("num_faults", c_int64),
+        ("num_missing", c_size_t),
+        ("missing", c_void_p),
+        ("num_twice", c_size_t),
+        ("twice", c_void_p),
+        ("num_strangers", c_size_t),
+        ("strangers", c_void_p),
+    ]
+
+
 class Address:
     """Argument type of arrays: their address, null if they are empty or None."""
 
@@ -172,6 +202,8 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "get_report": (c_void_p, POINTER(Report)),
     "get_cuts": (c_void_p, POINTER(Cuts)),
     "set_cuts": (c_void_p, POINTER(Cuts)),
+    "save_cuts": (c_void_p, POINTER(c_void_p), POINTER(c_size_t)),
+    "load_cuts": (c_void_p, c_char_p, c_size_t),
     "assign": (c_void_p, POINTER(Points), Address),
     "assign_all": (c_void_p, POINTER(Points), Address),
     "box_of": (c_void_p, c_int32, Address, Address),
@@ -183,12 +215,17 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "ghosts_get_plan": (c_void_p, POINTER(GhostPlan)),
     "ghosts_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_accumulate": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "ghosts_verify": (c_void_p, POINTER(Points), POINTER(VerifyOptions), POINTER(Verification)),
     "ghosts_apply_shifts": (c_void_p, c_int, c_size_t, Address),
     "controller_create_fortran": (c_int, HANDLE),
     "controller_step": (c_void_p, c_double, POINTER(c_int)),
     "controller_step_weight": (c_void_p, c_double, c_double, POINTER(c_int)),
     "controller_due": (c_void_p, POINTER(c_int)),
     "controller_rebalanced": (c_void_p, POINTER(Report), c_double),
+    "controller_save": (c_void_p, POINTER(c_void_p), POINTER(c_size_t)),
+    "controller_load_fortran": (c_int, c_char_p, c_size_t, HANDLE),
+    "cost_model_save": (c_void_p, POINTER(c_void_p), POINTER(c_size_t)),
+    "cost_model_load_fortran": (c_int, HANDLE, c_char_p, c_size_t, HANDLE),
     "cost_model_create_fortran": (c_int, HANDLE, c_int, HANDLE),
     "cost_model_step": (c_void_p, c_double, c_size_t, Address),
     "cost_model_weights": (c_void_p, c_size_t, c_size_t, Address, Address),
@@ -301,6 +338,13 @@ def call(function: str, *arguments: Any) -> None:
     code = getattr(library, "rrcb_" + function)(*arguments)
     if code:
         raise Error(text(library.rrcb_last_error()), CODES[min(code, len(CODES) - 1)])
+
+
+def saved(function: str, handle: Handle) -> bytes:
+    """Returns the bytes that a function shows."""
+    address, size = c_void_p(), c_size_t()
+    call(function, handle, ctypes.byref(address), ctypes.byref(size))
+    return ctypes.string_at(address, size.value)
 
 
 class Handle:

@@ -84,25 +84,15 @@ void bisect_piece(Piece piece, Task& task) {
     bisect_piece({std::move(halves.upper), at.upper(), box_above(region, cut), depth + 1}, task);
 }
 
-/// Returns true if the axes of the cuts at and below a piece are good enough.
-bool are_axes_good(Piece piece, const Cuts& cuts, Task& task) {
-    constexpr double enough = 0.8;
-    if (piece.at.is_part() || piece.domain.patches.empty()) return true;
-    const Cut& cut = cuts.tree[piece.at.node];
-    const double below = share_below_node(piece.at, task.options);
-    const Cut best = choose_cut(piece, below, task);
-    if (cut.axis != best.axis) {
-        const Box extent = extent_of(piece.domain);
-        const NearWeight near(piece.domain, extent, true);
-        if (near.is_known() && !(enough * near(cut) <= near(best))) return false;
-    }
-    Halves halves = split_domain(piece.domain, cut);
-    piece.domain.patches = {};
-    const int depth = piece.depth + 1;
-    return are_axes_good({std::move(halves.lower), piece.at.lower(), everywhere, depth}, cuts,
-                         task) &&
-           are_axes_good({std::move(halves.upper), piece.at.upper(), everywhere, depth}, cuts,
-                         task);
+/// Returns the weight within `reach` of the cuts at and below a node.
+double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts, double reach) {
+    if (at.is_part() || domain.patches.empty()) return 0;
+    const Cut& cut = cuts.tree[at.node];
+    double weight = std::isfinite(cut.at[cut.axis]) ? weight_within(domain, cut, reach) : 0;
+    Halves halves = split_domain(domain, cut);
+    domain.patches = {};
+    weight += weight_near(std::move(halves.lower), at.lower(), cuts, reach);
+    return weight + weight_near(std::move(halves.upper), at.upper(), cuts, reach);
 }
 
 /// Bisects with all cuts at allowed places, if there are limits.
@@ -137,10 +127,11 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
     return bisect(std::move(domain), options, with_brackets, axis_choice, nullptr);
 }
 
-bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const Options& options) {
-    const AxisChoice axis_choice(options, extent_of(domain), domain.dimension);
-    Task task{options, axis_choice, nullptr, false, {}};
-    return are_axes_good({std::move(domain), root_of(cuts), everywhere, 0}, cuts, task);
+bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const NearCuts& fresh) {
+    constexpr double enough = 0.85;
+    const double allowed = fresh.share * weight_of(domain);
+    return !(fresh.reach > 0) ||
+           enough * weight_near(std::move(domain), root_of(cuts), cuts, fresh.reach) <= allowed;
 }
 
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,

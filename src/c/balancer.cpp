@@ -4,6 +4,7 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
+#include <rrcb/restart.hpp>
 #include <rrcb/version.hpp>
 
 #include <algorithm>
@@ -168,6 +169,23 @@ int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts) {
     return guarded(balancer, [&](auto& own) {
         require(cuts, "cuts");
         own.cuts = rrcb::c::copy_of(*cuts);
+        own.least_count = rrcb_balancer::no_count;
+    });
+}
+
+int rrcb_save_cuts(rrcb_balancer* balancer, const void** bytes, size_t* size) {
+    return guarded(balancer, [&](auto& own) {
+        require(bytes, "bytes");
+        require(size, "size");
+        require_cuts(own);
+        own.saved = rrcb::save(own.cuts);
+        rrcb::c::show(own.saved, bytes, size);
+    });
+}
+
+int rrcb_load_cuts(rrcb_balancer* balancer, const void* bytes, size_t size) {
+    return guarded(balancer, [&](auto& own) {
+        own.cuts = rrcb::load<rrcb::Cuts>(rrcb::c::saved_bytes(bytes, size));
         own.least_count = rrcb_balancer::no_count;
     });
 }

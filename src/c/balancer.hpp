@@ -24,6 +24,7 @@ struct rrcb_balancer {
     mutable rrcb::Cuts cuts{};  ///< rrcb_assign_all notes its points
     std::optional<rrcb::Report> report{};
     std::optional<rrcb::Plan> plan{};
+    std::vector<std::byte> saved{};
     /// Least count of the balance and of the look-ups after it: a plan of fewer points loses some.
     mutable std::atomic<std::size_t> least_count{no_count};
     static constexpr std::size_t no_count = std::numeric_limits<std::size_t>::max();
@@ -51,6 +52,17 @@ void require(const void* pointer, const char* name);
 
 /// As require(), for arrays, unless they are empty.
 void require_array(std::size_t count, const void* values, const char* name);
+
+/// Returns the bytes of a call; none without their address, which load() refuses.
+inline std::span<const std::byte> saved_bytes(const void* bytes, std::size_t size) {
+    return {static_cast<const std::byte*>(bytes), bytes == nullptr ? 0 : size};
+}
+
+/// Shows saved bytes, which must outlive the caller's pointer.
+inline void show(const std::vector<std::byte>& saved, const void** bytes, std::size_t* size) {
+    *bytes = saved.data();
+    *size = saved.size();
+}
 
 /// Throws Error if coordinates cannot have the type.
 void check_coordinate(rrcb_type type);

@@ -4,6 +4,7 @@
 
 #include <rrcb/controller.hpp>
 #include <rrcb/cost.hpp>
+#include <rrcb/restart.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -14,13 +15,14 @@
 struct rrcb_controller {
     static constexpr const char* name = "controller";
     std::optional<rrcb::Controller> controller{};
+    std::vector<std::byte> saved{};
 };
 
 struct rrcb_cost_model {
     static constexpr const char* name = "model";
     std::optional<rrcb::CostModel> model{};
-    std::size_t num_columns = 0;
     std::string report{};
+    std::vector<std::byte> saved{};
 };
 
 namespace {
@@ -28,33 +30,58 @@ namespace {
 using rrcb::CallName;
 using rrcb::Participant;
 using rrcb::c::guarded;
+using rrcb::c::saved_bytes;
 using rrcb::c::view;
 
 void store(bool is_due, int* due) {
     if (due != nullptr) *due = is_due ? 1 : 0;
 }
 
-/// Makes a model, of a controller if the address of one is given. Collective.
-int make_model(MPI_Comm comm, rrcb_controller* const* controller, int num_columns,
-               rrcb_cost_model** model) {
+/// Makes a model, of a controller if the address of one is given. Collective. `make` gets the
+/// communicator, or the controller.
+template <class Make>
+int make_model(MPI_Comm comm, rrcb_controller* const* controller, CallName call,
+               rrcb_cost_model** model, Make&& make) {
     return guarded([&] {
-        Participant self = rrcb::mpi::enter(comm, CallName::cost_model);
+        Participant self = rrcb::mpi::enter(comm, call);
         auto made = rrcb::c::make_handle(
             self, model, {{"whether a controller is given", controller != nullptr}}, [&] {
                 if (controller != nullptr) rrcb::c::require(*controller, "controller");
             });
         if (controller == nullptr)
-            made->model.emplace(comm, num_columns);
+            made->model.emplace(make(comm));
         else
-            made->model.emplace(*(*controller)->controller, num_columns);
-        made->num_columns = static_cast<std::size_t>(num_columns);
+            made->model.emplace(make(*(*controller)->controller));
         *model = made.release();
     });
 }
 
+int make_new_model(MPI_Comm comm, rrcb_controller* const* controller, int num_columns,
+                   rrcb_cost_model** model) {
+    return make_model(comm, controller, CallName::cost_model, model,
+                      [&](auto& where) { return rrcb::CostModel(where, num_columns); });
+}
+
+int load_model(MPI_Comm comm, rrcb_controller* const* controller, const void* bytes, size_t size,
+               rrcb_cost_model** model) {
+    return make_model(comm, controller, CallName::load, model, [&](auto& where) {
+        return rrcb::load<rrcb::CostModel>(saved_bytes(bytes, size), where);
+    });
+}
+
+/// Saves the object of a handle. Collective.
+template <class Handle, class Object>
+void save(Handle& own, const Object& object, const void** bytes, size_t* size) {
+    own.saved = rrcb::save(object);
+    if (bytes != nullptr && size != nullptr) rrcb::c::show(own.saved, bytes, size);
+    rrcb::c::require(bytes, "bytes");
+    rrcb::c::require(size, "size");
+}
+
 void check_columns(const rrcb_cost_model& own, std::size_t num_columns) {
-    if (num_columns != own.num_columns)
-        rrcb::reject("the cost model has " + std::to_string(own.num_columns) + " columns, not " +
+    const std::size_t expected = own.model->costs().size();
+    if (num_columns != expected)
+        rrcb::reject("the cost model has " + std::to_string(expected) + " columns, not " +
                      std::to_string(num_columns) + "; give as many");
 }
 
@@ -71,6 +98,25 @@ int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller) {
 
 int rrcb_controller_create_fortran(int comm, rrcb_controller** controller) {
     return rrcb_controller_create(rrcb::c::comm_of(comm), controller);
+}
+
+int rrcb_controller_save(rrcb_controller* controller, const void** bytes, size_t* size) {
+    return guarded(controller, [&](auto& own) { save(own, *own.controller, bytes, size); });
+}
+
+int rrcb_controller_load(MPI_Comm comm, const void* bytes, size_t size,
+                         rrcb_controller** controller) {
+    return guarded([&] {
+        Participant self = rrcb::mpi::enter(comm, CallName::load);
+        auto made = rrcb::c::make_handle(self, controller);
+        made->controller.emplace(rrcb::load<rrcb::Controller>(saved_bytes(bytes, size), comm));
+        *controller = made.release();
+    });
+}
+
+int rrcb_controller_load_fortran(int comm, const void* bytes, size_t size,
+                                 rrcb_controller** controller) {
+    return rrcb_controller_load(rrcb::c::comm_of(comm), bytes, size, controller);
 }
 
 void rrcb_controller_destroy(rrcb_controller* controller) {
@@ -105,12 +151,26 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
 
 int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                            rrcb_cost_model** model) {
-    return make_model(comm, controller == nullptr ? nullptr : &controller, num_columns, model);
+    return make_new_model(comm, controller == nullptr ? nullptr : &controller, num_columns, model);
 }
 
 int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* controller, int num_columns,
                                    rrcb_cost_model** model) {
-    return make_model(rrcb::c::comm_of(comm), controller, num_columns, model);
+    return make_new_model(rrcb::c::comm_of(comm), controller, num_columns, model);
+}
+
+int rrcb_cost_model_save(rrcb_cost_model* model, const void** bytes, size_t* size) {
+    return guarded(model, [&](auto& own) { save(own, *own.model, bytes, size); });
+}
+
+int rrcb_cost_model_load(MPI_Comm comm, rrcb_controller* controller, const void* bytes, size_t size,
+                         rrcb_cost_model** model) {
+    return load_model(comm, controller == nullptr ? nullptr : &controller, bytes, size, model);
+}
+
+int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller, const void* bytes,
+                                 size_t size, rrcb_cost_model** model) {
+    return load_model(rrcb::c::comm_of(comm), controller, bytes, size, model);
 }
 
 void rrcb_cost_model_destroy(rrcb_cost_model* model) {
@@ -126,12 +186,12 @@ int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_col
                             const double* columns, double* weights) {
     return guarded(model, [&](auto& own) {
         check_columns(own, num_columns);
-        if (count > PTRDIFF_MAX / sizeof(double) / own.num_columns)
+        if (count > PTRDIFF_MAX / sizeof(double) / num_columns)
             rrcb::reject(
                 "count and columns exceed the memory; count is the number of points of this rank");
         rrcb::c::require_array(count, columns, "columns");
         rrcb::c::require_array(count, weights, "weights");
-        std::ranges::copy(own.model->weights(view(columns, count * own.num_columns)), weights);
+        std::ranges::copy(own.model->weights(view(columns, count * num_columns)), weights);
     });
 }
 

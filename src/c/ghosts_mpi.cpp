@@ -11,6 +11,7 @@ struct rrcb_ghosts {
     static constexpr const char* name = "ghosts";
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::GhostPlan plan{};
+    rrcb::Verification seen{};
 };
 
 namespace rrcb::c {
@@ -25,6 +26,7 @@ struct KeptOptions {
     void read(const rrcb_ghost_options* from, LocalIndex num_points) {
         require(from, "options");
         options.radius = from->radius;
+        options.needs = static_cast<Needs>(from->needs);
         if (from->radii != nullptr) options.radii = view(from->radii, num_points);
         if (from->lower != nullptr || from->upper != nullptr) {
             require(from->lower, "lower");
@@ -61,6 +63,41 @@ void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
     made->comm = own.comm;
     made->plan = rrcb::ghosts(own.cuts, points, kept.options, self);
     *ghosts = made.release();
+}
+
+VerifyOptions options_of(const rrcb_verify_options* from, LocalIndex num_points) {
+    VerifyOptions options;
+    if (from == nullptr) return options;
+    options.sample = from->sample;
+    if (from->radius != 0) options.radius = from->radius;
+    if (from->radii != nullptr) options.radii = view(from->radii, num_points);
+    require_array(from->num_ids, from->ids, "ids");
+    require_array(from->num_ids_before, from->ids_before, "ids_before");
+    if (from->num_ids > 0) options.ids = view(from->ids, from->num_ids);
+    if (from->num_ids_before > 0) options.ids_before = view(from->ids_before, from->num_ids_before);
+    return options;
+}
+
+const rrcb_fault* faults_at(const std::vector<Fault>& faults) {
+    // Both are an id, a rank and an id.
+    static_assert(sizeof(rrcb_fault) == sizeof(Fault) &&
+                  offsetof(rrcb_fault, needed_by) == offsetof(Fault, needed_by));
+    return reinterpret_cast<const rrcb_fault*>(faults.data());
+}
+
+void verify(rrcb_ghosts& own, const rrcb_points* given, const rrcb_verify_options* given_options,
+            rrcb_verification* seen, Participant& self) {
+    Points points;
+    VerifyOptions options;
+    self.attempt([&] {
+        require(seen, "seen");
+        points = points_of(given);
+        options = options_of(given_options, points.count);
+    });
+    own.seen = rrcb::verify(own.plan, points, options, self);
+    const auto& [num_pairs, num_faults, missing, twice, strangers] = own.seen;
+    *seen = {num_pairs,    num_faults,       missing.size(),   faults_at(missing),
+             twice.size(), faults_at(twice), strangers.size(), faults_at(strangers)};
 }
 
 template <class T>
@@ -161,6 +198,13 @@ int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
         rrcb::TransferReport made;
         rrcb::c::accumulate(own, given, rrcb::c::limits_of(limits), made, self);
         rrcb::c::store(made, report);
+    });
+}
+
+int rrcb_ghosts_verify(rrcb_ghosts* ghosts, const rrcb_points* points,
+                       const rrcb_verify_options* options, rrcb_verification* seen) {
+    return guarded_together(CallName::verify, ghosts, [&](auto& own, Participant& self) {
+        rrcb::c::verify(own, points, options, seen, self);
     });
 }
 

@@ -41,6 +41,22 @@ int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
     });
 }
 
+int rrcb_join_keys(const rrcb_balancer* balancer, size_t count, size_t keys_per_point,
+                   const uint64_t* keys, uint64_t* joined) {
+    return guarded_together(CallName::join_keys, balancer, [&](const auto&, Participant& self) {
+        self.attempt([&] {
+            rrcb::c::require_array(count, keys, "keys");
+            rrcb::c::require_array(count, joined, "joined");
+            if (keys_per_point > SIZE_MAX / sizeof *keys / std::max<size_t>(count, 1))
+                rrcb::reject(
+                    "count and keys_per_point exceed the memory; count is the number of "
+                    "points of this rank");
+        });
+        const auto given = rrcb::c::view(keys, self.failed() ? 0 : count * keys_per_point);
+        std::ranges::copy(rrcb::join_keys(given, keys_per_point, self), joined);
+    });
+}
+
 void rrcb_groups_destroy(rrcb_groups* groups) {
     delete groups;
 }

@@ -15,8 +15,10 @@ std::string_view name_of(CallName call) {
                                "moved_fraction", "gather_cuts",
                                "assign_all",     "rrcb_create (Python: balance, assign)",
                                "Controller",     "Controller::step",
-                               "CostModel",      "CostModel::step"};
-    static_assert(names.size() == static_cast<std::size_t>(CallName::cost_model_step) + 1 &&
+                               "CostModel",      "CostModel::step",
+                               "verify",         "save",
+                               "load",           "join_keys"};
+    static_assert(names.size() == static_cast<std::size_t>(CallName::join_keys) + 1 &&
                   names.size() <= most_call_names);
     return names.at(static_cast<std::size_t>(call));
 }

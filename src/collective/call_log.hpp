@@ -36,7 +36,11 @@ enum class CallName : std::uint8_t {
     controller,
     controller_step,
     cost_model,
-    cost_model_step
+    cost_model_step,
+    verify,
+    save,
+    load,
+    join_keys
 };
 inline constexpr int most_call_names = 32;
 

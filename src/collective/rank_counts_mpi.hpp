@@ -1,5 +1,6 @@
 #pragma once
 
+#include "collective/butterfly.hpp"
 #include "collective/participant.hpp"
 
 #include <rrcb/plan.hpp>
@@ -15,9 +16,11 @@ namespace rrcb {
 /// rank that fails in it may leave out counts that it has or passes on, until the next agreement.
 LocalIndex count_arrivals(std::span<const RankCount> to, Participant& self);
 
-/// As count_arrivals(), but returns the number from each rank, ascending.
+/// As count_arrivals(), but returns the number from each rank, ascending. Joins `flags`, of which
+/// the first is 0, to those of all ranks.
 ///
 /// Such a failure may make counts contradict other data, so compare them in Participant::compare().
-std::vector<RankCount> exchange_counts(std::span<const RankCount> to, Participant& self);
+std::vector<RankCount> exchange_counts(std::span<const RankCount> to, Participant& self,
+                                       Flags* flags = nullptr);
 
 }  // namespace rrcb

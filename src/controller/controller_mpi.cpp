@@ -68,10 +68,11 @@ Participant Controller::State::enter(CallName call) {
 }
 
 void Controller::State::check_free() const {
-    if (has_started_ || !carried().empty())
+    const bool has_steps = has_started_ && !is_restored_;
+    if (has_steps || !carried().empty())
         throw Error(ErrorCode::invalid_argument,
-                    has_started_ ? "the controller has recorded steps; make the cost model before"
-                                 : "the controller has a cost model already; make another one");
+                    has_steps ? "the controller has recorded steps; make the cost model before"
+                              : "the controller has a cost model already; make another one");
 }
 
 int Controller::State::close(MPI_Comm, int, void* state, void*) {
@@ -171,6 +172,7 @@ void Controller::State::start(const RankLoad& load, std::span<const double> carr
     const auto end = std::ranges::copy(carried, mine.begin() + StepMessage::num_doubles).out;
     std::fill(end, mine.end(), 0.0);
     has_started_ = true;
+    is_restored_ = false;
     mpi::check(
         MPI_Iallreduce(mine.data(), all.data(), 1, type.get(), reduction_->get(), comm_, &request_),
         "MPI_Iallreduce");

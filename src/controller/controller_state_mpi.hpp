@@ -2,12 +2,14 @@
 
 #include "collective/handles.hpp"
 #include "collective/participant.hpp"
+#include "collective/saved_state.hpp"
 #include "controller/point_cost.hpp"
 #include "controller/rebalance_rule.hpp"
 #include "controller/step_record.hpp"
 
 #include <rrcb/controller.hpp>
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -69,7 +71,7 @@ struct Controller::State {
     /// Throws Error if a reduction has started, or carries sums.
     void check_free() const;
     /// Adds the sums that this message has room for to each reduction, joined by join_carried().
-    void carry(std::unique_ptr<StepMessage> message) noexcept { message_ = std::move(message); }
+    void carry(std::unique_ptr<StepMessage> message) noexcept;
     void start(const RankLoad& load, std::span<const double> carried = {},
                BadInput fault = BadInput::none);
     /// Takes the result of the reduction under way, if there is one.
@@ -79,6 +81,7 @@ struct Controller::State {
     std::span<const double> carried() const {
         return std::span(message_->all).subspan(StepMessage::num_doubles);
     }
+    StepMessage& message() { return *message_; }
     bool has_started() const { return has_started_; }
     MPI_Comm comm() const { return comm_; }
     int rank() const { return rank_; }
@@ -92,6 +95,16 @@ struct Controller::State {
     void take(const StepRecord& all);
 
     void report(double cost, const ReportDetails& details);
+
+    /// Returns once the reduction under way is done; its result is not taken.
+    void wait(Participant& self);
+    /// Numbers that only this rank has, for save() and load().
+    std::array<double, 3> own_numbers();
+    void set_own_numbers(std::span<const double> numbers);
+    /// Writes or reads the rest. On the root, when it writes.
+    void store(SavedState& state);
+    /// Notes that the result of a saved reduction is to be taken by the next step.
+    void resume();
 
     PointCost point_cost;
     bool counts_points = false;  ///< the caller gives numbers although weights were balanced
@@ -113,6 +126,7 @@ struct Controller::State {
     std::unique_ptr<mpi::Owned<MPI_Op, MPI_Op_free>> reduction_;
     MPI_Request request_ = MPI_REQUEST_NULL;
     bool has_started_ = false;
+    bool is_restored_ = false;  ///< and has begun no reduction since
 
     double cost_ = 0;  ///< of the rebalances since the last step
     bool has_bad_cost_ = false;

@@ -11,6 +11,8 @@ struct Waste {
     double work = 0;   ///< of the mean loads
 
     double excess() const { return work > 0 ? waste / work : 0; }
+    /// Writes or reads this, as all of this name.
+    void store(auto& state) { state.each(waste, work); }
 
     friend Waste operator+(const Waste& a, const Waste& b) {
         return {a.waste + b.waste, a.work + b.work};
@@ -49,6 +51,12 @@ class Cycle {
     /// Returns the least mean excess of the first 4, 8, ... steps; infinity if there are fewer.
     double least_excess() const;
 
+    void store(auto& state) {
+        state.count(num_first_, num_lengths);
+        state.each(count_, total_);
+        for (std::size_t k = 0; k < num_first_; ++k) state.each(first_[k]);
+    }
+
   private:
     std::size_t num_first_ = 0;  ///< sums that are known
     std::size_t count_ = 0;
@@ -78,6 +86,13 @@ class LatestSteps {
 
     /// Returns the latest complete block of length 2^k.
     const Waste& block(std::size_t k) const { return blocks_[k][0]; }
+
+    void store(auto& state) {
+        state.count(count_, std::size_t{1} << (num_lengths - 1));
+        for (std::size_t k = 0; count_ >> k > 0; ++k)
+            for (std::size_t b = 0; b < num_blocks && b < count_ >> k; ++b)
+                state.each(blocks_[k][b]);
+    }
 
   private:
     std::size_t count_ = 0;

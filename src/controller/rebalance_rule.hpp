@@ -36,6 +36,11 @@ class RebalanceRule {
     /// Forgets the course of earlier cycles: the next rebalance is expected to leave no excess.
     void expect_less();
 
+    void store(auto& state) {
+        state.each(unit_, latest_, cycle_, earlier_, knows_rebalances_, busiest_, slow_start_,
+                   costs_, num_rebalances_, least_);
+    }
+
   private:
     bool pays(double excess, double lasted) const;
     double cost() const;

@@ -53,6 +53,12 @@ CostState CostGuard::state() const {
     return predicts_ ? CostState::learned : CostState::no_better;
 }
 
+void CostGuard::change_ranks(int before) {
+    const double factor = 1.0 * num_ranks_ / before;
+    for (double* sum : {&learned_error_, &counted_error_, &between_}) *sum *= factor;
+    loss_ = 0;
+}
+
 double CostGuard::rms(double sum) const {
     return weight_ > 0 ? std::sqrt(sum / (weight_ * num_ranks_)) : 0;
 }

@@ -26,6 +26,15 @@ class CostGuard {
     double learned_error() const { return rms(learned_error_); }
     double counted_error() const { return rms(counted_error_); }
 
+    /// Goes on with errors that were added up on another number of ranks.
+    void change_ranks(int before);
+
+    /// Writes or reads this.
+    void store(auto& state) {
+        state.each(num_steps_, learned_error_, counted_error_, between_, weight_, predicts_,
+                   excess_, excess_weight_, loss_, barred_until_);
+    }
+
   private:
     double rms(double sum) const;
 

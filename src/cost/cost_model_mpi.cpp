@@ -1,11 +1,14 @@
 #include "arithmetic/non_stop.hpp"
 #include "collective/agreement_mpi.hpp"
+#include "collective/saved_state_mpi.hpp"
 #include "controller/controller_state_mpi.hpp"
+#include "controller/restart_mpi.hpp"
 #include "cost/cost_rule.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/cost.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/restart.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -59,6 +62,15 @@ struct CostModel::State {
     Controller::State& reducer;
     CostRule rule;
     std::optional<Controller> own{};  ///< if the caller gave none
+    int num_ranks_before = 0;         ///< that the costs were saved on, if on others; 0: none
+
+    /// Makes a model, from a saved one if `saved` is not null. Collective.
+    static std::unique_ptr<State> make(Controller& controller, CallName call, int num_columns,
+                                       const std::span<const std::byte>* saved);
+
+    /// Writes or reads all but the numbers of each rank. Returns whether the number of ranks is
+    /// that of the saved model.
+    bool store(SavedState& state, StepMessage& message);
 
     /// Returns the state of a model. Throws Error if it was moved from.
     static State& of(const CostModel& model) {
@@ -69,33 +81,67 @@ struct CostModel::State {
     }
 };
 
+bool CostModel::State::store(SavedState& state, StepMessage& message) {
+    int num_ranks = reducer.num_ranks();
+    bool is_pending = reducer.has_started();
+    state.each(num_ranks, is_pending);
+    const bool is_same = num_ranks == reducer.num_ranks();
+    auto sums = std::span(message.all).subspan(StepMessage::num_doubles);
+    if (is_pending) state.each(sums);
+    rule.store(state);
+    if (is_same) return is_pending;
+    std::ranges::fill(sums, 0.0);
+    rule.change_ranks(num_ranks);
+    num_ranks_before = num_ranks;
+    return false;
+}
+
+std::unique_ptr<CostModel::State> CostModel::State::make(Controller& controller, CallName call,
+                                                         int num_columns,
+                                                         const std::span<const std::byte>* saved) {
+    Controller::State& reducer = Controller::State::of(controller);
+    Participant self = reducer.enter(call);
+    std::unique_ptr<State> made;
+    std::unique_ptr<StepMessage> message;
+    bool is_pending = false;
+    self.attempt([&] {
+        std::optional<SavedState> state;
+        if (saved != nullptr) state.emplace(*saved, StateKind::cost_model).each(num_columns);
+        check_columns(num_columns);
+        reducer.check_free();
+        made.reset(new State{reducer, {num_columns, reducer.rank(), reducer.num_ranks()}});
+        message = std::make_unique<StepMessage>(made->rule.num_sums());
+        if (!state) return;
+        is_pending = made->store(*state, *message);
+        if (made->num_ranks_before == 0)
+            made->rule.set_own_numbers(numbers_of_rank(*state, reducer.rank()));
+    });
+    const std::uint64_t hash = saved != nullptr ? hash_of_bytes(*saved) : 0;
+    agree(self, {{"the number of columns", static_cast<std::uint64_t>(num_columns)},
+                 {"the saved state", hash}});
+    reducer.carry(std::move(message));
+    if (is_pending) reducer.resume();
+    return made;
+}
+
 CostModel::CostModel(MPI_Comm comm, int num_columns) {
     Controller own(Controller::State::make(comm, CallName::cost_model));
     *this = CostModel(own, num_columns);
     state_->own = std::move(own);
 }
 
-CostModel::CostModel(Controller& controller, int num_columns) {
-    Controller::State& reducer = Controller::State::of(controller);
-    Participant self = reducer.enter(CallName::cost_model);
-    std::unique_ptr<StepMessage> message;
-    self.attempt([&] {
-        check_columns(num_columns);
-        reducer.check_free();
-        state_.reset(new State{reducer, {num_columns, reducer.rank(), reducer.num_ranks()}});
-        message = std::make_unique<StepMessage>(state_->rule.num_sums());
-    });
-    agree(self, {{"the number of columns", static_cast<std::uint64_t>(num_columns)}});
-    reducer.carry(std::move(message));
-}
+CostModel::CostModel(Controller& controller, int num_columns)
+    : state_(State::make(controller, CallName::cost_model, num_columns, nullptr)) {}
 
+CostModel::CostModel(std::unique_ptr<State> state) : state_(std::move(state)) {}
 CostModel::~CostModel() = default;
 CostModel::CostModel(CostModel&&) noexcept = default;
 CostModel& CostModel::operator=(CostModel&&) noexcept = default;
 
 void CostModel::step(double seconds, std::span<const double> columns) {
     const NonStop arithmetic;
-    auto& [reducer, rule, own] = State::of(*this);
+    State& state = State::of(*this);
+    auto& [reducer, rule, own, num_ranks_before] = state;
     reducer.begin_step(CallName::cost_model_step);
     reducer.finish();
     if (reducer.has_started()) {
@@ -141,7 +187,49 @@ std::vector<double> CostModel::weights(std::span<const double> columns) {
 }
 
 std::string CostModel::report() const {
-    return locally([&] { return report_of(State::of(*this).rule); });
+    return locally([&] {
+        const State& state = State::of(*this);
+        const std::string text = report_of(state.rule);
+        if (state.num_ranks_before == 0) return text;
+        return text + "; loaded from " + std::to_string(state.num_ranks_before) +
+               " ranks: the controller and the errors of ranks began anew";
+    });
+}
+
+std::vector<std::byte> Restart::save(const CostModel& model) {
+    CostModel::State& state = CostModel::State::of(model);
+    Participant self = state.reducer.enter(CallName::save);
+    return save_together(
+        StateKind::cost_model, state.rule.own_numbers(), [&] { state.reducer.wait(self); },
+        [&](SavedState& to) {
+            auto num_columns = state.rule.num_columns();
+            to.each(num_columns);
+            state.store(to, state.reducer.message());
+        },
+        self);
+}
+
+CostModel Restart::load_model(std::span<const std::byte> bytes, Controller& controller) {
+    return CostModel(CostModel::State::make(controller, CallName::load, 0, &bytes));
+}
+
+CostModel Restart::load_model(std::span<const std::byte> bytes, MPI_Comm comm) {
+    Controller own(Controller::State::make(comm, CallName::load));
+    CostModel model = load_model(bytes, own);
+    model.state_->own = std::move(own);
+    return model;
+}
+
+std::vector<std::byte> save(const CostModel& model) {
+    return Restart::save(model);
+}
+
+CostModel detail::load_model(std::span<const std::byte> bytes, Controller& controller) {
+    return Restart::load_model(bytes, controller);
+}
+
+CostModel detail::load_model(std::span<const std::byte> bytes, MPI_Comm comm) {
+    return Restart::load_model(bytes, comm);
 }
 
 }  // namespace rrcb

@@ -140,4 +140,26 @@ void CostRule::learn(std::span<const double> all) {
     }
 }
 
+void CostRule::set_own_numbers(std::span<const double> numbers) {
+    seconds_ = numbers[0];
+    columns_[0] = numbers[1];
+    learned_ = numbers[2];
+}
+
+void CostRule::store(SavedState& state) {
+    const auto num_squares = static_cast<std::size_t>(all_.squares.size());
+    std::span squares(all_.squares.data(), num_squares);
+    state.each(seen_, known_, costs_, scatter_, mean_, squares, all_.products, guard_, is_learned_,
+               was_learned_, learned_error_, counted_error_);
+    auto state_of_costs = static_cast<std::size_t>(state_);
+    state.count(state_of_costs, static_cast<std::size_t>(CostState::learned));
+    state_ = static_cast<CostState>(state_of_costs);
+}
+
+void CostRule::change_ranks(int before) {
+    guard_.change_ranks(before);
+    state_ = guard_.state();
+    scatter_ = -1;
+}
+
 }  // namespace rrcb

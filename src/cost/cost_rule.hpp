@@ -1,8 +1,10 @@
 #pragma once
 
+#include "collective/saved_state.hpp"
 #include "cost/cost_guard.hpp"
 #include "cost/nonnegative_fit.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -39,6 +41,14 @@ class CostRule {
 
     /// Notes that the points are divided by the present weights.
     void divide() { is_learned_ = uses_costs(); }
+
+    /// Numbers that only this rank has, for save() and load().
+    std::array<double, 3> own_numbers() const { return {seconds_, columns_[0], learned_}; }
+    void set_own_numbers(std::span<const double> numbers);
+    /// Writes or reads the rest. On rank 0, when it writes.
+    void store(SavedState& state);
+    /// Goes on with costs that were learned on another number of ranks.
+    void change_ranks(int before);
 
   private:
     void note_errors(std::span<const double> all);

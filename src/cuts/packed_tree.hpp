@@ -63,6 +63,7 @@ class PackedTree {
         return items_[node];
     }
 
+    std::int32_t num_nodes() const { return static_cast<std::int32_t>(lowers_.size()); }
     bool is_end(std::int32_t node) const { return lower_of(node) == node; }
     Part entry_at(std::int32_t node) const { return entries_[items_[node]]; }
 

@@ -104,17 +104,6 @@ inline std::vector<int> axes_of(std::span<const Cut> tree) {
     return axes;
 }
 
-/// Returns the first node at or below `at` whose cut divides a box, or the part that contains the
-/// box.
-inline Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
-    while (!at.is_part()) {
-        const Sides sides = sides_of(box, cuts.tree[at.node], cuts.dimension);
-        if (sides.below && sides.above) break;
-        at = sides.above ? at.upper() : at.lower();
-    }
-    return at;
-}
-
 /// A box without bounds.
 inline constexpr Box everywhere{Box{}.upper, Box{}.lower};
 

@@ -3,7 +3,7 @@ module rrcb_balancers
   use, intrinsic :: iso_c_binding
   use rrcb_types
   use rrcb_c_functions
-  use rrcb_functions, only: settle
+  use rrcb_functions, only: bytes_of, settle
 #ifdef RRCB_MPI_F08
   use mpi_f08, only: MPI_Comm
 #endif
@@ -30,6 +30,8 @@ module rrcb_balancers
     procedure :: get_cuts
     procedure :: gather_cuts
     procedure :: set_cuts
+    procedure :: save_cuts
+    procedure :: load_cuts
     procedure :: part_of
     procedure :: assign
     procedure :: assign_all
@@ -163,6 +165,28 @@ contains
                    merge(1, 0, cuts%larger_below), cuts%dealt)
     if (size(tree) > 0) given%tree = c_loc(tree)
     call settle(c_set_cuts(self%handle, given), error)
+  end subroutine
+
+  !> Returns the cuts as bytes. Not collective.
+  subroutine save_cuts(self, bytes, error)
+    class(rrcb_balancer), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    integer, intent(out), optional :: error
+    type(c_ptr) :: address
+    integer(c_size_t) :: length
+    integer(c_int) :: code
+    code = c_save_cuts(self%handle, address, length)
+    call bytes_of(code, address, length, bytes)
+    call settle(code, error)
+  end subroutine
+
+  !> Copies cuts from saved bytes into the balancer. Not collective.
+  !> @param bytes of save_cuts
+  subroutine load_cuts(self, bytes, error)
+    class(rrcb_balancer), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    integer, intent(out), optional :: error
+    call settle(c_load_cuts(self%handle, bytes, size(bytes, kind=c_size_t)), error)
   end subroutine
 
   pure integer function num_cuts(cuts)

@@ -24,6 +24,7 @@ module rrcb_c_functions
     type(c_ptr) :: radii = c_null_ptr
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
     integer(c_size_t) :: num_parts = 0
+    integer(c_int) :: needs = 0
   end type
 
   type, bind(c) :: c_ghost_plan
@@ -33,6 +34,26 @@ module rrcb_c_functions
     type(c_ptr) :: send_indices = c_null_ptr
     integer(c_size_t) :: num_receive_ranks = 0
     type(c_ptr) :: receive = c_null_ptr, shifts = c_null_ptr
+  end type
+
+  type, bind(c) :: c_verify_options
+    integer(c_size_t) :: sample = 1000
+    real(c_double) :: radius = 0
+    type(c_ptr) :: radii = c_null_ptr
+    integer(c_size_t) :: num_ids = 0
+    type(c_ptr) :: ids = c_null_ptr
+    integer(c_size_t) :: num_ids_before = 0
+    type(c_ptr) :: ids_before = c_null_ptr
+  end type
+
+  type, bind(c) :: c_verification
+    integer(c_int64_t) :: num_pairs = 0, num_faults = 0
+    integer(c_size_t) :: num_missing = 0
+    type(c_ptr) :: missing = c_null_ptr
+    integer(c_size_t) :: num_twice = 0
+    type(c_ptr) :: twice = c_null_ptr
+    integer(c_size_t) :: num_strangers = 0
+    type(c_ptr) :: strangers = c_null_ptr
   end type
 
   type, bind(c) :: c_rank_count
@@ -77,6 +98,12 @@ module rrcb_c_functions
       type(c_ptr), value :: part_weights, part_sizes
       real(c_double), intent(inout) :: result
     end function
+    integer(c_int) function save_state(handle, bytes, length) bind(c)
+      import
+      type(c_ptr), value :: handle
+      type(c_ptr), intent(out) :: bytes
+      integer(c_size_t), intent(out) :: length
+    end function
     integer(c_int) function ask(handle, due) bind(c)
       import
       type(c_ptr), value :: handle
@@ -106,6 +133,9 @@ module rrcb_c_functions
   procedure(move), bind(c, name="rrcb_groups_fetch") :: c_groups_fetch
   procedure(measure), bind(c, name="rrcb_imbalance") :: c_imbalance
   procedure(measure), bind(c, name="rrcb_worst_load_unbalance_percent") :: c_worst_load_unbalance_percent
+  procedure(save_state), bind(c, name="rrcb_save_cuts") :: c_save_cuts
+  procedure(save_state), bind(c, name="rrcb_controller_save") :: c_controller_save
+  procedure(save_state), bind(c, name="rrcb_cost_model_save") :: c_cost_model_save
   procedure(ask), bind(c, name="rrcb_controller_due") :: c_controller_due
   procedure(ask), bind(c, name="rrcb_cost_model_uses_costs") :: c_cost_model_uses_costs
 
@@ -231,6 +261,13 @@ module rrcb_c_functions
       type(c_ptr), value :: handle
       type(c_ghost_plan), intent(inout) :: plan
     end function
+    integer(c_int) function c_ghosts_verify(handle, points, options, seen) bind(c, name="rrcb_ghosts_verify")
+      import
+      type(c_ptr), value :: handle
+      type(rrcb_points), intent(in) :: points
+      type(c_verify_options), intent(in) :: options
+      type(c_verification), intent(inout) :: seen
+    end function
     integer(c_int) function c_ghosts_apply_shifts(handle, type, length, positions) &
       bind(c, name="rrcb_ghosts_apply_shifts")
       import
@@ -285,6 +322,36 @@ module rrcb_c_functions
       integer(c_int), value :: comm, num_columns
       type(c_ptr), intent(in), optional :: controller
       type(c_ptr), value :: handle
+    end function
+    integer(c_int) function c_load_cuts(handle, bytes, length) bind(c, name="rrcb_load_cuts")
+      import
+      type(c_ptr), value :: handle
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: length
+    end function
+    integer(c_int) function c_controller_load(comm, bytes, length, handle) &
+      bind(c, name="rrcb_controller_load_fortran")
+      import
+      integer(c_int), value :: comm
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: length
+      type(c_ptr), value :: handle
+    end function
+    integer(c_int) function c_cost_model_load(comm, controller, bytes, length, handle) &
+      bind(c, name="rrcb_cost_model_load_fortran")
+      import
+      integer(c_int), value :: comm
+      type(c_ptr), intent(in), optional :: controller
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: length
+      type(c_ptr), value :: handle
+    end function
+    integer(c_int) function c_join_keys(handle, count, keys_per_point, keys, joined) &
+      bind(c, name="rrcb_join_keys")
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: count, keys_per_point
+      type(c_ptr), value :: keys, joined
     end function
     integer(c_int) function c_cost_model_step(handle, seconds, num_columns, columns) &
       bind(c, name="rrcb_cost_model_step")

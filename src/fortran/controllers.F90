@@ -21,6 +21,8 @@ module rrcb_controllers
 #endif
     generic :: create => controller_create
     procedure :: destroy => controller_destroy
+    procedure :: save => controller_save
+    procedure :: load => controller_load
     procedure :: step => controller_step
     procedure :: due => controller_due
     procedure :: rebalanced => controller_rebalanced
@@ -37,6 +39,8 @@ module rrcb_controllers
 #endif
     generic :: create => cost_model_create
     procedure :: destroy => cost_model_destroy
+    procedure :: save => cost_model_save
+    procedure :: load => cost_model_load
     procedure :: step => cost_model_step
     procedure :: weights => cost_model_weights
     procedure :: costs => cost_model_costs
@@ -119,6 +123,61 @@ contains
     integer, intent(out), optional :: error
     type(rrcb_report), intent(in), optional :: report
     call settle(c_controller_rebalanced(self%handle, report, cost), error)
+  end subroutine
+
+  !> Returns the state as bytes, the same on every rank. Collective.
+  subroutine controller_save(self, bytes, error)
+    class(rrcb_controller), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    integer, intent(out), optional :: error
+    type(c_ptr) :: address
+    integer(c_size_t) :: length
+    integer(c_int) :: code
+    code = c_controller_save(self%handle, address, length)
+    call bytes_of(code, address, length, bytes)
+    call settle(code, error)
+  end subroutine
+
+  !> Makes a controller that continues from saved bytes. Collective over the communicator.
+  !> @param comm  may be freed before the controller
+  !> @param bytes the same on every rank
+  subroutine controller_load(self, comm, bytes, error)
+    class(rrcb_controller), intent(inout), target :: self
+    integer, intent(in) :: comm
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    integer, intent(out), optional :: error
+    call settle(c_controller_load(int(comm, c_int), bytes, size(bytes, kind=c_size_t), &
+      room_for(self%handle)), error)
+  end subroutine
+
+  !> Returns the state as bytes, the same on every rank. Collective.
+  subroutine cost_model_save(self, bytes, error)
+    class(rrcb_cost_model), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    integer, intent(out), optional :: error
+    type(c_ptr) :: address
+    integer(c_size_t) :: length
+    integer(c_int) :: code
+    code = c_cost_model_save(self%handle, address, length)
+    call bytes_of(code, address, length, bytes)
+    call settle(code, error)
+  end subroutine
+
+  !> Makes a model that continues from saved bytes. Collective over the communicator.
+  !> @param comm       may be freed before the model
+  !> @param bytes      the same on every rank
+  !> @param controller loaded before, is destroyed later
+  subroutine cost_model_load(self, comm, bytes, error, controller)
+    class(rrcb_cost_model), intent(inout), target :: self
+    integer, intent(in) :: comm
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    integer, intent(out), optional :: error
+    class(rrcb_controller), intent(in), target, optional :: controller
+    type(c_ptr), pointer :: steps
+    steps => null()
+    if (present(controller)) steps => controller%handle
+    call settle(c_cost_model_load(int(comm, c_int), steps, bytes, size(bytes, kind=c_size_t), &
+      room_for(self%handle)), error)
   end subroutine
 
   !> Makes a model. Collective over the communicator.

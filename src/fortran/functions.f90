@@ -7,7 +7,7 @@ module rrcb_functions
   implicit none
   private
   public :: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, rrcb_ranks_of_part, &
-    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of, settle
+    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of, bytes_of, settle
 
 contains
 
@@ -23,6 +23,19 @@ contains
       text = text//letters(i)
     end do
   end function
+
+  !> Copies saved bytes of C, if the function that showed them succeeded.
+  !> @param code of that function
+  subroutine bytes_of(code, address, length, bytes)
+    integer(c_int), intent(in) :: code
+    type(c_ptr), intent(in) :: address
+    integer(c_size_t), intent(in) :: length
+    integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    integer(c_int8_t), pointer :: shown(:)
+    if (code /= rrcb_ok) return
+    call c_f_pointer(address, shown, [length])
+    bytes = shown
+  end subroutine
 
   !> Gives the caller the code of a function in C. Without `error` an error ends the program.
   subroutine settle(code, error)

@@ -7,14 +7,16 @@
 !> `use mpi_f08` if MPI had that module.
 module rrcb
   use rrcb_types, only: rrcb_ok, rrcb_invalid_argument, rrcb_out_of_memory, rrcb_mpi_error, &
-    rrcb_internal_error, rrcb_float, rrcb_double, rrcb_points, rrcb_interleaved_points, &
+    rrcb_internal_error, rrcb_float, rrcb_double, rrcb_needs_sender, rrcb_needs_receiver, &
+    rrcb_needs_either, rrcb_points, rrcb_interleaved_points, &
     rrcb_column_points, rrcb_column, rrcb_cut, rrcb_cuts, rrcb_report, rrcb_plan, rrcb_ghost_plan, rrcb_rank_range, &
+    rrcb_fault, rrcb_verification, &
     rrcb_transfer_report, rrcb_kept
   use rrcb_functions, only: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, &
     rrcb_ranks_of_part, rrcb_imbalance, rrcb_load_unbalance_percent, &
     rrcb_worst_load_unbalance_percent
   use rrcb_balancers, only: rrcb_balancer
   use rrcb_ghost_lists, only: rrcb_ghosts
-  use rrcb_group_lists, only: rrcb_groups
+  use rrcb_group_lists, only: rrcb_groups, rrcb_join_keys
   use rrcb_controllers, only: rrcb_controller, rrcb_cost_model
 end module rrcb

@@ -8,6 +8,8 @@ module rrcb_types
   integer, parameter, public :: rrcb_ok = 0, rrcb_invalid_argument = 1, rrcb_out_of_memory = 2, &
     rrcb_mpi_error = 3, rrcb_internal_error = 4
   integer(c_int), parameter, public :: rrcb_float = 3, rrcb_double = 4
+  !> Whose radius counts, if points have different ones.
+  integer(c_int), parameter, public :: rrcb_needs_sender = 0, rrcb_needs_receiver = 1, rrcb_needs_either = 2
   integer(c_int), parameter :: type_byte = 0, type_int32 = 1, type_int64 = 2
   !> Types of points whose arrays do not fit together, see src/c/points.cpp: they fail on all ranks.
   integer(c_int), parameter :: wrong_weights = 5, wrong_axis = 6, wrong_shape = 7
@@ -76,6 +78,19 @@ module rrcb_types
     integer(c_int), allocatable :: send_ranks(:), receive_ranks(:)
     integer(c_size_t), allocatable :: send_counts(:), receive_counts(:), send_indices(:)
     integer(c_int32_t), allocatable :: shifts(:, :)
+  end type
+
+  !> Point that is not where it should be, and the point that needs it.
+  type, public, bind(c) :: rrcb_fault
+    integer(c_int64_t) :: id = 0
+    integer(c_int) :: rank = 0
+    integer(c_int64_t) :: needed_by = 0
+  end type
+
+  !> Result of verify.
+  type, public :: rrcb_verification
+    integer(c_int64_t) :: num_pairs = 0, num_faults = 0
+    type(rrcb_fault), allocatable :: missing(:), twice(:), strangers(:)
   end type
 
   !> Consecutive ranks that hold a part.

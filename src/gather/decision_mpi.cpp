@@ -17,8 +17,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <queue>
 #include <utility>
 
 namespace rrcb {
@@ -46,13 +48,41 @@ Verdict verdict_of(const Summary& summary, const Bisection& bisection,
     return verdict;
 }
 
-/// Returns the imbalance of a partition whose largest part is the heaviest point.
-double least_imbalance(double heaviest, double weight, int num_parts,
+/// Returns the least imbalance of points of one weight in parts of these relative sizes: each point
+/// beyond the whole numbers of the shares goes to the part that it makes the least too heavy.
+double least_imbalance_by_count(GlobalCount num_points, std::span<const double> part_sizes) {
+    const double unit = static_cast<double>(num_points) / sum_of(part_sizes);
+    using NextPoint = std::pair<double, double>;  // relative weight of a part with it, and the size
+    std::priority_queue<NextPoint, std::vector<NextPoint>, std::greater<>> next;
+    GlobalCount num_left = num_points;
+    for (const double size : part_sizes) {
+        const double count = std::floor(size * unit);
+        num_left -= static_cast<GlobalCount>(count);
+        if (size > 0) next.emplace((count + 1) / (size * unit), size);
+    }
+    double least = 1;
+    for (; num_left > 0; --num_left) {
+        const auto [relative, size] = next.top();
+        next.pop();
+        least = relative;
+        next.emplace(relative + 1 / (size * unit), size);
+    }
+    return std::max(1.0, least);
+}
+
+/// Returns a lower bound of the imbalance of any partition.
+double least_imbalance(const Verdict& verdict, double weight, int num_parts,
                        std::span<const double> part_sizes) {
     if (!(weight > 0)) return 1;
-    const double parts =
-        part_sizes.empty() ? num_parts : sum_of(part_sizes) / *std::ranges::max_element(part_sizes);
-    return std::max(1.0, heaviest / weight * parts);
+    const GlobalCount count = verdict.num_points;
+    const bool is_even =
+        part_sizes.empty() || std::ranges::min(part_sizes) == std::ranges::max(part_sizes);
+    if (verdict.common_weight > 0 && is_even)
+        return static_cast<double>((count - 1) / num_parts + 1) * num_parts /
+               static_cast<double>(count);
+    if (verdict.common_weight > 0) return least_imbalance_by_count(count, part_sizes);
+    const double parts = is_even ? num_parts : sum_of(part_sizes) / std::ranges::max(part_sizes);
+    return std::max(1.0, verdict.heaviest / weight * parts);
 }
 
 /// Throws Error if the ranks differ or one has failed.
@@ -137,7 +167,7 @@ bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contributio
                        const Options& options) {
     const bool compares = !options.axes.order.is_longest() && !are_cuts_limited(options);
     return !compares || axes_of(kept.tree) == axes_of(estimate.tree) ||
-           are_axes_good(build_domain(all, estimate.dimension), kept, options);
+           are_axes_good(build_domain(all, estimate.dimension), kept, estimate.near);
 }
 
 /// Reads the parts that the ranks hold from the extents of their points.
@@ -165,7 +195,7 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
     if (verdict.num_points == 0) report_measured(1, 1, report);
     report.details.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
     report.details.least_imbalance =
-        least_imbalance(verdict.heaviest, weight_of(report), num_parts, part_sizes);
+        least_imbalance(verdict, weight_of(report), num_parts, part_sizes);
     report.details.surplus_parts =
         static_cast<int>(std::max(GlobalCount{0}, num_parts - verdict.num_points));
     return report;

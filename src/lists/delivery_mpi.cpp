@@ -220,7 +220,7 @@ void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int
             "the counts of the plan do not add up to its list; give the plan as it was made");
 }
 
-void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
+bool deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
              const TransferLimits& limits, TransferReport* report, Participant& self) {
     std::size_t point_bytes = 0;
     self.attempt([&] {
@@ -228,8 +228,16 @@ void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
             check_column(column, delivery.num_points, "points of the plan");
         point_bytes = point_bytes_of(columns);
     });
-    const std::vector<RankCount> sent = exchange_counts(delivery.to, self);
-    self.compare([&] { check_agreement(delivery.from, sent); });
+    const auto overtaking = static_cast<double>(delivery.overtaking);
+    Flags flags{0, overtaking, -overtaking, delivery.to.empty() ? 0. : 1.};
+    const std::vector<RankCount> sent = exchange_counts(delivery.to, self, &flags);
+    self.compare([&] {
+        require(
+            flags[1] == 0 || flags[1] != -flags[2],
+            "the points were transferred since these ghosts were found; find them again, or, if "
+            "other points were transferred, use another communicator for these");
+        check_agreement(delivery.from, sent);
+    });
     std::optional<Stream> stream;
     std::vector<Lane> lanes;
     self.attempt([&] {
@@ -247,6 +255,7 @@ void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
     run(*stream, delivery, lanes, self);
     if (report != nullptr)
         *report = {stream->num_bytes(), point_bytes * total(delivery.to), stream->num_messages()};
+    return flags[3] > 0;
 }
 
 }  // namespace rrcb

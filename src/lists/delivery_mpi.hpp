@@ -4,6 +4,7 @@
 
 #include <rrcb/transfer.hpp>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Delivery {
     std::span<const LocalIndex> sent{};     ///< sorted by rank; empty: all, in their order
     std::vector<RankCount> to{};            ///< number for each rank, ascending
     std::vector<RankCount> from{};
+    std::uint64_t overtaking = 0;  ///< number of a transfer; if the same on all ranks, refused
 };
 
 /// Memory for the result of a column whose type is not known.
@@ -46,11 +48,11 @@ void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_r
 /// Throws Error unless a column holds its components for each of `count` points or other `entries`.
 void check_column(const detail::ByteColumn& column, LocalIndex count, const std::string& entries);
 
-/// Moves columns into their results.
+/// Moves columns into their results. Returns whether any rank sends points.
 ///
 /// Collective: exchange_counts(), one reduction and the messages. An earlier failure on one rank is
 /// thrown on all.
-void deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
+bool deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
              const TransferLimits& limits, TransferReport* report, Participant& self);
 
 }  // namespace rrcb

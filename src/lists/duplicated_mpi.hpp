@@ -23,6 +23,8 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                  Participant& self);
+Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,
+                    Participant& self);
 void move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
 void move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_ghosts,
@@ -31,6 +33,8 @@ void move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_gho
 
 Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPlace place,
               Participant& self);
+std::vector<std::uint64_t> join_keys(std::span<const std::uint64_t> keys,
+                                     std::size_t keys_per_point, Participant& self);
 void move(const Groups& groups, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
 std::vector<double> sums(const Groups& groups, std::span<const double> values,

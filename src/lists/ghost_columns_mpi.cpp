@@ -1,7 +1,9 @@
+#include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/transfer_log.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>
@@ -23,6 +25,12 @@ LocalIndex check(const GhostPlan& plan, const Participant& self) {
         std::ranges::all_of(plan.send_indices, [&](LocalIndex i) { return i < plan.num_points; }),
         "send_indices of the plan must be below num_points; give the plan as it was made");
     return num_ghosts;
+}
+
+/// Returns the number of a transfer that may have taken the points of ghosts, or 0.
+std::uint64_t overtaking(const GhostPlan& plan, MPI_Comm comm) {
+    const TransferLog* log = mpi::Attribute<TransferLog>::find(comm);
+    return log != nullptr && plan.stamp != 0 ? log->overtaking(plan) : 0;
 }
 
 /// Throws Error unless the groups are consistent; returns the number that other ranks own.
@@ -58,6 +66,7 @@ void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const Tran
     Delivery delivery{.num_points = plan.num_points, .sent = plan.send_indices};
     self.attempt([&] {
         check(plan, self);
+        delivery.overtaking = overtaking(plan, self.comm);
         delivery.to = plan.send;
         delivery.from = plan.receive;
     });
@@ -70,6 +79,7 @@ void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
     Delivery delivery;
     self.attempt([&] {
         delivery.num_points = check(plan, self);
+        delivery.overtaking = overtaking(plan, self.comm);
         for (std::size_t k = 0; k < of_points.size(); ++k) {
             require(of_ghosts[k].components == of_points[k].components,
                     "columns of ghosts must have as many components as those of the points");

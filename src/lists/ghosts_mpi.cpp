@@ -7,14 +7,15 @@
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/periodic_images.hpp"
+#include "lists/radii.hpp"
 #include "lists/remap_mpi.hpp"
+#include "lists/transfer_log.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -55,6 +56,14 @@ struct Holders {
         return ranges;
     }
 
+    /// Returns the ends of the parts that this rank holds.
+    std::vector<Part> ends_here() const {
+        std::vector<Part> ends;
+        for (Part end = 0; end < num_parts; ++end)
+            if ((*this)(end).contains(rank)) ends.push_back(end);
+        return ends;
+    }
+
     void check() const {
         if (!given) return;
         require(given->size() == static_cast<std::size_t>(num_parts),
@@ -63,53 +72,22 @@ struct Holders {
     }
 };
 
-/// Distances at which points are needed: one for all, or one for each.
-struct Radii {
-    double same = 0;
-    std::optional<std::span<const double>> each{};
-
-    double of(LocalIndex point) const { return each ? (*each)[point] : same; }
-
-    double greatest() const {
-        if (!each) return same;
-        return each->empty() ? 0 : *std::ranges::max_element(*each);
-    }
-
-    void check(LocalIndex num_points) const {
-        const auto is_usable = [](double radius) { return std::isfinite(radius) && radius >= 0; };
-        if (!each)
-            return require(
-                is_usable(same),
-                "the radius must be finite, 0 or more; give it or radii, one for each point");
-        require(std::isnan(same) || same == 0, "give one radius or radii, not both");
-        require(each->size() == num_points, "radii must have one entry for each point");
-        require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");
-    }
-
-    /// Returns the one radius, as an argument to compare.
-    Shared shared() const {
-        return {"the radius", std::bit_cast<std::uint64_t>(same + 0.0), !each};
-    }
-    Shared each_given(LocalIndex num_points) const {
-        return {"whether radii are given", each ? 1u : 0u, num_points > 0,
-                "give one for each point on every rank that has points, or on none"};
-    }
-};
-
 /// Finds which of this rank's points other ranks need, by the cuts that are known.
 class Neighbourhood {
   public:
     /// `has_balanced`: the points are those of the balance, which must have been transferred.
     Neighbourhood(const Cuts& cuts, const Holders& holders,
-                  const std::optional<PeriodicImages>& images, bool has_balanced)
+                  const std::optional<PeriodicImages>& images, const PartReaches* reaches,
+                  bool has_balanced)
         : cuts_(cuts),
           has_balanced_(has_balanced),
           dimension_(cuts.dimension),
           holders_(holders),
           images_(images),
           alone_(holders.alone_here()),
-          search_(cuts, alone_) {
-        if (images_) search_of_images_.emplace(cuts, std::span<const PartRange>{});
+          reach_(reaches != nullptr ? reaches->greatest() : -infinity),
+          search_(cuts, alone_, reaches) {
+        if (images_) search_of_images_.emplace(cuts, std::span<const PartRange>{}, reaches);
         if (alone_.size() != 1 || alone_[0].end - alone_[0].first != 1) return;
         const Part end = alone_[0].first;
         if (knows_path(cuts, end)) home_ = box_of(cuts, part_at(cuts, end));
@@ -118,8 +96,9 @@ class Neighbourhood {
     /// Notes the ranks that need a point or its images. Points come in ascending order.
     void add(LocalIndex point, const Ball& ball) {
         if (!images_) return add(point, ball, Shift{});
-        images_->for_each(ball,
-                          [&](const Shift& shift, const Ball& image) { add(point, image, shift); });
+        images_->for_each(ball.widened(reach_), [&](const Shift& shift, const Vector& centre) {
+            add(point, ball.moved_to(centre), shift);
+        });
     }
 
     void write(GhostPlan& plan) const {
@@ -139,7 +118,7 @@ class Neighbourhood {
   private:
     void add(LocalIndex point, const Ball& ball, const Shift& shift) {
         const bool is_image = shift != Shift{};
-        if (!is_image && home_ && ball.is_inside(*home_, dimension_)) return;
+        if (!is_image && home_ && ball.widened(reach_).is_inside(*home_, dimension_)) return;
         if (!is_image && has_balanced_) require_here(point, ball.centre());
         const auto first = std::ssize(ranks_);
         (is_image ? *search_of_images_ : search_)
@@ -173,6 +152,7 @@ class Neighbourhood {
     const Holders& holders_;
     const std::optional<PeriodicImages>& images_;
     std::vector<PartRange> alone_;
+    double reach_;  ///< greatest of all parts
     BallSearch search_;
     std::optional<BallSearch> search_of_images_;  ///< of all parts
     std::optional<Box> home_;  ///< region of the only part that this rank does not share
@@ -188,7 +168,8 @@ struct GhostRequest {
     Radii radii;
     Holders holders;
     std::optional<PeriodicImages> images;
-    bool has_balanced;  ///< whether the points are those of the balance
+    bool has_balanced;                     ///< whether the points are those of the balance
+    std::optional<PartReaches> reaches{};  ///< of the parts, if their radii count
 
     void check(const Cuts& cuts) const {
         radii.check(points.count);
@@ -201,12 +182,30 @@ struct GhostRequest {
         images->check(points);
     }
 
+    /// Notes the reaches of the points of this rank. A point outside its parts counts for each.
+    void note_reaches(const Cuts& cuts) {
+        const std::vector<Part> ends = holders.ends_here();
+        reaches.emplace(cuts.num_parts, cuts.dimension);
+        const auto for_each_end = [&](LocalIndex i, auto&& visit) {
+            const Part part = ends.size() > 1 ? part_of(cuts, points.position(i)) : no_part;
+            const Part end = part == no_part ? no_part : end_of(cuts, part);
+            if (std::ranges::binary_search(ends, end)) return visit(end);
+            std::ranges::for_each(ends, visit);
+        };
+        for (LocalIndex i = 0; i < points.count; ++i)
+            for_each_end(i, [&](Part end) { reaches->note_radius(end, radii.of(i)); });
+        for (LocalIndex i = 0; i < points.count; ++i)
+            for_each_end(
+                i, [&](Part end) { reaches->note_place(end, radii.of(i), points.position(i)); });
+    }
+
     /// Lists the points that this rank sends, with their shifts; returns the nodes whose cuts it
     /// lacks for the rest.
     std::vector<std::size_t> list_sent(const Cuts& cuts, GhostPlan& plan) const {
-        Neighbourhood neighbourhood(cuts, holders, images, has_balanced);
+        Neighbourhood neighbourhood(cuts, holders, images, reaches ? &*reaches : nullptr,
+                                    has_balanced);
         for (LocalIndex i = 0; i < points.count; ++i)
-            neighbourhood.add(i, Ball(points.position(i), radii.of(i)));
+            neighbourhood.add(i, Ball(points.position(i), radii.of_sender(i)));
         plan.num_points = points.count;
         neighbourhood.write(plan);
         return neighbourhood.lacking();
@@ -248,19 +247,30 @@ void exchange_shifts(GhostPlan& plan, Participant& self) {
     deliver(delivery, columns, {}, nullptr, self);
 }
 
+/// Takes the greatest reaches of all ranks. Collective.
+void join(PartReaches& reaches, Participant& self) {
+    const std::span<double> numbers = reaches.numbers();
+    self.check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), mpi::to_int(std::ssize(numbers)),
+                             MPI_DOUBLE, MPI_MAX, self.comm),
+               "MPI_Allreduce");
+}
+
 /// Collective; an earlier failure on one rank is thrown on all.
 GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     GhostPlan plan;
     std::optional<SearchBuffers<GhostSearch>> buffers;
     std::uint64_t bits_of_cuts = 0;
     std::uint64_t bits_of_holders = 0;
+    const auto list_sent = [&] {
+        std::vector<std::size_t> lacking = request.list_sent(cuts, plan);
+        if (!is_whole(cuts))
+            buffers.emplace(GhostSearch(cuts, std::move(lacking), request, plan), self.comm);
+    };
     self.attempt([&] {
         mpi::require_group(cuts.group, "the balance of the cuts", self);
         request.check(cuts);
         request.has_balanced = cuts.points == hash_of(request.points);
-        std::vector<std::size_t> lacking = request.list_sent(cuts, plan);
-        if (!is_whole(cuts))
-            buffers.emplace(GhostSearch(cuts, std::move(lacking), request, plan), self.comm);
+        request.radii.are_of_receivers() ? request.note_reaches(cuts) : list_sent();
         bits_of_cuts = bits_of(cuts);
         if (request.holders.given) bits_of_holders = hash_of(*request.holders.given);
     });
@@ -268,8 +278,15 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     agree(self, {{"the tree of cuts", bits_of_cuts},
                  request.radii.each_given(request.points.count),
                  request.radii.shared(),
+                 {"needs", static_cast<std::uint64_t>(request.radii.needs)},
                  {"ranks_of_parts", bits_of_holders},
                  {"the periodic box", request.images ? request.images->hash() : 0}});
+    if (request.reaches) {
+        join(*request.reaches, self);
+        self.attempt(list_sent);
+        plan.receive = exchange_counts(plan.send, self);
+        agree(self);
+    }
     if (buffers && search_together(*buffers, self)) {
         plan.receive = exchange_counts(plan.send, self);
         agree(self);
@@ -283,7 +300,7 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                  Participant& self) {
     GhostRequest request{points,
-                         {options.radius, options.radii},
+                         {options.radius, options.radii, options.needs},
                          {options.ranks_of_parts, cuts.shape, cuts.num_parts,
                           mpi::rank_of(self.comm), mpi::size_of(self.comm)},
                          {},
@@ -292,6 +309,9 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);
     plan.group = mpi::group_of(self.comm);
+    plan.stamp = next_stamp();
+    plan.radius = options.radius;
+    plan.needs = options.needs;
     if (options.periodic) plan.periodic = *options.periodic;
     return plan;
 }
@@ -300,32 +320,6 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
                  MPI_Comm comm) {
     Participant self = mpi::enter(comm, CallName::ghosts);
     return ghosts(cuts, points, options, self);
-}
-
-namespace {
-
-template <class T>
-void apply_shifts_to(std::span<T> positions, const GhostPlan& plan) {
-    if (plan.shifts.empty()) return;
-    const std::size_t dimension = positions.size() / plan.shifts.size();
-    require(dimension >= 1 && dimension <= max_dimension &&
-                positions.size() == dimension * plan.shifts.size(),
-            "positions must have an entry for each axis of each ghost");
-    for (std::size_t k = 0; k < positions.size(); ++k) {
-        const int axis = static_cast<int>(k % dimension);
-        positions[k] = static_cast<T>(
-            image_of(positions[k], plan.periodic, axis, plan.shifts[k / dimension][axis]));
-    }
-}
-
-}  // namespace
-
-void apply_shifts(const GhostPlan& plan, std::span<double> positions) {
-    apply_shifts_to(positions, plan);
-}
-
-void apply_shifts(const GhostPlan& plan, std::span<float> positions) {
-    apply_shifts_to(positions, plan);
 }
 
 }  // namespace rrcb

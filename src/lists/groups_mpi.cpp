@@ -1,15 +1,13 @@
-#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "collective/exchange_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/notices_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 // The ranks of a group find each other in three exchanges:
@@ -57,10 +55,6 @@ struct SumNotice {
     GroupSum sum;
 };
 
-/// A record and the rank that it comes from.
-template <class Record>
-using Arrived = std::pair<int, Record>;
-
 /// Groups of the points of this rank, numbered by their first points.
 struct LocalGroups {
     std::vector<std::uint64_t> keys;    ///< of each
@@ -100,46 +94,6 @@ LocalGroups groups_here(const Points& points, std::span<const std::uint64_t> key
         if (first[i] == i) local.by_key.push_back(local.of_points[i]);
     return local;
 }
-
-/// Sends each record to its rank; returns those received, by rank. Collective.
-template <class Record>
-std::vector<Arrived<Record>> exchange(std::span<const int> ranks, std::span<const Record> records,
-                                      std::initializer_list<Shared> arguments, Participant& self) {
-    Exchange exchange(sizeof(Record), mpi::size_of(self.comm));
-    self.attempt([&] {
-        exchange.fill(ranks, [&](std::size_t k, std::byte* place) {
-            std::memcpy(place, &records[k], sizeof(Record));
-        });
-    });
-    const std::size_t num_arrivals = exchange.announce(self);
-    std::vector<Arrived<Record>> arrived;
-    self.attempt([&] { arrived.reserve(num_arrivals); });
-    agree(self, arguments);
-    exchange.run(self);
-    exchange.for_each([&](int source, const std::byte* place) {
-        Record record;
-        std::memcpy(&record, place, sizeof record);
-        arrived.emplace_back(source, record);
-    });
-    return arrived;
-}
-
-/// Records for other ranks.
-template <class Record>
-struct Outgoing {
-    std::vector<int> ranks{};
-    std::vector<Record> records{};
-
-    void add(int rank, const Record& record) {
-        ranks.push_back(rank);
-        records.push_back(record);
-    }
-
-    std::vector<Arrived<Record>> send(Participant& self,
-                                      std::initializer_list<Shared> arguments = {}) const {
-        return exchange(std::span(ranks), std::span(records), arguments, self);
-    }
-};
 
 /// Answers all ranks of each key except the lowest, the owner.
 Outgoing<OwnerNotice> name_owners(std::vector<Arrived<KeyNotice>>& keys) {
@@ -223,8 +177,7 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
         local = groups_here(points, keys, place);
         for (const LocalIndex group : local.by_key) {
             const std::uint64_t key = local.keys[group];
-            to_homes.add(static_cast<int>(mix(key) % static_cast<std::uint64_t>(num_ranks)),
-                         {key, group});
+            to_homes.add(home_of(key, num_ranks), {key, group});
         }
     });
     std::vector<Arrived<KeyNotice>> at_home =

@@ -1,5 +1,6 @@
 #include "lists/periodic_images.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "arithmetic/mix.hpp"
 #include "options/rejection.hpp"
 
@@ -74,6 +75,52 @@ std::uint64_t PeriodicImages::hash() const {
         for (const double end : {box_.lower[a], box_.upper[a]})
             hash = mix(hash ^ std::bit_cast<std::uint64_t>(end + 0.0));
     return hash;
+}
+
+namespace {
+
+/// Returns a coordinate moved to that of an image. If it is in the box, its image is never in
+/// [lower, upper): rounding may bring it there, and the upper face lands on the lower one. A
+/// point that has left the box since may come in on the other side.
+template <class T>
+T image_outside(T x, const Box& box, int axis, std::int32_t shift) {
+    const auto image = static_cast<T>(image_of(x, box, axis, shift));
+    if (!(x >= box.lower[axis] && x <= box.upper[axis])) return image;
+    const auto towards = [](T from, double to) { return std::nextafter(from, static_cast<T>(to)); };
+    auto end = static_cast<T>(shift > 0 ? box.upper[axis] : box.lower[axis]);
+    if (shift > 0) {
+        if (end < box.upper[axis]) end = towards(end, infinity);
+        return std::max(image, end);
+    }
+    if (shift < 0) {
+        if (!(end < box.lower[axis])) end = towards(end, -infinity);
+        return std::min(image, end);
+    }
+    return image;
+}
+
+template <class T>
+void apply_shifts_to(std::span<T> positions, const GhostPlan& plan) {
+    if (plan.shifts.empty()) return;
+    const std::size_t dimension = positions.size() / plan.shifts.size();
+    require(dimension >= 1 && dimension <= max_dimension &&
+                positions.size() == dimension * plan.shifts.size(),
+            "positions must have an entry for each axis of each ghost");
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+        const int axis = static_cast<int>(k % dimension);
+        positions[k] =
+            image_outside(positions[k], plan.periodic, axis, plan.shifts[k / dimension][axis]);
+    }
+}
+
+}  // namespace
+
+void apply_shifts(const GhostPlan& plan, std::span<double> positions) {
+    apply_shifts_to(positions, plan);
+}
+
+void apply_shifts(const GhostPlan& plan, std::span<float> positions) {
+    apply_shifts_to(positions, plan);
 }
 
 }  // namespace rrcb

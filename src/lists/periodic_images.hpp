@@ -19,7 +19,8 @@ class PeriodicImages {
     /// Throws Error that names the first point outside the box.
     void check(const Points& points) const;
 
-    /// Calls visit(shift, image) for the images of a ball in the box that reach it along each axis.
+    /// Calls visit(shift, centre) for the images of a ball in the box that reach it along each
+    /// axis.
     template <class Visit>
     void for_each(const Ball& ball, Visit&& visit) const {
         Shift first{};
@@ -34,8 +35,10 @@ class PeriodicImages {
         for (shift[0] = first[0]; shift[0] <= last[0]; ++shift[0])
             for (shift[1] = first[1]; shift[1] <= last[1]; ++shift[1])
                 for (shift[2] = first[2]; shift[2] <= last[2]; ++shift[2])
-                    visit(shift, ball.moved_to(image(ball.centre(), shift)));
+                    visit(shift, image(ball.centre(), shift));
     }
+
+    Vector image(const Vector& x, const Shift& shift) const;
 
     /// Returns the distances from a position to the box along the axes.
     Vector apart(const Vector& x) const;
@@ -44,7 +47,6 @@ class PeriodicImages {
 
   private:
     bool is_periodic(int axis) const;
-    Vector image(const Vector& x, const Shift& shift) const;
 
     Box box_;
     int dimension_;

@@ -3,6 +3,7 @@
 #include "collective/duplicate.hpp"
 #include "collective/exchange_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/transfer_log.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
@@ -113,6 +114,7 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
     exchange.run(self);
     list_imports(exchange, result);
     result.group = mpi::group_of(self.comm);
+    result.stamp = next_stamp();
     return result;
 }
 

@@ -1,12 +1,15 @@
+#include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/rank_order.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/transfer_log.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 
 namespace rrcb {
 
@@ -43,6 +46,7 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self) {
     Delivery delivery;
     std::vector<LocalIndex> sent;
+    TransferLog* log = nullptr;
     self.attempt([&] {
         const int num_ranks = mpi::size_of(self.comm);
         mpi::require_group(plan.group, "the plan", self);
@@ -55,8 +59,12 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
         delivery.to = order.counts();
         delivery.from = count_ascending(plan.import_ranks);
         delivery.sent = sent;
+        log = mpi::Attribute<TransferLog>::find(self.comm);
+        if (log == nullptr)
+            log = mpi::Attribute<TransferLog>::keep(std::make_unique<TransferLog>(), self.comm);
     });
-    deliver(delivery, columns, limits, report, self);
+    const bool moves = deliver(delivery, columns, limits, report, self);
+    log->add(plan, moves);
 }
 
 void detail::move(const Plan& plan, std::span<const ByteColumn> columns,

@@ -222,10 +222,14 @@ void check_grid(const Options& options, int dimension) {
 }
 
 void check_previous(const Cuts& previous, const Options& options, int dimension) {
-    require(previous.dimension == dimension && previous.num_parts == options.num_parts &&
-                previous.shape == options.tree && has_its_cuts(previous),
-            "previous cuts must have the dimension, number of parts and shape of tree asked for; "
-            "call balance without them");
+    if (previous.num_parts != options.num_parts)
+        reject("previous cuts have " + std::to_string(previous.num_parts) + " parts, not " +
+               std::to_string(options.num_parts) + "; set num_parts to " +
+               std::to_string(previous.num_parts) + ", or call balance without them");
+    require(
+        previous.dimension == dimension && previous.shape == options.tree && has_its_cuts(previous),
+        "previous cuts must have the dimension and the shape of tree asked for; "
+        "call balance without them");
     require(has_legal_cuts(previous), illegal_cut);
 }
 

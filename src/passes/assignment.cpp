@@ -4,6 +4,7 @@
 #include "arithmetic/running_sums.hpp"
 #include "arithmetic/vector_clones.hpp"
 #include "cuts/packed_tree.hpp"
+#include "cuts/tree.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 #include "passes/point_layout.hpp"
@@ -43,6 +44,31 @@ Box box_around(const Points& points) {
     return box;
 }
 
+/// Bounds of the points that no cut leaves to another part, one for each part, along each axis.
+struct SettledBounds {
+    std::array<std::vector<double>, max_dimension> least{};   ///< points at them are settled
+    std::array<std::vector<double>, max_dimension> beyond{};  ///< points below them are
+
+    void add(const Cuts& cuts, std::span<const Bracket> intervals, const Descent& at,
+             const Box& box) {
+        if (at.is_part()) {
+            for (std::size_t a = 0; a < max_dimension; ++a) {
+                least[a].push_back(box.lower[a]);
+                beyond[a].push_back(box.upper[a]);
+            }
+            return;
+        }
+        const int axis = cuts.tree[at.node].axis;
+        const Bracket& interval = intervals[at.node];
+        Box side = box;
+        side.upper[axis] = std::min(box.upper[axis], interval.lower);
+        add(cuts, intervals, at.lower(), side);
+        side = box;
+        side.lower[axis] = std::max(box.lower[axis], interval.upper);
+        add(cuts, intervals, at.upper(), side);
+    }
+};
+
 /// Finds the parts of points block by block. Bins are the ends of the tree.
 class Assigner {
   public:
@@ -50,6 +76,11 @@ class Assigner {
     Assigner(const Cuts& cuts, const Points& points)
         : tree_(is_whole(cuts) ? PackedTree(cuts) : PackedTree(cuts, box_around(points))),
           bins_are_parts_(is_whole(cuts)) {}
+
+    /// Leaves points beyond the bounds of their part without one; if `has_parts`, it is that which
+    /// they have.
+    Assigner(const Cuts& cuts, const SettledBounds& bounds, bool has_parts)
+        : tree_(cuts), bounds_(&bounds), finds_(!has_parts), bins_are_parts_(true) {}
 
     /// Calls `visit(first, length)` for each block while `parts` holds its bins. Returns whether
     /// all coordinates are finite; stops at the first block in which one is not.
@@ -61,7 +92,8 @@ class Assigner {
                 const LocalIndex length = last - first;
                 carries |= copy_block(x, first, length, columns_);
                 if (carries >> 63 != 0) return;
-                tree_.find(columns_, length, &parts[first]);
+                if (finds_) tree_.find(columns_, length, &parts[first]);
+                if (bounds_ != nullptr) drop_open(points.dimension, length, &parts[first]);
                 visit(first, length);
                 if (bins_are_parts_) return;
                 for (Part& bin : parts.subspan(first, length)) bin = tree_.entries()[bin];
@@ -73,26 +105,40 @@ class Assigner {
     const std::vector<Part>& parts_of_bins() const { return tree_.entries(); }
 
   private:
+    void drop_open(int dimension, LocalIndex length, Part* parts) {
+        std::array<std::int32_t, block_length> is_open{};
+        for (int a = 0; a < dimension; ++a)
+            for (LocalIndex i = 0; i < length; ++i)
+                is_open[i] |= (columns_[a][i] < bounds_->least[a][parts[i]] ? 1 : 0) |
+                              (columns_[a][i] >= bounds_->beyond[a][parts[i]] ? 1 : 0);
+        static_assert(no_part == -1);
+        for (LocalIndex i = 0; i < length; ++i) parts[i] |= -is_open[i];
+    }
+
     PackedTree tree_;
+    const SettledBounds* bounds_ = nullptr;
+    bool finds_ = true;
     bool bins_are_parts_;
     Columns columns_{};
 };
 
-/// Counts in turns, as an increment waits for the last one of the same number.
+/// Counts in turns, as an increment waits for the last one of the same number. Points without a
+/// part have a count of their own.
 class Counter {
   public:
-    explicit Counter(std::size_t num_parts) : counts_(num_parts) {}
+    explicit Counter(std::size_t num_parts) : counts_(num_parts + 1) {}
 
     void add(std::span<const Part> parts) {
         std::size_t i = 0;
         for (; i + num_turns <= parts.size(); i += num_turns)
-            for (std::size_t turn = 0; turn < num_turns; ++turn) ++counts_[parts[i + turn]][turn];
-        for (; i < parts.size(); ++i) ++counts_[parts[i]][0];
+            for (std::size_t turn = 0; turn < num_turns; ++turn)
+                ++counts_[parts[i + turn] + 1][turn];
+        for (; i < parts.size(); ++i) ++counts_[parts[i] + 1][0];
     }
 
     std::vector<double> totals() const {
         std::vector<double> totals;
-        for (const auto& turns : counts_)
+        for (const auto& turns : std::span(counts_).subspan(1))
             totals.push_back(static_cast<double>(turns[0] + turns[1] + turns[2] + turns[3]));
         return totals;
     }
@@ -118,18 +164,20 @@ void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     number_parts(cuts, parts);
 }
 
-PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
-    const NonStop arithmetic;
-    Assigner assigner(cuts, points);
+namespace {
+
+/// Returns totals of the ends of the tree.
+PartTotals count_ends(Assigner& assigner, const Points& points, std::span<Part> parts) {
     const std::size_t num_bins = assigner.parts_of_bins().size();
     PartTotals totals;
     Counter counter(num_bins);
-    RunningSums<double> weights(num_bins);
+    RunningSums<double> weights(num_bins + 1);
     LocalIndex num_added = 0;
     totals.all_finite = assigner.run(points, parts, [&](LocalIndex first, LocalIndex length) {
         counter.add(parts.subspan(first, length));
         if (points.weights.empty()) return;
-        for (LocalIndex i = first; i < first + length; ++i) weights[parts[i]] += points.weights[i];
+        for (LocalIndex i = first; i < first + length; ++i)
+            weights[parts[i] + 1] += points.weights[i];
         num_added += length;
         if (num_added < weights.interval()) return;
         weights.empty();
@@ -137,9 +185,31 @@ PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Pa
     });
     weights.empty();
     totals.counts = counter.totals();
-    totals.weights = points.weights.empty() ? totals.counts : weights.totals();
+    if (points.weights.empty()) {
+        totals.weights = totals.counts;
+    } else {
+        totals.weights.assign(weights.totals().begin() + 1, weights.totals().end());
+    }
+    return totals;
+}
+
+}  // namespace
+
+PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    const NonStop arithmetic;
+    Assigner assigner(cuts, points);
+    PartTotals totals = count_ends(assigner, points, parts);
     if (!is_whole(cuts)) totals.parts = assigner.parts_of_bins();
     return totals;
+}
+
+PartTotals assign_settled(const Cuts& cuts, std::span<const Bracket> intervals,
+                          const Points& points, bool has_parts, std::span<Part> parts) {
+    const NonStop arithmetic;
+    SettledBounds bounds;
+    bounds.add(cuts, intervals, root_of(cuts), everywhere);
+    Assigner assigner(cuts, bounds, has_parts);
+    return count_ends(assigner, points, parts);
 }
 
 }  // namespace rrcb

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/method/bisection.hpp>
 
 #include <span>
 #include <vector>
@@ -26,5 +27,11 @@ bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts)
 /// unknown_below() it, in `parts` and in the totals, which name no part twice. Checks the
 /// coordinates, but not the lengths of the arrays.
 PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts);
+
+/// Finds the part of every point that keeps it wherever each of whole cuts moves in its interval,
+/// lower <= x <= upper across its axis, and no_part for the others. If `has_parts`, `parts` are
+/// those by the cuts before. Returns the totals of the parts; checks nothing.
+PartTotals assign_settled(const Cuts& cuts, std::span<const Bracket> intervals,
+                          const Points& points, bool has_parts, std::span<Part> parts);
 
 }  // namespace rrcb

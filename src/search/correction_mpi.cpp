@@ -1,9 +1,11 @@
 #include "search/correction_mpi.hpp"
 
+#include "arithmetic/infinity.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rrcb {
@@ -18,10 +20,18 @@ constexpr int most_corrections = 4;
 /// levels, in 3 to 11 % fewer messages.
 constexpr int most_parts_at_once = 128;
 
+/// Returns the intervals of slabs. Points at a cut that stays may be on either side.
+std::vector<Bracket> intervals_of(std::span<const Slab> slabs) {
+    std::vector<Bracket> intervals;
+    for (const Slab& slab : slabs)
+        intervals.push_back(
+            {slab.lower, std::max(slab.upper, std::nextafter(slab.lower, infinity))});
+    return intervals;
+}
+
 }  // namespace
 
-Correction::Correction(const Descent& top, bool is_root, UndecidedPoints& memory)
-    : points_(memory) {
+Correction::Correction(const Descent& top, bool is_root, Collected& memory) : points_(memory) {
     if (top.num_parts > most_parts_at_once) return;
     const SlabTotals most = most_slabs(top);
     slabs_.resize(most.moving);
@@ -37,14 +47,16 @@ int Correction::run(const TargetRule& rule, const Points& points, std::span<cons
     if (slabs_.empty() || !rule.are_points_light()) return 0;
     totals_ = lay_slabs(rule, cuts, brackets, sums.sums(), slabs_);
     if (totals_.moving == 0) return 0;
-    self.attempt(
-        [&] { points_ = undecided_points(points, parts, cuts, slabs_, std::move(points_)); });
+    self.attempt([&] {
+        points_ = collect(points, cuts, intervals_of(slabs_), true, parts, std::move(points_));
+        assign_collected(cuts, points_, parts_, parts, sums.here());
+    });
     int rounds = 0;
     double before = 0;
     do {
         before = imbalance;
         correct_together(rule, sums, cuts, self);
-        self.attempt([&] { assign_undecided(cuts, points_, parts, sums.here()); });
+        self.attempt([&] { assign_collected(cuts, points_, parts_, parts, sums.here()); });
         imbalance = sums.add_up(rule.part_sizes, self);
         rounds += 2;
     } while (imbalance > rule.tolerance && rounds < 2 * most_corrections &&
@@ -57,7 +69,8 @@ void Correction::correct_together(const TargetRule& rule, const PartSums& sums, 
                                   Participant& self) {
     const std::span here(here_.get(), totals_.counts + 1);
     std::ranges::fill(here, 0.0);
-    self.attempt([&] { count_in_slabs(points_, cuts, slabs_, here.first(totals_.counts)); });
+    self.attempt(
+        [&] { count_in_slabs(points_, parts_, cuts, slabs_, here.first(totals_.counts)); });
     here.back() = self.failed() ? 1 : 0;
     mpi::check(MPI_Reduce(here.data(), joined_.get(), mpi::to_int(std::ssize(here)), MPI_DOUBLE,
                           MPI_SUM, root, self.comm),

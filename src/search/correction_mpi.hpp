@@ -2,7 +2,7 @@
 
 #include "collective/participant.hpp"
 #include "search/part_sums_mpi.hpp"
-#include "search/undecided_points.hpp"
+#include "search/slab_counts.hpp"
 
 #include <memory>
 #include <span>
@@ -16,7 +16,7 @@ namespace rrcb {
 class Correction {
   public:
     /// Takes the root of the tree; `memory` is borrowed. Not collective. Throws std::bad_alloc.
-    Correction(const Descent& top, bool is_root, UndecidedPoints& memory);
+    Correction(const Descent& top, bool is_root, Collected& memory);
 
     /// Moves `cuts`, whose parts are too uneven, until the counted parts are within the tolerance
     /// or no longer improve. Returns the number of rounds, 0 if nothing was moved.
@@ -36,7 +36,8 @@ class Correction {
 
     SlabTotals totals_;
     std::vector<Slab> slabs_;  ///< of all cuts; empty if there are too many cuts
-    UndecidedPoints& points_;
+    Collected& points_;
+    std::vector<Part> parts_;           ///< of the collected points
     std::unique_ptr<double[]> here_;    ///< weights in bins of slabs, then 1 if this rank failed
     std::unique_ptr<double[]> joined_;  ///< the sums of `here_` over all ranks; null except on the
                                         ///< root

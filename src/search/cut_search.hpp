@@ -2,8 +2,8 @@
 
 #include "arithmetic/position_order.hpp"
 #include "cuts/cut_limits.hpp"
-#include "search/bins.hpp"
-#include "search/histogram.hpp"
+#include "passes/bins.hpp"
+#include "passes/histogram.hpp"
 
 #include <rrcb/cuts.hpp>
 
@@ -21,13 +21,13 @@ namespace rrcb {
 /// then the others in ascending order. Along the axes before that one it is already fixed in `cut`.
 struct CutSearch {
     enum Stage : std::int32_t {
-        over_fragments,   ///< count all points of the node, in bins of the bracket
+        over_points,      ///< count all points of the node, in bins of the bracket
         over_candidates,  ///< count the candidates left in the bracket
         gathering,        ///< send all candidates to the owner
         centring,         ///< find the gap around the known cut
         done
     };
-    Stage stage = over_fragments;
+    Stage stage = over_points;
     std::int32_t tied = 0;
     std::int32_t num_axes = 1;  ///< axes that may break ties, including that of the cut
     std::int32_t by_bits = 0;   ///< 1: bins of equal numbers of doubles, see Bins

@@ -51,40 +51,42 @@ Refinement::Refinement(const Options& options, const Participant& self, PartSums
       rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::central) {
     if (options.refine != Refine::exact && !are_cuts_limited(options))
         correction_.emplace(root_of(options.num_parts, options.tree), rounds_.rank() == root,
-                            memory_.undecided);
+                            memory_.collected);
 }
 
-Refined Refinement::refine(Estimate&& estimate, const Points& points, const Bin& bin,
+Refined Refinement::refine(Estimate&& estimate, const Points& points, const Box& box,
                            std::span<Part> parts, Participant& self) {
+    box_ = box;
     start(std::move(estimate), self);
     const bool is_exact = tree_.rule.is_exact;
     const bool is_known = estimate_.is_counted || (is_exact && !are_cuts_limited(options_));
+    has_parts_ = estimate_.is_counted || !is_known;
     const bool is_accepted = !is_known && accept_estimate(points, parts, self);
     if (is_exact || !(is_accepted || correct(points, parts, self))) {
-        search(bin, parts, self);
+        search(points, parts, self);
     } else if (refined_.imbalance <= options_.imbalance_tolerance) {
-        search_exactly(bin, parts, self);
+        search_exactly(points, parts, self);
     }
     refined_.cuts = std::move(estimate_.cuts);
     return std::move(refined_);
 }
 
 /// Searches the cuts, and once more, exactly, if that is not enough. Collective.
-void Refinement::search(const Bin& bin, std::span<Part> parts, Participant& self) {
+void Refinement::search(const Points& points, std::span<Part> parts, Participant& self) {
     if (limits_) {
-        search_for_better(bin, parts, self);
+        search_for_better(points, parts, self);
     } else {
-        search_once(bin, parts, self);
+        search_once(points, parts, self);
     }
-    search_exactly(bin, parts, self);
+    search_exactly(points, parts, self);
 }
 
 /// Searches exactly, once, if the cuts miss the tolerance or leave parts empty. Collective.
-void Refinement::search_exactly(const Bin& bin, std::span<Part> parts, Participant& self) {
+void Refinement::search_exactly(const Points& points, std::span<Part> parts, Participant& self) {
     const bool is_good =
         refined_.imbalance <= options_.imbalance_tolerance && num_left_empty() == 0;
     if (is_good || std::exchange(tree_.rule.is_exact, true)) return;
-    search_for_better(bin, parts, self);
+    search_for_better(points, parts, self);
 }
 
 /// Takes an estimate, and derives the targets and the limits of its cuts.
@@ -151,29 +153,28 @@ std::ptrdiff_t Refinement::num_left_empty() const {
 }
 
 /// Finds all cuts, and the parts at the end. Collective.
-void Refinement::search_once(const Bin& bin, std::span<Part> parts, Participant& self) {
+void Refinement::search_once(const Points& points, std::span<Part> parts, Participant& self) {
     const bool is_counted = !tree_.rule.is_exact && !limits_;
-    const Guide guide{estimate_.cuts, estimate_.brackets, limits_ ? &*limits_ : nullptr, sums_,
-                      is_counted};
+    const Guide guide{estimate_.cuts,
+                      estimate_.brackets,
+                      limits_ ? &*limits_ : nullptr,
+                      sums_,
+                      is_counted,
+                      std::exchange(has_parts_, true),
+                      box_};
     std::optional<TreeSearch> search;
     self.attempt([&] {
-        const BinnedPoints& binned = bin();
-        // A search to a tolerance may leave the brackets.
-        std::vector<std::uint8_t> cells;
-        if (tree_.rule.is_exact && !limits_)
-            cells = cells_in_brackets(binned, estimate_.cuts, estimate_.brackets);
-        search.emplace(tree_, rounds_.rank(), guide,
-                       sort_by_cell(binned, std::move(memory_.sorted), std::move(cells)), parts);
+        search.emplace(tree_, rounds_.rank(), guide, points, parts, std::move(memory_.collected));
     });
     refined_.rounds += rounds_.run(search, self);
     refined_.coincident_cuts += search->num_coincident();
-    search->write_rest();
-    memory_.sorted = search->take_points();
+    search->finish();
+    memory_.collected = search->take_memory();
     measure(self);
 }
 
 /// Searches all cuts, and keeps the new ones if they are better. Collective.
-void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Participant& self) {
+void Refinement::search_for_better(const Points& points, std::span<Part> parts, Participant& self) {
     struct {
         std::vector<Cut> tree;
         std::vector<double> sums;
@@ -185,7 +186,7 @@ void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Partic
     });
     const double imbalance_before = refined_.imbalance;
     const std::ptrdiff_t empty_before = num_left_empty();
-    search_once(bin, parts, self);
+    search_once(points, parts, self);
     // Parts are filled only if they stay within the tolerance or as even as they were.
     constexpr double round_off = 1e-12;
     const std::ptrdiff_t gain = empty_before - num_left_empty();
@@ -221,14 +222,13 @@ SpreadRefinement::SpreadRefinement(const Participant& self)
     : memory_(workspace_of(self.comm)),
       rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::spread) {}
 
-Refined SpreadRefinement::refine(const Box& box, PartTree tree, const BinnedPoints& binned,
+Refined SpreadRefinement::refine(const Box& box, PartTree tree, const Points& points,
                                  std::span<Part> parts, Participant& self) {
-    self.attempt([&] { memory_.sorted = sort_by_cell(binned, std::move(memory_.sorted)); });
-    Refined refined = search(box, tree, parts, self);
+    Refined refined = search(box, tree, points, parts, self);
     const bool missed = refined.imbalance > tree.rule.tolerance;
     if (!missed || std::exchange(tree.rule.is_exact, true)) return refined;
     self.attempt([&] { memory_.parts.assign(parts.begin(), parts.end()); });
-    Refined exact = search(box, tree, parts, self);
+    Refined exact = search(box, tree, points, parts, self);
     exact.rounds += refined.rounds;
     if (exact.imbalance < refined.imbalance) return exact;
     refined.rounds = exact.rounds;
@@ -236,18 +236,19 @@ Refined SpreadRefinement::refine(const Box& box, PartTree tree, const BinnedPoin
     return refined;
 }
 
-/// Runs one search of the sorted points. Collective.
-Refined SpreadRefinement::search(const Box& box, const PartTree& tree, std::span<Part> parts,
-                                 Participant& self) {
+/// Runs one search. Collective.
+Refined SpreadRefinement::search(const Box& box, const PartTree& tree, const Points& points,
+                                 std::span<Part> parts, Participant& self) {
     std::optional<TreeSearch> search;
-    self.attempt(
-        [&] { search.emplace(tree, rounds_.rank(), box, std::move(memory_.sorted), parts); });
+    self.attempt([&] {
+        search.emplace(tree, rounds_.rank(), box, points, parts, std::move(memory_.collected));
+    });
     Refined refined;
     refined.rounds = rounds_.run(search, self);
     refined.imbalance = rounds_.imbalance();
     refined.coincident_cuts = mpi::sum_of(search->num_coincident(), self.comm);
     self.attempt([&] { refined.cuts = search->cuts(); });
-    memory_.sorted = search->take_points();
+    memory_.collected = search->take_memory();
     return refined;
 }
 

@@ -3,7 +3,6 @@
 #include "collective/butterfly_mpi.hpp"
 #include "collective/participant.hpp"
 #include "cuts/cut_limits.hpp"
-#include "passes/sorted_points.hpp"
 #include "search/correction_mpi.hpp"
 #include "search/part_sums_mpi.hpp"
 #include "search/tree_search.hpp"
@@ -60,9 +59,6 @@ struct Estimate {
     GlobalCount num_points = 0;  ///< over all ranks
 };
 
-/// Returns the points by cells, for a search. May throw. Made of a std::ref, it does not allocate.
-using Bin = std::function<const BinnedPoints&()>;
-
 /// Refined cuts and their measured imbalance; the same on every rank. After a central refinement
 /// the weights of the parts are in the PartSums.
 struct Refined {
@@ -84,23 +80,23 @@ class Refinement {
 
     /// Refines the cuts of `estimate`, once.
     ///
-    /// Collective. Writes the part of each point into `parts`; a search works on a sorted copy of
-    /// the points. A tolerance can be missed because upper levels used slack that lower ones need.
+    /// Collective. `box` is that of the points. Writes the part of each point into `parts`. A
+    /// tolerance can be missed because upper levels used slack that lower ones need.
     /// Then, and if equal parts are empty although there are as many points, it searches once more,
     /// exactly, and keeps the better cuts. Limited cuts are all
     /// searched in their places, and the estimate is kept if it is better. Without weight the cuts
     /// are kept. A failure on one rank, before or here, is thrown on all.
-    Refined refine(Estimate&& estimate, const Points& points, const Bin& bin, std::span<Part> parts,
+    Refined refine(Estimate&& estimate, const Points& points, const Box& box, std::span<Part> parts,
                    Participant& self);
 
   private:
     void start(Estimate&& estimate, Participant& self);
     bool accept_estimate(const Points& points, std::span<Part> parts, Participant& self);
     bool correct(const Points& points, std::span<Part> parts, Participant& self);
-    void search(const Bin& bin, std::span<Part> parts, Participant& self);
-    void search_exactly(const Bin& bin, std::span<Part> parts, Participant& self);
-    void search_once(const Bin& bin, std::span<Part> parts, Participant& self);
-    void search_for_better(const Bin& bin, std::span<Part> parts, Participant& self);
+    void search(const Points& points, std::span<Part> parts, Participant& self);
+    void search_exactly(const Points& points, std::span<Part> parts, Participant& self);
+    void search_once(const Points& points, std::span<Part> parts, Participant& self);
+    void search_for_better(const Points& points, std::span<Part> parts, Participant& self);
     void measure(Participant& self);
     std::ptrdiff_t num_left_empty() const;
 
@@ -109,6 +105,8 @@ class Refinement {
     Workspace& memory_;
     PartTree tree_;
     Estimate estimate_;
+    Box box_;                               ///< of this rank's points
+    bool has_parts_ = false;                ///< the points have the parts of the cuts
     std::optional<CutLimits> limits_;       ///< empty if cuts are not limited
     std::optional<Correction> correction_;  ///< with a tolerance, if cuts are not limited
     TreeRounds rounds_;
@@ -132,11 +130,12 @@ class SpreadRefinement {
     /// Collective. `box` and `tree` are the same on every rank. If a tolerance is missed, it
     /// searches once more, exactly, and keeps the better cuts. Throws on every rank the failure of
     /// one, before or here; a failure in the last messages is held back until the next agreement.
-    Refined refine(const Box& box, PartTree tree, const BinnedPoints& binned, std::span<Part> parts,
+    Refined refine(const Box& box, PartTree tree, const Points& points, std::span<Part> parts,
                    Participant& self);
 
   private:
-    Refined search(const Box& box, const PartTree& tree, std::span<Part> parts, Participant& self);
+    Refined search(const Box& box, const PartTree& tree, const Points& points,
+                   std::span<Part> parts, Participant& self);
 
     Workspace& memory_;
     TreeRounds rounds_;

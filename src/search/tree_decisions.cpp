@@ -94,7 +94,7 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
             answer.resize(answer.size() + static_cast<std::size_t>(node.at.num_parts));
     } else if (node.question == Question::lot) {
         append(node.lot, answer);
-    } else if (node.search.stage == CutSearch::over_fragments && !is_central()) {
+    } else if (node.search.stage == CutSearch::over_points && !is_central()) {
         append(node.content.box, answer);
     }
     return answer;
@@ -142,7 +142,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     }
     const auto records = payload.subspan(1);
     bool is_centred = false;
-    if (search.stage == CutSearch::over_fragments) {
+    if (search.stage == CutSearch::over_points) {
         decide_by_first_count(node, records, search);
     } else if (search.stage == CutSearch::over_candidates) {
         decide_by_bins(search, node.target, layout_, records);

@@ -1,5 +1,7 @@
 // The records that ranks send to the owners of nodes, and how they follow the answers.
+#include "arithmetic/infinity.hpp"
 #include "arithmetic/quantum.hpp"
+#include "passes/count.hpp"
 #include "search/doubles.hpp"
 #include "search/gap.hpp"
 #include "search/tree_search.hpp"
@@ -23,48 +25,56 @@ void TreeSearch::ask(Butterfly& butterfly) {
 /// Appends the record of this rank for a node.
 void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     if (node.question == Question::parts) return count_parts(node, payload);
-    const auto& fragments = node.content.fragments;
-    if (fragments.empty()) return;
+    if (node.search.stage == CutSearch::centring) {
+        if (std::ranges::max(node.gap) == -infinity) return;
+        payload.push_back(mark_of_gap);
+        payload.insert(payload.end(), node.gap.begin(),
+                       node.gap.begin() + 2 * node.search.num_axes);
+        return;
+    }
+    if (!has_points(node)) return;
     if (node.question == Question::lot) return add_lot(node, payload);
     if (node.at.is_part()) {
-        const double weight = weight_of(fragments);
+        const double weight = points_.weight_of(node.content.entries);
         if (weight > 0) payload = {mark_of_weights, 1.0 * rank_, weight};
         return;
     }
-    if (node.search.stage == CutSearch::centring) return find_gap(node, payload);
     if (node.search.stage == CutSearch::gathering) {
         payload.push_back(mark_of_candidates);
-        node.local.append_candidates(payload);
+        points_.append(node.candidates, payload);
         return;
     }
     payload.resize(1 + layout_.length());
     payload[0] = mark_of_histogram;
-    const std::span<double> histogram = std::span(payload).subspan(1);
+    count_points(node, std::span(payload).subspan(1));
+}
+
+/// Returns whether this rank has points in a node.
+bool TreeSearch::has_points(const Node& node) const {
+    return !node.content.entries.empty() || node.below_here.count + node.above_here.count > 0;
+}
+
+/// Counts this rank's points in the bins of a search.
+void TreeSearch::count_points(const Node& node, std::span<double> histogram) const {
+    const CutSearch& search = node.search;
+    const bool is_first = search.stage == CutSearch::over_points;
     clear_histogram(histogram);
-    node.local.count(node.search, layout_, histogram);
+    rrcb::count(points_.points(), is_first ? node.content.entries : node.candidates,
+                current_axis(search), bins_of(search, layout_), layout_, histogram);
+    if (is_first && is_central()) {
+        count_settled(node.below_here, guide_->box, 0, layout_, histogram);
+        count_settled(node.above_here, guide_->box, layout_.num_bins + 1, layout_, histogram);
+    }
+    round_weights(search.quantum, layout_, histogram);
 }
 
 /// Appends this rank's points of a lot.
 void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
-    LotRecord record{1.0 * rank_, points_at(node.search.cut, node.content.fragments, points_)};
+    LotRecord record{1.0 * rank_, points_.points_at(node.search.cut, node.content.entries)};
     if (!(record.points.weight > 0)) return;
     record.points.weight = rounded_to(node.search.quantum, record.points.weight);
     payload.push_back(mark_of_weights);
     append(record, payload);
-}
-
-/// Appends the gap of this rank's points around the known cut of a node.
-void TreeSearch::find_gap(const Node& node, std::vector<double>& payload) {
-    const Cut& cut = node.search.cut;
-    const auto& fragments = node.content.fragments;
-    Gap gap;
-    gap.fill(-std::numeric_limits<double>::infinity());
-    narrow(cut, fragments, points_, gap);
-    // Only cells in this gap can narrow it further, so the second pass is short.
-    sort_between(gap[1], -gap[0], cut.axis, node.content);
-    narrow(cut, fragments, points_, gap);
-    payload.push_back(mark_of_gap);
-    payload.insert(payload.end(), gap.begin(), gap.begin() + 2 * node.search.num_axes);
 }
 
 void TreeSearch::join(std::span<const double> a, std::span<const double> b,
@@ -105,6 +115,7 @@ void TreeSearch::follow(const Butterfly& butterfly) {
             nodes_.push_back(std::move(node));
         }
     }
+    if (is_central()) collect_more();
 }
 
 /// Follows the answer of the owner of a node.
@@ -113,7 +124,7 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
     const auto more = payload.subspan(sizeof answer / sizeof(double));
     if (node.question == Question::parts) return take_sums(std::move(node), more);
     node.content.weight = answer.weight;
-    if (node.at.is_part()) return end_at_part(node.at, node.content);
+    if (node.at.is_part()) return weigh_part(node.at, node.content);
     if (node.question == Question::lot) {
         node.search = answer.search;
         return end_at_cut(std::move(node), read<LotAnswer>(more));
@@ -125,27 +136,40 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
 void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<const double> more) {
     const CutSearch before = std::exchange(node.search, next);
     if (before.stage == CutSearch::centring) return note(node.at.node, next.cut);
-    if (before.stage == CutSearch::over_fragments) {
+    if (before.stage == CutSearch::over_points) {
         node.content.is_counted = true;
         if (!is_central()) node.content.box = read<Box>(more);
     }
     if (next.stage == CutSearch::centring) {
         // The parts below do not depend on where in its gap the cut is.
-        Node divided = node;
-        nodes_.push_back(std::move(node));
-        return end_at_cut(std::move(divided), {});
+        Node centred{node.at, {}, Question::cut, next};
+        centred.gap = points_.gap_about(node.at, node.content.entries, next.cut);
+        nodes_.push_back(std::move(centred));
+        return end_at_cut(std::move(node), {});
     }
     const bool is_done = next.stage == CutSearch::done;
     if (is_done && !(next.lot_below > 0)) return end_at_cut(std::move(node), {});
-    const int axis = next.cut.axis;
     if (is_done) {
         node.question = Question::lot;
-        sort_between(next.cut.at[axis], next.cut.at[axis], axis, node.content);
-    } else if (before.stage == CutSearch::over_fragments) {
-        sort_between(next.lower, next.upper, axis, node.content);
+    } else if (next.stage != CutSearch::over_points) {
+        keep_chosen(before, node);
     }
-    if (next.stage != CutSearch::over_fragments) node.local.keep_chosen(before, next, layout_);
     nodes_.push_back(std::move(node));
+}
+
+/// Keeps the points in the slot that the owner chose. A slot beyond the interval of the cut has
+/// points that are to be collected.
+void TreeSearch::keep_chosen(const CutSearch& before, Node& node) {
+    const int slot = node.search.chosen;
+    const Bins bins = bins_of(before, layout_);
+    const bool is_first = before.stage == CutSearch::over_points;
+    node.candidates =
+        between(slot == 0 ? -infinity : bins.edge(slot - 1),
+                slot > layout_.num_bins ? infinity : bins.edge(slot), current_axis(before),
+                is_first ? node.content.entries : node.candidates, points_.points());
+    if (!is_central() || !is_first) return;
+    node.is_wide = (slot == 0 && node.below_here.count > 0) ||
+                   (slot > layout_.num_bins && node.above_here.count > 0);
 }
 
 }  // namespace rrcb

@@ -15,54 +15,30 @@
 
 namespace rrcb {
 
-namespace {
-
-/// Returns the box of the entries of a fragment.
-Box box_of(const Fragment& fragment, const SortedPoints& points) {
-    Box box = fragment.box;
-    const int d = points.dimension();
-    for (int a = 0; a < d; ++a) {
-        box.lower[a] = infinity;
-        box.upper[a] = -infinity;
-        for (LocalIndex i = fragment.begin; i < fragment.end; ++i) {
-            box.lower[a] = std::min(box.lower[a], points.coordinates[i * d + a]);
-            box.upper[a] = std::max(box.upper[a], points.coordinates[i * d + a]);
-        }
-    }
-    return box;
-}
-
-}  // namespace
-
-TreeSearch::TreeSearch(const PartTree& tree, int rank, const Box& box, SortedPoints&& points,
-                       std::span<Part> parts)
+TreeSearch::TreeSearch(const PartTree& tree, int rank, const Box& box, const Points& points,
+                       std::span<Part> parts, Collected memory)
     : tree_(tree),
       rank_(rank),
-      dimension_(points.dimension()),
+      dimension_(points.dimension),
       all_sizes_(tree.rule.size_of(root_of(tree.num_parts, tree.shape))),
-      points_(std::move(points)),
-      parts_(parts) {
+      points_(points, parts, std::move(memory)) {
     const PartRange own = parts_on(rank, tree.num_parts, tree.num_ranks);
     first_own_ = own.first;
     end_own_ = own.end;
     tree_.rule.weight_per_size = tree.weight / all_sizes_;
-    std::vector<Fragment> fragments = cell_fragments(points_);
-    for (Fragment& fragment : fragments) fragment.box = box_of(fragment, points_);
-    enter(root_of(tree.num_parts, tree.shape), {std::move(fragments), box, tree.weight});
+    enter(root_of(tree.num_parts, tree.shape), {points_.all(), box, tree.weight});
 }
 
-TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
-                       std::span<Part> parts)
+TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, const Points& points,
+                       std::span<Part> parts, Collected memory)
     : tree_(tree),
       guide_(&guide),
       rank_(rank),
       dimension_(guide.cuts.dimension),
       all_sizes_(tree.rule.size_of(root_of(guide.cuts))),
       layout_{.limits = tree.limits},
-      points_(std::move(points)),
-      parts_of_cells_(points_.is_sorted.size(), no_part),
-      parts_(parts) {
-    Content content{cell_fragments(points_), Box{}, tree.weight};
+      points_(points, guide.cuts, intervals(), guide.has_parts, parts, std::move(memory)) {
+    Content content{{}, Box{}, tree.weight};
     if (guide.limits) content.box = guide.limits->region();
     content.are_parts_counted = guide.is_counted;
     enter(root_of(guide.cuts), std::move(content));
@@ -78,6 +54,7 @@ bool TreeSearch::holds_own_parts(const Descent& at) const {
 
 /// Begins to search the cut of a node; goes on to its children if no counting is needed.
 void TreeSearch::enter(const Descent& at, Content&& content) {
+    if (is_central()) content.entries = points_.admit(at, content.entries);
     if (ends_at(at, content)) return;
     if (recounts() && !content.are_parts_counted)
         return add_node(at, std::move(content), Question::parts);
@@ -92,7 +69,7 @@ void TreeSearch::enter(const Descent& at, Content&& content) {
                                                    : 0;
     const Cut cut = cut_unsearched(at, content, share);
     note(at.node, cut);
-    divide(at, content, cut, {}, below);
+    divide(at, std::move(content), cut, {}, below);
 }
 
 /// Returns true if there is nothing to search at a node or below; then its part is written.
@@ -100,11 +77,15 @@ bool TreeSearch::ends_at(const Descent& at, Content& content) {
     if (content.are_parts_counted) {
         const auto sums = guide_->sums.sums();
         content.weight = weight_of(at, sums);
-        return at.is_part() || tree_.rule.are_within(at, sums);
+        if (at.is_part()) return true;
+        const bool ends = tree_.rule.are_within(at, sums);
+        if (ends) points_.put_back(at.node, std::move(content.entries));
+        return ends;
     }
-    if (!is_central() && content.fragments.empty() && !holds_own_parts(at)) return true;
-    const bool ends = at.is_part() && (is_central() || (content.is_counted && !is_tiny(at)));
-    if (ends) end_at_part(at, content);
+    if (is_central()) return at.is_part();
+    if (content.entries.empty() && !holds_own_parts(at)) return true;
+    const bool ends = at.is_part() && content.is_counted && !is_tiny(at);
+    if (ends) weigh_part(at, content);
     return ends;
 }
 
@@ -121,31 +102,24 @@ Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double
 }
 
 void TreeSearch::add_node(const Descent& at, Content&& content, Question question) {
-    // Moving the vector leaves its entries at their addresses.
-    const LocalSearch local(content.fragments, points_);
-    Node& node = nodes_.emplace_back(Node{at, std::move(content), question, {}, local});
+    Node& node = nodes_.emplace_back(Node{at, std::move(content), question});
+    if (is_central()) take_known(node);
     if (question != Question::cut) return;
-    if (is_central()) {
-        start_from_guide(node);
-        return sort_between(node.search.lower, node.search.upper, node.search.cut.axis,
-                            node.content);
-    }
+    if (is_central()) return start_from_guide(node);
     node.search = first_search(at, node.content.box, node.content.weight);
 }
 
 /// Goes on below a cut.
-void TreeSearch::divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
+void TreeSearch::divide(const Descent& at, Content&& content, const Cut& cut, const Lot& lot,
                         double below) {
-    sort_between(cut.at[cut.axis], cut.at[cut.axis], cut.axis, content);
-    auto [lower, upper] = is_central() ? split(content.fragments, cut, lot, points_)
-                                       : split_tightly(content.fragments, cut, lot);
+    auto [lower, upper] = points_.divide(std::move(content.entries), cut, lot);
     // A side of a divided lot may weigh up to a point more or less than asked for. The next count
     // measures it; until then the node's weight is a bound.
     const bool divides_lot = lot.below > 0;
     const double above = divides_lot ? content.weight : content.weight - below;
     if (divides_lot) below = content.weight;
-    const auto side = [&](std::vector<Fragment>&& fragments, const Box& box, double weight) {
-        return Content{std::move(fragments),
+    const auto side = [&](Entries&& entries, const Box& box, double weight) {
+        return Content{std::move(entries),
                        box,
                        weight,
                        content.is_counted && !divides_lot,
@@ -164,33 +138,6 @@ void TreeSearch::note(std::size_t node, const Cut& cut) {
     }
 }
 
-/// Sorts all points if those of a left-out cell are needed: between the ends of a search or at a
-/// cut.
-void TreeSearch::sort_between(double lower, double upper, int axis, const Content& content) {
-    const auto is_needed = [&](const Fragment& fragment) {
-        return is_left_out(fragment, points_) && fragment.box.upper[axis] >= lower &&
-               fragment.box.lower[axis] <= upper;
-    };
-    if (std::ranges::any_of(content.fragments, is_needed)) sort_rest(points_);
-}
-
-void TreeSearch::write_rest() {
-    if (!parts_of_cells_.empty()) write_parts_of_cells(*points_.binned, parts_of_cells_, parts_);
-}
-
-/// Splits fragments whose boxes touch their entries; the boxes of the halves do so as well.
-TreeSearch::Halves TreeSearch::split_tightly(const std::vector<Fragment>& fragments, const Cut& cut,
-                                             const Lot& lot) {
-    Halves halves = split(fragments, cut, lot, points_);
-    const int axis = cut.axis;
-    for (auto* half : {&halves.first, &halves.second})
-        for (Fragment& fragment : *half)
-            if (fragment.box.lower[axis] == cut.at[axis] ||
-                fragment.box.upper[axis] == cut.at[axis])
-                fragment.box = box_of(fragment, points_);
-    return halves;
-}
-
 /// Goes on below the cut that was found. The points of a lot form one row over all ranks.
 void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     if (is_central() || owner_of(node.at) == rank_) num_coincident_ += node.search.coincident;
@@ -204,7 +151,7 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     }
     node.content.are_parts_counted = false;
     if (node.search.stage != CutSearch::centring) note(node.at.node, cut);
-    divide(node.at, node.content, cut, lot, node.search.below);
+    divide(node.at, std::move(node.content), cut, lot, node.search.below);
 }
 
 /// Returns the lot of a search that is done, as seen by the first rank.
@@ -212,15 +159,16 @@ Lot TreeSearch::lot_at(const Descent& at, const CutSearch& search) const {
     return {0, search.lot_below, tree_.rule.share_below(at)};
 }
 
-void TreeSearch::end_at_part(const Descent& at, const Content& content) {
-    const double weight =
-        write_part(content.fragments, at.first_part, points_, parts_, parts_of_cells_);
-    if (is_central()) {
-        guide_->sums.here()[at.first_part] = weight;
-    } else if (owner_of(at) == rank_) {
-        imbalance_ =
-            std::max(imbalance_, over_ideal(content.weight, tree_.weight, ideal_share(at)));
-    }
+/// Ends a spread search at a part.
+void TreeSearch::weigh_part(const Descent& at, const Content& content) {
+    points_.settle(content.entries, at.first_part);
+    if (owner_of(at) != rank_) return;
+    imbalance_ = std::max(imbalance_, over_ideal(content.weight, tree_.weight, ideal_share(at)));
+}
+
+void TreeSearch::finish() {
+    points_.settle_rest(guide_->cuts);
+    std::ranges::copy(points_.points().settled_weights, guide_->sums.here().begin());
 }
 
 /// Returns the share of the weight that a part should have.

@@ -2,9 +2,8 @@
 
 #include "collective/butterfly.hpp"
 #include "cuts/cut_limits.hpp"
-#include "passes/sorted_points.hpp"
-#include "search/fragments.hpp"
-#include "search/local_search.hpp"
+#include "passes/collected_tree.hpp"
+#include "search/cut_search.hpp"
 #include "search/part_sums_mpi.hpp"
 #include "search/target_rule.hpp"
 
@@ -48,7 +47,9 @@ struct Guide {
     std::span<const Bracket> brackets;
     CutLimits* limits;  ///< null if cuts are not limited
     PartSums& sums;     ///< of the parts that the cuts make, if they were counted; moved as well
-    bool is_counted;    ///< the sums and the parts of the points are those of the cuts
+    bool is_counted;    ///< the sums are those of the cuts
+    bool has_parts;     ///< the points have their parts by the cuts
+    Box box;            ///< of the points of this rank
 };
 
 /// One rank's part in the search for the cuts of a tree.
@@ -70,14 +71,13 @@ class TreeSearch {
   public:
     /// Starts a spread search; the points of all ranks are in `box`. `parts` and the spans of
     /// `tree` are borrowed. Throws std::bad_alloc.
-    TreeSearch(const PartTree& tree, int rank, const Box& box, SortedPoints&& points,
-               std::span<Part> parts);
+    TreeSearch(const PartTree& tree, int rank, const Box& box, const Points& points,
+               std::span<Part> parts, Collected memory = {});
 
-    /// Starts a central search; the rule has part sizes. Everything except the points is borrowed.
-    /// If cuts are exact, cells that no bracket reaches may be left out of the points. Throws
-    /// std::bad_alloc.
-    TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
-               std::span<Part> parts);
+    /// Starts a central search; the rule has part sizes. Everything except the memory is borrowed.
+    /// Throws std::bad_alloc.
+    TreeSearch(const PartTree& tree, int rank, const Guide& guide, const Points& points,
+               std::span<Part> parts, Collected memory = {});
     TreeSearch(const TreeSearch&) = delete;
     TreeSearch& operator=(const TreeSearch&) = delete;
 
@@ -109,11 +109,12 @@ class TreeSearch {
     /// search, those that this rank owns in a spread one.
     int num_coincident() const { return num_coincident_; }
 
-    /// Writes the parts of the points in cells that the search has left out. Call it at the end.
-    void write_rest();
+    /// Writes the parts of all points and their weights on this rank; ends a central search. Throws
+    /// std::bad_alloc.
+    void finish();
 
-    /// Returns the points, by cells, for another search; ends this one.
-    SortedPoints take_points() { return std::move(points_); }
+    /// Returns the memory for another search; ends this one.
+    Collected take_memory() { return points_.take(); }
 
   private:
     /// First entry of a node's record from a rank with points there: it contains a histogram, the
@@ -144,7 +145,7 @@ class TreeSearch {
 
     /// Points and weight of a node.
     struct Content {
-        std::vector<Fragment> fragments;
+        Entries entries;
         Box box;                 ///< spread: holds its points on all ranks; central: see CutLimits
         double weight = 0;       ///< over all ranks
         bool is_counted = true;  ///< false if the weight is wrong by up to a point
@@ -158,15 +159,17 @@ class TreeSearch {
         Content content;
         Question question = Question::cut;
         CutSearch search{};
-        LocalSearch local;
+        Entries candidates{};        ///< of its entries, once it was counted
+        Total below_here{};          ///< central: points of this rank known to be below the cut
+        Total above_here{};          ///< and above
+        Gap gap{};                   ///< while it is centred
+        bool is_wide = false;        ///< central: the cut has left its interval
         CutTarget target{};          ///< at the owner only
         CutSearch decided{};         ///< likewise
         LotAnswer lot{};             ///< likewise
         double below = not_counted;  ///< weight below the current cut, if that was counted
         Places places{};             ///< allowed for the cut
     };
-
-    using Halves = std::pair<std::vector<Fragment>, std::vector<Fragment>>;
 
     struct KnownCut {
         std::size_t node;
@@ -186,26 +189,28 @@ class TreeSearch {
     double ideal_share(const Descent& part) const;
     bool is_tiny(const Descent& part) const;
     bool holds_own_parts(const Descent& at) const;
+    bool has_points(const Node& node) const;
     void enter(const Descent& at, Content&& content);
     bool ends_at(const Descent& at, Content& content);
     void add_node(const Descent& at, Content&& content, Question question);
     Cut cut_unsearched(const Descent& at, const Content& content, double share);
-    void divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
-                double below);
+    void divide(const Descent& at, Content&& content, const Cut& cut, const Lot& lot, double below);
     void note(std::size_t node, const Cut& cut);
-    void sort_between(double lower, double upper, int axis, const Content& content);
-    Halves split_tightly(const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot);
     void end_at_cut(Node&& node, const LotAnswer& told);
-    void end_at_part(const Descent& at, const Content& content);
+    void weigh_part(const Descent& at, const Content& content);
+    std::vector<Bracket> intervals() const;
     CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
     std::span<const int> axes() const;
     CutSearch first_search(const Descent& at, const Box& box, double weight) const;
     void start_from_guide(Node& node);
-    Bracket bracket_of(const Node& node) const;
+    Bracket bracket_of(const Descent& at, int depth, double weight, double below) const;
+    void take_known(Node& node) const;
     void count(const Node& node, std::vector<double>& payload);
     void count_parts(const Node& node, std::vector<double>& payload);
     void add_lot(const Node& node, std::vector<double>& payload) const;
-    void find_gap(const Node& node, std::vector<double>& payload);
+    void count_points(const Node& node, std::span<double> histogram) const;
+    void keep_chosen(const CutSearch& before, Node& node);
+    void collect_more();
     std::vector<double> answer_to(const Record& record, const Node& node) const;
     Lot lot_at(const Descent& at, const CutSearch& search) const;
     CutSearch decide_on_lot(Node& node, std::span<const double> payload) const;
@@ -224,10 +229,7 @@ class TreeSearch {
     Part end_own_ = 0;      ///< the one behind the last
     double all_sizes_ = 0;  ///< sum of the sizes of all parts
     HistogramLayout layout_;
-    SortedPoints points_;
-    std::vector<Part> parts_of_cells_;  ///< if cells are left out; no_part: the points have parts
-                                        ///< of their own
-    std::span<Part> parts_;
+    CollectedTree points_;
     std::vector<Node> nodes_;  ///< ascending
     std::vector<KnownCut> known_;
     double imbalance_ = 0;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "passes/sorted_points.hpp"
-#include "search/undecided_points.hpp"
+#include "passes/collected.hpp"
 
 #include <mpi.h>
 
@@ -13,10 +12,9 @@ namespace rrcb {
 ///
 /// A step may move an entry out. If it does not put the entry back, the memory is freed.
 struct Workspace {
-    SortedPoints sorted{};  ///< of searches: 8 bytes a point for each coordinate, 8, 8 weighted
-    UndecidedPoints undecided{};  ///< of corrections: some of the points
-    std::vector<Part> parts{};    ///< of cuts that another search may improve: 4 bytes a point
-    std::vector<Part> result{};   ///< of calls from C, which get a copy: 4 bytes a point
+    Collected collected{};       ///< up to 8 bytes a point for each coordinate, 8, 8 weighted
+    std::vector<Part> parts{};   ///< of cuts that another search may improve: 4 bytes a point
+    std::vector<Part> result{};  ///< of calls from C, which get a copy: 4 bytes a point
 };
 
 /// Returns the workspace kept with a duplicate of the library's, made at the first call and freed

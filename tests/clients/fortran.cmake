@@ -19,7 +19,7 @@ function(add_fortran_client name)
   target_link_libraries(${name}_client PRIVATE rrcb::zoltan ${ARGN} Zoltan::zoltan MPI::MPI_C)
   foreach(method IN ITEMS RCB RRCB)
     string(TOLOWER ${method} method_name)
-    foreach(ranks IN ITEMS 1 2 4)
+    foreach(ranks IN ITEMS 1 4)
       set(test clients.${name}.${method_name}.np${ranks})
       rrcb_add_mpi_run(NAME ${test} RANKS ${ranks} LABELS clients
                        COMMAND $<TARGET_FILE:${name}_client> ${method})

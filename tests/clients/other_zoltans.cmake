@@ -36,7 +36,7 @@ rrcb_add_test(
   NAME clients.fewer_functions
   SOURCES fewer_functions_test.cpp ../zoltan/program.cpp
   LIBRARIES rrcb::zoltan fewer_functions_shared
-  RANKS 1 2 3 4
+  RANKS 1 3
   LABELS clients)
 target_include_directories(clients.fewer_functions PRIVATE ../zoltan)
 target_include_directories(
@@ -63,7 +63,7 @@ rrcb_add_test(
   NAME clients.wide_ids
   SOURCES wide_ids_test.cpp ../zoltan/program.cpp
   LIBRARIES rrcb::zoltan wide_zoltan
-  RANKS 1 2 3 4
+  RANKS 1 3
   LABELS clients)
 target_compile_definitions(clients.wide_ids PRIVATE UNSIGNED_LONG_GLOBAL_IDS)
 target_include_directories(clients.wide_ids PRIVATE ../zoltan)

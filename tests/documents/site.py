@@ -66,7 +66,7 @@ def interface():
     module = re.sub(r"&\s*\n", "", (ROOT / "src/fortran/rrcb.f90").read_text())
     for listed in re.findall(r"only:(.*)", module):
         yield from (name for name in re.findall(r"rrcb_\w+", listed)
-                    if not re.fullmatch(r"rrcb_(ok|\w+_(argument|memory|error)|float|double)", name))
+                    if not re.fullmatch(r"rrcb_(ok|\w+_(argument|memory|error)|float|double|needs_\w+)", name))
 
 
 def missing_names(pages, folder):

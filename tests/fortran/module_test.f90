@@ -8,6 +8,11 @@ program module_test
   type(rrcb_balancer) :: balancer, other
   type(rrcb_controller) :: controller
   type(rrcb_cost_model) :: model
+  type(rrcb_controller) :: loaded_controller
+  type(rrcb_cost_model) :: loaded_model
+  integer(c_int8_t), allocatable :: saved(:)
+  integer(c_int64_t) :: joined(2)
+  real(c_double) :: loaded_costs(2)
   type(rrcb_ghosts) :: ghosts
   type(rrcb_rank_range) :: no_ranks(0)
   type(rrcb_cuts) :: no_cuts
@@ -252,6 +257,13 @@ program module_test
   end do
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=0*moved_weights)
   call expect(error == rrcb_ok, "ghosts by radii")
+  call ghosts%destroy()
+  ! Rank 0 needs two points of the next part, which needs none.
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, &
+    radii=moved_weights*merge(1, 0, rank == 0), needs=rrcb_needs_receiver)
+  call expect(error == rrcb_ok, "ghosts within radii of receivers")
+  call ghosts%get_plan(ghost_plan, error)
+  call expect(ghost_plan%num_ghosts == merge(2, 0, rank == 0), "number of ghosts within radii of receivers")
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radius=2.0_c_double)
   call expect_text("ghosts is null; give the address of a pointer (in Fortran: destroy what was")
   call ghosts%destroy()
@@ -298,6 +310,15 @@ program module_test
   call balancer%set("colour", "blue", error)
   call expect(error == rrcb_invalid_argument, "code of an error")
   call expect_text('no option "colour"')
+  call balancer%save_cuts(saved, error)
+  call expect(error == rrcb_ok .and. size(saved) > 0, "save cuts")
+  call balancer%load_cuts(saved(:size(saved) - 8), error)
+  call expect_text("pass all bytes of save")
+  call balancer%load_cuts(saved, error)
+  call expect(error == rrcb_ok, "load cuts")
+  call rrcb_join_keys(balancer, reshape([5_c_int64_t, 9_c_int64_t, 9_c_int64_t, -1_c_int64_t], [2, 2]), &
+                      joined, error)
+  call expect(error == rrcb_ok .and. all(joined == 5), "join keys")
   ! Ends the program if it is asked to, with this text.
   if (command_argument_count() > 0) call balancer%set("colour", "blue")
   call expect(index(rrcb_build_info(), "version: "//rrcb_version()) == 1, "build_info")
@@ -332,6 +353,21 @@ program module_test
   call model%weights(reshape([1.0_c_double, 0.5_c_double], [2, 1]), columns, error)
   call expect(error == rrcb_invalid_argument, "weights of too few points")
   call expect(index(model%report(), "learned costs are used") == 1, "report of the model")
+  call controller%save(saved, error)
+  call expect(error == rrcb_ok .and. size(saved) > 0, "save a controller")
+  call loaded_controller%load(MPI_COMM_WORLD, saved(2:), error)
+  call expect_text("the bytes are no state")
+  call loaded_controller%load(MPI_COMM_WORLD, saved, error)
+  call expect(error == rrcb_ok, "load a controller")
+  call model%save(saved, error)
+  call expect(error == rrcb_ok, "save a model")
+  call loaded_model%load(MPI_COMM_WORLD, saved, error, loaded_controller)
+  call expect(error == rrcb_ok .and. loaded_model%uses_costs(), "load a model")
+  call model%costs(columns, error)
+  call loaded_model%costs(loaded_costs, error)
+  call expect(all(abs(columns - loaded_costs) <= 0), "costs of a loaded model")
+  call loaded_model%destroy()
+  call loaded_controller%destroy()
   call model%step(1.0_c_double, [1.0_c_double], error)
   call model%step(1.0_c_double, columns, error)
   call expect(error == rrcb_invalid_argument, "another number of columns")

@@ -17,8 +17,11 @@ RENAMED = {
     "fetch": "rrcb_ghosts_fetch",
     "accumulate": "rrcb_ghosts_accumulate",
     "apply_shifts": "rrcb_ghosts_apply_shifts",
+    "verify": "rrcb_ghosts_verify",
     "groups": "rrcb_groups_create",
     "sums": "rrcb_groups_sums",
+    "save": "rrcb_save_cuts",  # and of the handles
+    "load": "rrcb_load_cuts",
 }
 # Functions in C++ alone; a class stands for its methods.
 ONLY_CPP = {
@@ -46,6 +49,7 @@ ONLY_C = {
     "rrcb_groups_fetch",  # an overload
     "rrcb_last_error",  # the text of an Error
     "rrcb_controller_step_weight",  # an overload
+    "rrcb_controller_save", "rrcb_controller_load", "rrcb_cost_model_save", "rrcb_cost_model_load",
 }
 # Functions in C that are no procedure of their own in Fortran.
 NOT_FORTRAN = {

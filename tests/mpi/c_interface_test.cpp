@@ -144,6 +144,22 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
 }
 
 /// Parts 0 and 2 on the left, for two machines of two ranks, which are dealt in turns.
+TEST_F(CInterface, leaves_parts_empty_for_the_least_number_of_points_of_the_others) {
+    const std::vector<double> x{0.1, 0.4, 0.7};
+    const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 1, 3, x.data(), nullptr);
+    const int num_points = 3 * num_ranks();
+    parts.assign(3, -1);
+    ASSERT_EQ(rrcb_set(balancer, "num_parts", "4"), RRCB_OK);
+    ASSERT_EQ(rrcb_set(balancer, "min_points", std::to_string(num_points).c_str()), RRCB_OK);
+    ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
+    EXPECT_EQ(parts, (std::vector<std::int32_t>{0, 0, 0}));
+    rrcb_report report;
+    ASSERT_EQ(rrcb_get_report(balancer, &report), RRCB_OK);
+    EXPECT_EQ(report.surplus_parts, 3);
+    EXPECT_EQ(report.imbalance, 4);
+    EXPECT_EQ(report.least_imbalance, 4);
+}
+
 TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
     const std::array<rrcb_cut, 3> tree{{{0, 0, {2}}, {0, 0, {1}}, {0, 0, {3}}}};
     const rrcb_cuts given{1, 4, tree.data(), 2, 0, 1};
@@ -489,6 +505,58 @@ TEST(CCostModel, weighs_points_as_the_model_in_cpp) {
     EXPECT_NE(std::string(rrcb_cost_model_report(model)), "");
     rrcb_cost_model_destroy(model);
     rrcb_controller_destroy(controller);
+}
+
+TEST_F(CInterface, saves_and_loads_cuts) {
+    ASSERT_EQ(balance(Cloud(3)), RRCB_OK);
+    const void* bytes = nullptr;
+    std::size_t size = 0;
+    ASSERT_EQ(rrcb_save_cuts(balancer, &bytes, &size), RRCB_OK) << rrcb_last_error();
+    rrcb_balancer* other = nullptr;
+    ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &other), RRCB_OK);
+    EXPECT_EQ(rrcb_load_cuts(other, bytes, size - 1), RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_load_cuts(other, nullptr, size), RRCB_INVALID_ARGUMENT);
+    ASSERT_EQ(rrcb_load_cuts(other, bytes, size), RRCB_OK) << rrcb_last_error();
+    rrcb_cuts cuts;
+    ASSERT_EQ(rrcb_get_cuts(other, &cuts), RRCB_OK);
+    expect_same_cuts(cuts, load<Cuts>({static_cast<const std::byte*>(bytes), size}));
+    EXPECT_EQ(rrcb_save_cuts(balancer, nullptr, &size), RRCB_INVALID_ARGUMENT);
+    rrcb_destroy(other);
+}
+
+TEST(CCostModel, continues_from_saved_bytes) {
+    const auto step = [](rrcb_cost_model* model, int number) {
+        const double columns[] = {100, 10.0 + 20.0 * rank() + number % 7};
+        EXPECT_EQ(rrcb_cost_model_step(model, columns[0] + 5 * columns[1], 2, columns), RRCB_OK);
+    };
+    rrcb_controller* controllers[2] = {};
+    rrcb_cost_model* models[2] = {};
+    ASSERT_EQ(rrcb_controller_create(MPI_COMM_WORLD, &controllers[0]), RRCB_OK);
+    ASSERT_EQ(rrcb_cost_model_create(MPI_COMM_WORLD, controllers[0], 2, &models[0]), RRCB_OK);
+    for (int k = 0; k < 30; ++k) step(models[0], k);
+    const void *bytes = nullptr, *of_model = nullptr;
+    std::size_t size = 0, size_of_model = 0;
+    ASSERT_EQ(rrcb_controller_save(controllers[0], &bytes, &size), RRCB_OK) << rrcb_last_error();
+    ASSERT_EQ(rrcb_cost_model_save(models[0], &of_model, &size_of_model), RRCB_OK);
+    expect_error_everywhere(rrcb_controller_load(MPI_COMM_WORLD, nullptr, size, &controllers[1]),
+                            RRCB_INVALID_ARGUMENT, "no state");
+    ASSERT_EQ(rrcb_controller_load(MPI_COMM_WORLD, bytes, size, &controllers[1]), RRCB_OK)
+        << rrcb_last_error();
+    ASSERT_EQ(
+        rrcb_cost_model_load(MPI_COMM_WORLD, controllers[1], of_model, size_of_model, &models[1]),
+        RRCB_OK)
+        << rrcb_last_error();
+    for (int k = 30; k < 40; ++k) {
+        double costs[2][2];
+        for (int which : {0, 1}) {
+            step(models[which], k);
+            EXPECT_EQ(rrcb_cost_model_costs(models[which], 2, costs[which]), RRCB_OK);
+        }
+        EXPECT_EQ(costs[0][0], costs[1][0]);
+        EXPECT_EQ(costs[0][1], costs[1][1]);
+    }
+    for (rrcb_cost_model* model : models) rrcb_cost_model_destroy(model);
+    for (rrcb_controller* controller : controllers) rrcb_controller_destroy(controller);
 }
 
 TEST(CCostModel, tells_all_ranks_of_a_null_pointer_on_one) {

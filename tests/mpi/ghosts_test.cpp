@@ -145,6 +145,7 @@ std::size_t expect_ghosts(const Division& division, double radius, const GhostPl
     const std::vector<std::int64_t> got = fetch(lists, division.numbers, MPI_COMM_WORLD);
     std::vector<char> is_ghost(cloud.count(), 0);
     for (const std::int64_t number : got) ++is_ghost[static_cast<std::size_t>(number)];
+    EXPECT_EQ(verify(lists, division.points(), {}, MPI_COMM_WORLD).num_faults, 0);
     std::size_t num_pairs = 0;
     for (std::size_t j = 0; j < cloud.count(); ++j) {
         const Vector x = cloud.position(j);

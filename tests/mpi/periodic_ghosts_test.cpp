@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
@@ -40,6 +41,16 @@ struct Scene {
         Vector x = interleaved_points(positions, dimension).position(static_cast<LocalIndex>(i));
         for (std::size_t a = 0; a < 3; ++a)
             if (shift[a] != 0) x[a] += shift[a] * 1.5;
+        return x;
+    }
+
+    /// The same, but never in the box along an axis that it is shifted along.
+    Vector image_outside(int i, const Shift& shift) const {
+        Vector x = image(i, shift);
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (shift[a] > 0) x[a] = std::max(x[a], box.upper[a]);
+            if (shift[a] < 0) x[a] = std::min(x[a], std::nextafter(box.lower[a], -infinity));
+        }
         return x;
     }
 
@@ -113,6 +124,10 @@ void expect_ghosts(const Scene& scene, double radius) {
         plan, columns(scene.mine, column(scene.here, static_cast<std::size_t>(scene.dimension))),
         MPI_COMM_WORLD);
     apply_shifts(plan, positions);
+    EXPECT_EQ(verify(plan, interleaved_points(scene.here, scene.dimension), {.sample = 20},
+                     MPI_COMM_WORLD)
+                  .num_faults,
+              0);
     ASSERT_EQ(plan.shifts.size(), numbers.size());
     std::map<std::pair<int, Shift>, int> found;
     std::vector<int> near_ghosts(numbers.size());
@@ -124,7 +139,7 @@ void expect_ghosts(const Scene& scene, double radius) {
     for (std::size_t k = 0; k < numbers.size(); ++k) {
         ++found[{numbers[k], plan.shifts[k]}];
         const Vector x = moved.position(k);
-        EXPECT_EQ(x, scene.image(numbers[k], plan.shifts[k]));
+        EXPECT_EQ(x, scene.image_outside(numbers[k], plan.shifts[k]));
         for (const int i : scene.mine) near_ghosts[k] += is_pair(x, i) ? 1 : 0;
     }
     std::vector<int> near(scene.mine.size());
@@ -149,7 +164,7 @@ void expect_ghosts(const Scene& scene, double radius) {
         }
         for (std::size_t k = 0; k < scene.mine.size(); ++k)
             for (int i = 0; i < scene.count(); ++i)
-                expected[k] += is_pair(scene.image(scene.mine[k], shift), i) ? 1 : 0;
+                expected[k] += is_pair(scene.image_outside(scene.mine[k], shift), i) ? 1 : 0;
     }
     EXPECT_EQ(accumulate(plan, near_ghosts, near, MPI_COMM_WORLD), expected);
 }
@@ -180,6 +195,81 @@ TEST(PeriodicGhosts, of_floats_are_moved_to_images) {
     ASSERT_FALSE(positions.empty());
     for (std::size_t k = 0; k < positions.size(); ++k)
         EXPECT_EQ(positions[k], fetched[k] + static_cast<float>(plan.shifts[k][0]) * end);
+}
+
+/// Points at the ends of a box, just inside them, and between; each rank has some.
+template <class T>
+std::vector<T> at_the_ends_of(const Box& box) {
+    const auto lower = static_cast<T>(box.lower[0]);
+    const auto upper = static_cast<T>(box.upper[0]);
+    const auto wrapped = static_cast<T>(lower - T(1e-9) + (upper - lower));
+    std::vector<T> all{std::max(lower, std::nextafter(lower, upper)), std::nextafter(upper, lower),
+                       wrapped};
+    for (const T end : {lower, upper})
+        if (end >= box.lower[0] && end <= box.upper[0]) all.push_back(end);
+    for (int k = 1; k < 40; ++k)
+        all.push_back(lower + (upper - lower) * static_cast<T>(k * k % 97) / 97);
+    std::vector<T> mine;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i] <= box.upper[0] && static_cast<int>(i) % num_ranks() == rank())
+            mine.push_back(all[i]);
+    return mine;
+}
+
+/// Expects each pair within 0.03 over the faces of the box, and no image in it.
+template <class T>
+void expect_images_outside(const Box& box) {
+    const std::vector<T> scattered = at_the_ends_of<T>(box);
+    const Balance made = balance(interleaved_points(scattered, 1), {}, MPI_COMM_WORLD);
+    const std::vector<T> x = transfer(plan(made, MPI_COMM_WORLD), scattered, MPI_COMM_WORLD);
+    const GhostPlan near = ghosts(made.cuts, interleaved_points(x, 1),
+                                  {.radius = 0.03, .periodic = box}, MPI_COMM_WORLD);
+    EXPECT_EQ(verify(near, interleaved_points(x, 1), {}, MPI_COMM_WORLD).num_faults, 0);
+    std::vector<T> images = fetch(near, x, MPI_COMM_WORLD);
+    apply_shifts(near, images);
+    for (std::size_t k = 0; k < images.size(); ++k) {
+        const bool is_in = images[k] >= box.lower[0] && images[k] < box.upper[0];
+        EXPECT_FALSE(near.shifts[k] != Shift{} && is_in) << images[k];
+    }
+    const std::vector<T> all = [&] {
+        const std::vector<Part> to_first(x.size(), 0);
+        std::vector<T> gathered =
+            transfer(plan(to_first, num_ranks(), MPI_COMM_WORLD), x, MPI_COMM_WORLD);
+        std::size_t count = gathered.size();
+        MPI_Bcast(&count, sizeof count, MPI_BYTE, 0, MPI_COMM_WORLD);
+        gathered.resize(count);
+        MPI_Bcast(gathered.data(), static_cast<int>(count * sizeof(T)), MPI_BYTE, 0,
+                  MPI_COMM_WORLD);
+        return gathered;
+    }();
+    images.insert(images.end(), x.begin(), x.end());
+    const double period = box.upper[0] - box.lower[0];
+    for (const T i : x) {
+        const auto is_near = [&](T j) { return std::abs(double{j} - double{i}) <= 0.03; };
+        const auto is_near_in_box = [&](T j) {
+            const double apart = std::abs(double{j} - double{i});
+            return std::min(apart, period - apart) <= 0.03;
+        };
+        EXPECT_EQ(std::ranges::count_if(images, is_near),
+                  std::ranges::count_if(all, is_near_in_box))
+            << i;
+    }
+}
+
+TEST(PeriodicGhosts, follow_points_that_leave_the_box) {
+    GhostPlan plan;
+    plan.periodic = Box{{0}, {1}};
+    plan.shifts = {Shift{-1, 0, 0}, Shift{1, 0, 0}, Shift{-1, 0, 0}};
+    std::vector<double> positions{1.25, -0.25, 1};
+    apply_shifts(plan, positions);
+    EXPECT_EQ(positions, (std::vector{0.25, 0.75, std::nextafter(0, -1)}));
+}
+
+TEST(PeriodicGhosts, at_the_faces_of_the_box_are_met_once_and_never_inside) {
+    for (const Box& box : {Box{{0}, {1}}, Box{{0.1}, {0.7}}, Box{{-0.1}, {0.2}}, Box{{-1}, {0}}}) {
+        expect_images_outside<double>(box);
+        expect_images_outside<float>(box);
+    }
 }
 
 TEST(PeriodicGhosts, in_no_usable_box_are_refused_on_all_ranks) {

@@ -73,7 +73,8 @@ TEST(Tolerance, that_nothing_reaches_is_reported_and_comes_as_near_as_exact) {
         if (reached <= 1 + 1e-6) continue;
         const Report report = cloud.report(Refine::tolerance, 1 + 1e-7);
         EXPECT_FALSE(report.within_tolerance);
-        EXPECT_LE(report.imbalance, reached);
+        // The weights of a part are added up in the order in which its points are found.
+        EXPECT_LE(report.imbalance, reached * (1 + 1e-12));
     }
 }
 

@@ -182,7 +182,7 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
         [&] {
             call(is_last ? Cuts{2, 3, {Cut{}, Cut{}}} : cuts);
         },
-        "previous cuts must have");
+        "previous cuts have 3 parts, not 4; set num_parts to 3");
     std::vector<double> weights(700, 1.0);
     if (is_last) weights[3] = -1;
     expect_error([&] { call(cuts, weights); }, "weight of point 3");

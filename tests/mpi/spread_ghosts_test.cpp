@@ -92,6 +92,21 @@ TEST(SpreadGhosts, are_those_by_the_whole_tree) {
     }
 }
 
+TEST(SpreadGhosts, by_the_radii_of_receivers_are_those_by_the_whole_tree) {
+    const std::vector<double> coordinates = positions_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    std::vector<double> radii(points.count);
+    for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = i % 9 == 0 ? 3 : 0.3;
+    for (const int num_parts : {2, num_ranks() + 1, 300}) {
+        const Cuts whole = random_cuts(2, num_parts);
+        const GhostOptions options{.radii = radii, .needs = Needs::either};
+        const GhostPlan expected = ghosts(whole, points, options, MPI_COMM_WORLD);
+        const GhostPlan found = ghosts(known_here(whole), points, options, MPI_COMM_WORLD);
+        EXPECT_EQ(found.send_indices, expected.send_indices);
+        expect_same(found.receive, expected.receive);
+    }
+}
+
 TEST(SpreadGhosts, need_cuts_of_all_tiers_of_a_tree) {
     const int num_parts = 40000;
     const Cuts whole = test::planes(num_parts);
@@ -122,8 +137,11 @@ TEST(SpreadGhosts, of_points_on_the_ranks_of_their_parts_are_those_by_the_whole_
     // Cuts that the rank had above scattered points, and those above its own parts alone.
     std::size_t num_sent = 0;
     for (const Cuts& known : {balance.cuts, known_here(whole)})
-        for (const double radius : {0.0, 0.01, 0.1, 2.0})
+        for (const double radius : {0.0, 0.01, 0.1, 2.0}) {
             num_sent += expect_same_plans(whole, known, points, radius);
+            const GhostPlan found = ghosts_of(known, points, radius, std::nullopt);
+            EXPECT_EQ(verify(found, points, {}, MPI_COMM_WORLD).num_faults, 0);
+        }
     EXPECT_GT(num_sent, 100u);
 }
 

@@ -88,15 +88,14 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     make_buffers(decision, ranks.options, 2, false);
     decide(all, ranks.options, decision);
     const Points points = ranks.points();
-    const BinnedPoints binned = bin_by_options(points, bounding_box(points), ranks.options);
     PartSums sums(ranks.options.part_sizes.size());
     Participant self{MPI_COMM_SELF};
     Refinement refinement(ranks.options, self, sums);
     std::vector<Part> parts(points.count);
     Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
                       static_cast<double>(points.count), decision.verdict.common_weight};
-    const auto bin = [&]() -> const BinnedPoints& { return binned; };
-    const Refined refined = refinement.refine(std::move(estimate), points, bin, parts, self);
+    const Refined refined =
+        refinement.refine(std::move(estimate), points, bounding_box(points), parts, self);
 
     std::vector<double> weights(ranks.options.part_sizes.size());
     for (const Part part : parts) weights[static_cast<std::size_t>(part)] += 1;

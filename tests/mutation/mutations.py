@@ -109,15 +109,15 @@ MUTATIONS = [
     Mutation(
         "the farther of two edges of a bin",
         "src/search/cut_search.cpp",
-        "return lower <= upper",
-        "return lower > upper",
+        "finish(search, best == 0 ? search.lower : search.upper, division.below);",
+        "finish(search, best != 0 ? search.lower : search.upper, division.below);",
         ("mpi_refinement", "properties.balance"),
     ),
     Mutation(
         "the refinement counts points, not weights",
-        "src/search/fragments.cpp",
-        "weight += points.weights[i];",
-        "weight += 1;",
+        "src/passes/count.cpp",
+        "weights[slot] += points.weight(i);",
+        "weights[slot] += 1;",
         ("mpi_refinement", "properties.balance"),
     ),
     Mutation(
@@ -171,9 +171,9 @@ MUTATIONS = [
     ),
     Mutation(
         "infinite weights are let in",
-        "src/options/validation.cpp",
-        "bad += !(weight >= 0 && weight - weight == 0);",
-        "bad += !(weight >= 0);",
+        "src/passes/summary.cpp",
+        "if (summary.lightest < 0 || !std::isfinite(extent.weight)) reject_weights(points);",
+        "if (summary.lightest < 0) reject_weights(points);",
         ("mpi_agreement",),
     ),
     Mutation(
@@ -263,15 +263,22 @@ MUTATIONS = [
     Mutation(
         "a ghost is sent to a rank once for each of its parts",
         "src/lists/ghosts_mpi.cpp",
-        "ranks_.erase(again.begin(), again.end());",
+        "ranks_.erase(std::unique(ranks_.begin() + first, ranks_.end()), ranks_.end());",
         "",
         ("mpi_ghosts",),
     ),
     Mutation(
+        "the places of points with great radii are not noted",
+        "src/cuts/ball_search.hpp",
+        "const bool is_great = radius > of(end) / 2;",
+        "const bool is_great = false;",
+        ("mpi_ghosts_needs",),
+    ),
+    Mutation(
         "cuts that a rank lacks are not asked for",
         "src/cuts/ball_search.hpp",
-        "is_unknown(entry) ? lack(unknown_node(entry)) : visit(entry);",
-        "is_unknown(entry) ? void() : visit(entry);",
+        "if (is_unknown(entry)) return lack(unknown_node(entry));",
+        "if (is_unknown(entry)) return;",
         ("mpi_spread_ghosts",),
     ),
 ]

@@ -17,7 +17,7 @@
 namespace rrcb::test {
 namespace {
 
-constexpr int num_cases = 250;
+constexpr int num_cases = 150;
 
 /// Limits along an axis of this extent, of sizes that leave room for a few parts or for many.
 void add_limits(double lower, double upper, std::int32_t choice, Options& options) {

@@ -49,6 +49,34 @@ def check_balance(balance, x, weights=None, tolerance=1.01, num_parts=RANKS):
     assert np.array_equal(balance.cuts.part_of(x), balance.parts)
 
 
+def test_continues_from_saved_bytes():
+    x = cloud(2)
+    made = rrcb.balance(x, num_parts=5, comm=comm)
+    loaded = rrcb.Cuts.load(made.cuts.save())
+    assert (loaded.part_of(x) == made.cuts.part_of(x)).all()
+    same_error(lambda: rrcb.Cuts.load(made.cuts.save()[:-8]), "pass all bytes")
+    controller = rrcb.Controller(comm)
+    model = rrcb.CostModel(2, controller, comm)
+    for step in range(30):
+        cells = 10 + 20 * ME + step % 7
+        model.step(100 + 5 * cells, [100, cells])
+    again = rrcb.Controller.load(controller.save(), comm)
+    model_again = rrcb.CostModel.load(model.save(), again, comm)
+    assert model_again.report() == model.report()
+    assert (model_again.costs == model.costs).all()
+    assert again.due == controller.due
+    same_error(lambda: rrcb.Controller.load(model.save(), comm), "not of a Controller")
+    again.free()
+    controller.free()
+
+
+def test_leaves_parts_empty_for_the_least_number_of_points():
+    x = cloud(2, count=5)
+    made = rrcb.balance(x, num_parts=4, min_points=len(everywhere(x)), comm=comm)
+    assert (made.parts == 0).all()
+    assert made.report.surplus_parts == 3
+
+
 def test_balances_in_each_dimension_and_dtype():
     for dimension, dtype in itertools.product((1, 2, 3), (np.float64, np.float32)):
         for empty in (None, 0, RANKS - 1):
@@ -117,7 +145,7 @@ def test_balances_from_earlier_cuts():
     later = rrcb.balance(moved, comm=comm, previous=pickle.loads(pickle.dumps(first.cuts)))
     check_balance(later, moved)
     assert later.report.imbalance <= 1.01
-    assert "imbalance" in repr(later.report) and len(repr(later.report).splitlines()) == 12
+    assert "imbalance" in repr(later.report) and len(repr(later.report).splitlines()) == 14
 
 
 def test_reads_cuts_of_the_other_byte_order():
@@ -271,6 +299,96 @@ def test_finds_ghosts_by_radii():
     near = np.argwhere(np.triu(distance <= np.maximum(all_r[:, None], all_r[None]), 1))
     for i, j in near:
         assert all_ids[i] in held[owner[j]] or all_ids[j] in held[owner[i]]
+
+
+def test_finds_ghosts_within_the_radii_of_receivers():
+    x = cloud(2, 150)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute(x)
+    numbers = ids(len(here))
+    radii = np.where(numbers % 5 == 0, 0.2, 0.05)
+    all_x, all_r, all_ids = everywhere(here), everywhere(radii), everywhere(numbers)
+    distance = np.linalg.norm(all_x[None] - here[:, None], axis=2)
+    for needs in ("receiver", "either"):
+        ghosts = balance.ghosts(here, radii, needs=needs)
+        held = np.concatenate([numbers, ghosts.fetch(numbers)])
+        assert len(set(held)) == len(held)
+        reach = np.maximum(radii[:, None], all_r[None] if needs == "either" else 0)
+        needed = all_ids[(distance <= reach).any(axis=0)]
+        assert np.isin(needed, held).all()
+        assert needs == "either" or ghosts.count <= balance.ghosts(here, 0.2).count
+    same_error(lambda: balance.ghosts(here, radii, needs="all"), "needs must be one of sender")
+
+
+def test_images_are_outside_the_box():
+    for dtype in (np.float64, np.float32):
+        wrapped = dtype(-1e-9) + dtype(1)
+        x = np.array([0, np.nextafter(dtype(1), dtype(0)), 1, wrapped, *np.arange(1, 30) / 30], dtype)
+        balance = rrcb.balance(x[ME::RANKS, None], comm=comm)
+        here = balance.distribute(x[ME::RANKS, None])
+        ghosts = balance.ghosts(here, 0.05, period=1.0)
+        images = ghosts.fetch_positions(here)
+        assert not ((images >= 0) & (images < 1))[ghosts.shifts != 0].any()
+        every = np.concatenate([here, images])
+        apart = np.abs(x[None].astype(float) - here)
+        expected = (np.minimum(apart, 1 - apart) <= 0.05).sum(axis=1)
+        assert np.array_equal((np.abs(every.T.astype(float) - here) <= 0.05).sum(axis=1), expected)
+
+
+def test_finds_all_pairs_in_a_tilted_box():
+    tilt, radius = 0.3, 0.1
+    stretch = (tilt + np.sqrt(tilt**2 + 4)) / 2
+    straight = np.random.default_rng(1).random((200, 2))
+    balance = rrcb.balance(straight[ME::RANKS], comm=comm)
+    here = balance.distribute(straight[ME::RANKS])
+    images = balance.ghosts(here, radius * stretch, period=1.0).fetch_positions(here)
+    shifts = np.array(list(itertools.product((-1, 0, 1), repeat=2)))
+    every = (straight[:, None] + shifts).reshape(-1, 2)
+    tilted = np.array([[1, 0], [tilt, 1]])
+    counts = [
+        (np.linalg.norm((x[None] - here[:, None]) @ tilted, axis=2) <= radius).sum(axis=1)
+        for x in (np.concatenate([here, images]), every)
+    ]
+    assert np.array_equal(*counts)
+
+
+def test_plain_parts_are_half_open_boxes():
+    lattice = np.stack(np.meshgrid(np.arange(15.0), np.arange(15.0)), axis=-1).reshape(-1, 2)
+    x = lattice[ME::RANKS]
+    balance = rrcb.balance(x, comm=comm, axes__plain=True)
+    lower, upper = balance.cuts.boxes()[balance.parts].swapaxes(0, 1)
+    assert ((x >= lower) & (x < upper)).all()
+
+
+def test_verifies_ghosts():
+    x = cloud(2, 150, empty=0 if RANKS > 2 else None)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute({"x": x, "id": ids(len(x))})
+    ghosts = balance.ghosts(here["x"], np.where(here["id"] % 5 == 0, 0.2, 0.05), 1.0, "either")
+    seen = ghosts.verify(here["x"], 10**6, ids=here["id"], ids_before=ids(len(x)))
+    assert seen.num_faults == 0 and len(seen.missing) == 0 and seen.num_pairs > 0
+    narrow = balance.ghosts(here["x"], 0.05)
+    seen = narrow.verify(here["x"], 10**6, radius=0.1, ids=here["id"])
+    assert comm.allreduce(len(seen.missing)) == seen.num_faults
+    assert np.isin(seen.missing["needed_by"], here["id"]).all()
+    wide = balance.ghosts(here["x"], 0.1).fetch(here["id"])
+    assert np.isin(seen.missing["id"], wide).all() and (seen.missing["rank"] != ME).all()
+    assert RANKS == 1 or seen.num_faults > 0
+    changed = here["id"] + 500 * (len(here["id"]) > 0)
+    seen = narrow.verify(here["x"], 0, ids=changed, ids_before=here["id"])
+    assert len(seen.missing) == len(seen.strangers) == len(changed)
+
+
+def test_refuses_ghosts_from_before_a_transfer():
+    if RANKS == 1:
+        raise Skip("needs two ranks")
+    x = cloud(2, 150)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute(x)
+    ghosts = balance.ghosts(here, 0.1)
+    assert len(ghosts.fetch(here)) == ghosts.count
+    rrcb.assign(1 - here, balance, comm).distribute(here)
+    same_error(lambda: ghosts.fetch(here), "the points were transferred since these ghosts")
 
 
 def test_accumulates_at_points():

@@ -24,7 +24,7 @@ struct SearchTotals {
     MessageTotals messages{};
     std::int64_t bytes_in_a_row = 0;  ///< of the longest message of every step of every round
     std::size_t most_into_rank = 0;   ///< in one round
-    std::int64_t most_memory = 0;     ///< of a rank, beside its points and their sorted copy
+    std::int64_t most_memory = 0;     ///< of a rank, beside its points
 
     std::size_t longest() const {
         std::size_t longest = 0;
@@ -94,9 +94,9 @@ class VirtualSearch {
         TreeSearch search;
         Butterfly butterfly;
 
-        Rank(const PartTree& tree, int rank, const Box& box, SortedPoints&& points,
+        Rank(const PartTree& tree, int rank, const Box& box, const Points& points,
              std::span<Part> parts)
-            : search(tree, rank, box, std::move(points), parts),
+            : search(tree, rank, box, points, parts),
               butterfly(rank, tree.num_ranks, TreeSearch::join) {}
     };
     struct Memory {
@@ -126,15 +126,10 @@ class VirtualSearch {
 
     void start(const VirtualCloud& cloud, const PartTree& tree, const Box& box, int rank) {
         const Points mine = cloud.points_of(rank);
-        Options options;
-        options.num_parts = cloud.num_ranks();
-        SortedPoints sorted = sort_by_cell(bin_by_options(mine, bounding_box(mine), options));
         const std::size_t first = static_cast<std::size_t>(rank) * mine.count;
         const auto parts = std::span(parts_).subspan(first, mine.count);
-        run(rank, [&] {
-            ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, box, std::move(sorted),
-                                                           parts);
-        });
+        run(rank,
+            [&] { ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, box, mine, parts); });
     }
 
     void ask(int rank) {

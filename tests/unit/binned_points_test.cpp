@@ -1,6 +1,7 @@
+#include "passes/binned_points.hpp"
+
 #include "../support/clouds.hpp"
 #include "passes/cell_finder.hpp"
-#include "passes/sorted_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,17 +76,6 @@ TEST(BinnedPoints, faces_belong_to_the_cell_above_and_those_of_the_box_to_the_la
     EXPECT_EQ(binned.origins, (std::vector<double>{0, 1, 2, 3}));
     EXPECT_EQ(binned.first_moments, (std::vector<double>{0, 0, 0, 32}));
     EXPECT_EQ(binned.second_moments, (std::vector<double>{0, 0, 0, 32}));
-}
-
-TEST(BinnedPoints, are_sorted_by_cell_in_the_order_they_came_in) {
-    const std::vector<double> x{3, 0, 2, 3, 1, 0};
-    const std::array<std::span<const double>, 1> columns{x};
-    const std::vector<double> weights{1, 2, 3, 4, 5, 6};
-    const SortedPoints sorted = sort_by_cell(bin(column_points(columns, weights), 3));
-    EXPECT_EQ(sorted.original, (Uninitialized<LocalIndex>{1, 5, 4, 0, 2, 3}));
-    EXPECT_EQ(sorted.coordinates, (Uninitialized<double>{0, 0, 1, 3, 2, 3}));
-    EXPECT_EQ(sorted.weights, (Uninitialized<double>{2, 6, 5, 1, 3, 4}));
-    EXPECT_EQ(sorted.begins, (std::vector<LocalIndex>{0, 2, 3, 6}));
 }
 
 }  // namespace

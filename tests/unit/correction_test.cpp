@@ -1,7 +1,7 @@
 // Corrections of all cuts at once, on the points of one rank: what is left open, what is counted
 // and where the cuts go, against looking up every point.
 #include "../support/clouds.hpp"
-#include "search/undecided_points.hpp"
+#include "search/slab_counts.hpp"
 
 #include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
@@ -105,13 +105,26 @@ struct Example {
 
     SlabTotals lay() { return lay_slabs(rule(), cuts, brackets, part_weights(), slabs); }
 
+    /// The points in the slabs; `parts` are those by the cuts before, those of the others then.
+    Collected open_points(std::vector<Part>& parts) const {
+        std::vector<Bracket> intervals;
+        for (const Slab& slab : slabs)
+            intervals.push_back(
+                {slab.lower, std::max(slab.upper, std::nextafter(slab.lower, infinity))});
+        return collect(points(), cuts, intervals, true, parts);
+    }
+
     /// The cuts corrected once.
     Cuts corrected(const SlabTotals& totals) const {
-        const UndecidedPoints open = undecided_points(points(), parts(), cuts, slabs);
+        const std::vector<Part> before = parts();
+        std::vector<Part> settled = before;
+        const Collected open = open_points(settled);
+        std::vector<Part> of_open;
+        for (const LocalIndex i : open.original) of_open.push_back(before[i]);
         std::vector<double> counts(totals.counts);
         std::vector<double> values(totals.moving);
         std::vector<double> sums = part_weights();
-        count_in_slabs(open, cuts, slabs, counts);
+        count_in_slabs(open, of_open, cuts, slabs, counts);
         correct(rule(), cuts, slabs, sums, counts, values);
         Cuts moved = cuts;
         for (std::size_t k = 0; k < slabs.size(); ++k)
@@ -187,28 +200,32 @@ TEST(Slabs, have_bins_that_meet_and_hold_what_is_counted_in_them) {
         }
 }
 
-TEST(UndecidedPoints, are_all_whose_part_may_change_and_the_others_are_weighed) {
+TEST(Collected, are_all_whose_part_may_change_and_the_others_are_weighed) {
     for (unsigned seed = 1; seed <= 12; ++seed) {
         const int dimension = 1 + static_cast<int>(seed % 3);
         Example made = example(dimension, 2 + seed % 7, seed, seed > 6);
         made.cut(0.02, seed);
         made.lay();
         const std::vector<Part> parts = made.parts();
-        const UndecidedPoints open = undecided_points(made.points(), parts, made.cuts, made.slabs);
+        std::vector<Part> settled = parts;
+        const Collected open = made.open_points(settled);
         std::vector<bool> is_open(parts.size());
         for (std::size_t k = 0; k < open.original.size(); ++k) {
             const LocalIndex i = open.original[k];
             is_open[i] = true;
             EXPECT_EQ(open.points().position(k), made.points().position(i));
             EXPECT_EQ(open.weight(k), made.points().weight(i));
-            EXPECT_EQ(open.parts[k], parts[i]);
+            EXPECT_EQ(settled[i], no_part);
         }
         EXPECT_LT(open.original.size(), 3 * parts.size() / 4) << seed;
         std::vector<double> decided(made.sizes.size());
         for (std::size_t i = 0; i < parts.size(); ++i)
-            if (!is_open[i]) decided[static_cast<std::size_t>(parts[i])] += made.points().weight(i);
+            if (!is_open[i]) {
+                EXPECT_EQ(settled[i], parts[i]);
+                decided[static_cast<std::size_t>(parts[i])] += made.points().weight(i);
+            }
         for (std::size_t p = 0; p < decided.size(); ++p)
-            EXPECT_NEAR(open.decided_weights[p], decided[p], 1e-12 * decided[p]);
+            EXPECT_NEAR(open.settled_weights[p], decided[p], 1e-12 * decided[p]);
         std::mt19937_64 engine(seed);
         for (int trial = 0; trial < 20; ++trial) {
             Example moved = made;
@@ -226,16 +243,17 @@ TEST(UndecidedPoints, are_all_whose_part_may_change_and_the_others_are_weighed) 
     }
 }
 
-TEST(UndecidedPoints, get_the_parts_of_cuts_that_have_moved) {
+TEST(Collected, get_the_parts_of_cuts_that_have_moved) {
     for (unsigned seed = 1; seed <= 6; ++seed) {
         Example made = example(2, 5, seed, seed > 3);
         made.cut(0.02, seed);
         const SlabTotals totals = made.lay();
         std::vector<Part> parts = made.parts();
-        UndecidedPoints open = undecided_points(made.points(), parts, made.cuts, made.slabs);
+        const Collected open = made.open_points(parts);
+        std::vector<Part> of_open;
         made.cuts = made.corrected(totals);
         std::vector<double> weights(made.sizes.size());
-        assign_undecided(made.cuts, open, parts, weights);
+        assign_collected(made.cuts, open, of_open, parts, weights);
         EXPECT_EQ(parts, made.parts());
         const std::vector<double> expected = made.part_weights();
         for (std::size_t p = 0; p < weights.size(); ++p)

@@ -26,13 +26,13 @@ std::vector<double> histogram_of(std::vector<double> weights) {
 }
 
 TEST(CountInBins, does_not_end_below_the_first_or_above_the_last_slot_which_have_no_edge_there) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(0.25, 1);
     decide_by_bins(search, target, layout, histogram_of({3, 1}));
     EXPECT_EQ(search.stage, CutSearch::over_candidates);
     EXPECT_EQ(search.chosen, 0);
 
-    search = search_in(CutSearch::over_fragments);
+    search = search_in(CutSearch::over_points);
     target = target_of(3.75, 1);
     decide_by_bins(search, target, layout, histogram_of({1, 0, 0, 0, 0, 3}));
     EXPECT_EQ(search.stage, CutSearch::over_candidates);
@@ -40,7 +40,7 @@ TEST(CountInBins, does_not_end_below_the_first_or_above_the_last_slot_which_have
 }
 
 TEST(CountInBins, ends_before_empty_bins_where_the_target_is_reached) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(5);
     decide_by_bins(search, target, layout, histogram_of({2, 3, 0, 0, 4}));
     EXPECT_EQ(search.stage, CutSearch::done);
@@ -48,14 +48,14 @@ TEST(CountInBins, ends_before_empty_bins_where_the_target_is_reached) {
 }
 
 TEST(CountInBins, ends_at_both_edges_of_the_bracket) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(2.75, 0.25);
     decide_by_bins(search, target, layout, histogram_of({3, 1}));
     EXPECT_EQ(search.stage, CutSearch::done);
     EXPECT_EQ(search.cut.at[0], 0);
     EXPECT_EQ(search.below, 3);
 
-    search = search_in(CutSearch::over_fragments);
+    search = search_in(CutSearch::over_points);
     target = target_of(1.25, 0.25);
     decide_by_bins(search, target, layout, histogram_of({1, 0, 0, 0, 0, 3}));
     EXPECT_EQ(search.stage, CutSearch::done);
@@ -114,8 +114,8 @@ TEST(Tie, of_many_candidates_in_one_double_is_broken_without_another_count) {
     EXPECT_EQ(target.base, 2);
 }
 
-TEST(Tie, of_fragments_is_none_as_their_boxes_only_enclose_the_points) {
-    CutSearch search = search_in(CutSearch::over_fragments, 2);
+TEST(Tie, of_all_points_is_none_as_boxes_only_enclose_the_settled_ones) {
+    CutSearch search = search_in(CutSearch::over_points, 2);
     CutTarget target = target_of(8);
     auto histogram = histogram_of({0, 10});
     histogram[0] = -0.5;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "search/local_search.hpp"
+#include "passes/count.hpp"
+#include "search/cut_search.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,10 @@
 // The search for one cut as ranks and root run it, in one process: each rank counts its share of a
 // cloud, their histograms are joined, and the root decides.
+#include "search/cut_search.hpp"
+
 #include "../support/clouds.hpp"
 #include "arithmetic/quantum.hpp"
-#include "search/local_search.hpp"
+#include "passes/count.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,8 +31,8 @@ struct Cloud {
 struct Rank {
     std::vector<double> coordinates;
     std::vector<double> weights;
-    SortedPoints points;
-    std::vector<Fragment> fragments;
+    Collected points{};
+    Entries entries{};  ///< first all, then the candidates
 };
 
 struct Result {
@@ -54,16 +56,14 @@ class Search {
         }
         for (Rank& rank : ranks_) {
             const Points points = interleaved_points(rank.coordinates, dimension_, rank.weights);
-            const SupportMesh mesh = make_support_mesh(bounding_box(points), dimension_, 8);
-            rank.points = sort_by_cell(bin_by_cell(points, mesh));
-            rank.fragments = cell_fragments(rank.points);
+            rank.points = collect_all(points);
         }
     }
 
     double total_weight() const {
         double weight = 0;
         for (const Rank& rank : ranks_)
-            for (const Fragment& fragment : rank.fragments) weight += fragment.weight;
+            for (LocalIndex i = 0; i < rank.points.count(); ++i) weight += rank.points.weight(i);
         return weight;
     }
 
@@ -88,18 +88,20 @@ class Search {
         target.target = share * total_weight();
         target.slack = slack;
         target.divides = divides;
-        std::vector<LocalSearch> local;
-        for (const Rank& rank : ranks_) local.emplace_back(rank.fragments, rank.points);
+        for (Rank& rank : ranks_) {
+            rank.entries.resize(rank.points.count());
+            std::iota(rank.entries.begin(), rank.entries.end(), LocalIndex{0});
+        }
         while (search.stage != CutSearch::done && result.rounds < 100) {
             const CutSearch before = search;
             if (before.stage == CutSearch::gathering) {
-                const auto records = gather(local);
+                const auto records = gather();
                 result.most_gathered =
                     std::max(result.most_gathered, records.size() / (dimension_ + std::size_t{1}));
                 decide_among(search, target, records, dimension_);
             } else {
-                decide_by_bins(search, target, layout_, join(before, local, backwards));
-                for (LocalSearch& one : local) one.keep_chosen(before, search, layout_);
+                decide_by_bins(search, target, layout_, join(before, backwards));
+                if (search.stage != CutSearch::done) keep_chosen(before, search.chosen);
                 ++result.counts[before.tied];
             }
             ++result.rounds;
@@ -108,19 +110,33 @@ class Search {
     }
 
   private:
-    std::vector<double> gather(const std::vector<LocalSearch>& local) const {
+    std::vector<double> gather() const {
         std::vector<double> all;
-        for (const LocalSearch& one : local) one.append_candidates(all);
+        for (const Rank& rank : ranks_)
+            for (const LocalIndex i : rank.entries) {
+                const Vector x = rank.points.position(i);
+                all.insert(all.end(), x.begin(), x.begin() + dimension_);
+                all.push_back(rank.points.weight(i));
+            }
         return all;
     }
 
-    std::vector<double> join(const CutSearch& search, const std::vector<LocalSearch>& local,
-                             bool backwards) const {
+    void keep_chosen(const CutSearch& before, int slot) {
+        const Bins bins = bins_of(before, layout_);
+        for (Rank& rank : ranks_)
+            rank.entries = between(slot == 0 ? -infinity : bins.edge(slot - 1),
+                                   slot > layout_.num_bins ? infinity : bins.edge(slot),
+                                   current_axis(before), rank.entries, rank.points);
+    }
+
+    std::vector<double> join(const CutSearch& search, bool backwards) const {
         std::vector<std::vector<double>> histograms;
-        for (std::size_t r = 0; r < local.size(); ++r) {
+        for (const Rank& rank : ranks_) {
             std::vector<double>& mine = histograms.emplace_back(layout_.length());
             clear_histogram(mine);
-            local[r].count(search, layout_, mine);
+            count(rank.points, rank.entries, current_axis(search), bins_of(search, layout_),
+                  layout_, mine);
+            round_weights(search.quantum, layout_, mine);
         }
         if (backwards) std::ranges::reverse(histograms);
         for (std::size_t r = 1; r < histograms.size(); ++r)

@@ -30,14 +30,14 @@ std::vector<double> histogram_of(std::vector<double> weights, double count, doub
 const std::vector<double> slot_weights{2, 3, 5.25, 4, 1, 0};
 
 TEST(CountInBins, ends_at_the_edge_that_is_near_enough) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(10, 0.5);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.stage, CutSearch::done);
     EXPECT_EQ(search.cut.at[0], 2);  // below it 2 + 3 + 5.25
     EXPECT_EQ(search.below, 10.25);
 
-    search = search_in(CutSearch::over_fragments);
+    search = search_in(CutSearch::over_points);
     target = target_of(5.25, 0.5);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.cut.at[0], 1);  // the lower edge of the slot is nearer
@@ -45,7 +45,7 @@ TEST(CountInBins, ends_at_the_edge_that_is_near_enough) {
 }
 
 TEST(CountInBins, ends_at_once_where_nothing_belongs_below) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(0);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.stage, CutSearch::done);
@@ -53,7 +53,7 @@ TEST(CountInBins, ends_at_once_where_nothing_belongs_below) {
 }
 
 TEST(Narrow, goes_on_in_the_slot_of_the_target) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(8);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.stage, CutSearch::over_candidates);
@@ -66,14 +66,14 @@ TEST(Narrow, goes_on_in_the_slot_of_the_target) {
 }
 
 TEST(Narrow, reaches_to_the_outermost_point_beyond_the_bracket) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(1);
     decide_by_bins(search, target, layout, histogram_of({2, 1}, many, -7, 9));
     EXPECT_EQ(search.chosen, 0);
     EXPECT_EQ(search.lower, -7);
     EXPECT_EQ(search.upper, 0);
 
-    search = search_in(CutSearch::over_fragments);
+    search = search_in(CutSearch::over_points);
     target = target_of(4);
     decide_by_bins(search, target, layout, histogram_of({2, 0, 0, 0, 0, 4}, many, -7, 9));
     EXPECT_EQ(search.chosen, 5);
@@ -90,7 +90,7 @@ TEST(Narrow, takes_bins_by_bits_where_bins_of_equal_width_do_not_help) {
 }
 
 TEST(Narrow, gathers_candidates_once_they_are_few) {
-    CutSearch search = search_in(CutSearch::over_fragments);
+    CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(8);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, few));
     EXPECT_EQ(search.stage, CutSearch::gathering);
@@ -183,34 +183,40 @@ TEST(DecideAmong, breaks_ties_along_the_next_axis) {
     EXPECT_EQ(search.below, 1);
 }
 
-TEST(LocalSearch, counts_its_points_then_its_candidates_and_hands_them_over) {
+TEST(Count, adds_up_points_and_settled_ones_and_keeps_those_of_a_slot) {
     const std::vector<double> x{0.5, 1.5, 1.25, 3.5};
     const std::vector<double> weights{1, 2, 3, 4};
-    const Points points = interleaved_points(x, 1, weights);
-    const SortedPoints sorted =
-        sort_by_cell(bin_by_cell(points, make_support_mesh(bounding_box(points), 1, 1)));
-    const std::vector<Fragment> fragments = cell_fragments(sorted);
-    LocalSearch local(fragments, sorted);
-    const auto count = [&](const CutSearch& search) {
+    const Collected points = collect_all(interleaved_points(x, 1, weights));
+    const auto counted = [&](const CutSearch& search, const Entries& entries) {
         std::vector<double> histogram(layout.length());
         clear_histogram(histogram);
-        local.count(search, layout, histogram);
+        count(points, entries, 0, bins_of(search, layout), layout, histogram);
+        return histogram;
+    };
+    const auto sums = [](const std::vector<double>& histogram) {
         return std::vector<double>(histogram.begin() + layout.num_extents, histogram.end());
     };
-    CutSearch before = search_in(CutSearch::over_fragments);
-    before.quantum = quantum_for(10);
-    EXPECT_EQ(count(before), (std::vector<double>{0, 1, 5, 0, 4, 0, 0, 1, 2, 0, 1, 0}));
+    const CutSearch before = search_in(CutSearch::over_points);
+    std::vector<double> all = counted(before, {0, 1, 2, 3});
+    EXPECT_EQ(sums(all), (std::vector<double>{0, 1, 5, 0, 4, 0, 0, 1, 2, 0, 1, 0}));
+    EXPECT_EQ(all[0], -0.5);
+    EXPECT_EQ(all[max_dimension], 3.5);
+    Box box;
+    box.lower[0] = -2;
+    box.upper[0] = 9;
+    count_settled({5, 2}, box, 0, layout, all);
+    count_settled({0, 0}, box, 5, layout, all);
+    EXPECT_EQ(sums(all), (std::vector<double>{5, 1, 5, 0, 4, 0, 2, 1, 2, 0, 1, 0}));
+    EXPECT_EQ(all[0], 2);
+    EXPECT_EQ(all[max_dimension], 9);
 
     CutSearch after = before;
-    after.stage = CutSearch::over_candidates;
-    after.chosen = 2;
     after.lower = 1;
     after.upper = 2;
-    local.keep_chosen(before, after, layout);
-    EXPECT_EQ(count(after), (std::vector<double>{0, 0, 3, 2, 0, 0, 0, 0, 1, 1, 0, 0}));
-    std::vector<double> records;
-    local.append_candidates(records);
-    EXPECT_EQ(records, (std::vector<double>{1.5, 2, 1.25, 3}));
+    const Entries candidates = between(1, 2, 0, {0, 1, 2, 3}, points);
+    EXPECT_EQ(candidates, (Entries{1, 2}));
+    EXPECT_EQ(sums(counted(after, candidates)),
+              (std::vector<double>{0, 0, 3, 2, 0, 0, 0, 0, 1, 1, 0, 0}));
 }
 
 }  // namespace

@@ -97,26 +97,26 @@ TEST(FittedCosts, counts_what_the_columns_leave_open) {
 
 // Columns of sizes that differ by ten powers of ten, solved again with 64 bits of mantissa.
 TEST(FittedCosts, agrees_with_long_double) {
-    using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    using Vector = Eigen::Matrix<long double, 3, 1>;
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> flat(0.5, 1.5);
     for (int trial = 0; trial < 100; ++trial) {
         NormalEquations sums(3);
-        Long squares = Long::Zero(3, 3);
-        Long products = Long::Zero(3, 1);
+        Eigen::Matrix<long double, 3, 3> squares = decltype(squares)::Zero();
+        Vector products = Vector::Zero();
         for (int row = 0; row < 40; ++row) {
             const CostVector columns =
                 vector_of({1e6 * flat(random), 1e2 * flat(random), 1e-4 * flat(random)});
             const double seconds = columns.dot(vector_of({1e-6, 1e-2, 1e4})) * flat(random);
             add(columns, seconds, sums);
-            const Long exact = columns.cast<long double>();
+            const Vector exact = columns.cast<long double>();
             squares += exact * exact.transpose();
             products += exact * static_cast<long double>(seconds);
         }
         // The same draw to counting, a millionth of each column's square.
         for (int j = 0; j < 3; ++j) squares(j, j) *= 1 + 1e-6L;
         products(0) *= 1 + 1e-6L;
-        const Long exact = squares.fullPivLu().solve(products);
+        const Vector exact = squares.inverse() * products;
         if (exact.minCoeff() <= 0) continue;
         const CostVector costs = fitted_costs(sums);
         for (int j = 0; j < 3; ++j) EXPECT_NEAR(costs[j] / static_cast<double>(exact(j)), 1, 1e-9);

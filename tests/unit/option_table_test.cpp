@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 namespace rrcb {
@@ -74,6 +74,7 @@ TEST(OptionTable, writes_what_it_reads) {
         {"tree.group_size", {"AUTO", "1", "12"}},
         {"tree.larger_below", {"OFF", "ON"}},
         {"tree.dealt", {"0", "2"}},
+        {"min_points", {"0", "10"}},
         {"axes.plain", {"OFF", "ON"}},
         {"axes.min_width", {"NONE", "0.1", "0.1 1e-300 5e-324"}},
         {"axes.grid", {"NONE", "0 0.05", "-1.5 0.25, 1e+300 7, 0 1"}}};
@@ -194,6 +195,7 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"tree.group_size", [](Options& o) { o.tree.group_size = 2; }},
         {"tree.larger_below", [](Options& o) { o.tree.larger_below = true; }},
         {"tree.dealt", [](Options& o) { o.tree.dealt = 1; }},
+        {"min_points", [](Options& o) { o.min_points = 1; }},
         {"axes.plain", [](Options& o) { o.axes.plain = true; }},
         {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) { o.axes.order = AxisOrder::given({1}); }},
@@ -240,8 +242,17 @@ std::string continued(std::string_view text) {
 
 /// Marks the words of the interface, which have capitals only, as code.
 std::string with_code_marks(const std::string& text) {
-    static const std::regex word("[A-Z_=]{4,}|\\b(ON|OFF)\\b");
-    return std::regex_replace(std::regex_replace(text, word, "`$&`"), std::regex("`RRCB`"), "RRCB");
+    const auto is_capital = [](char c) { return (c >= 'A' && c <= 'Z') || c == '_' || c == '='; };
+    std::string marked;
+    for (auto at = text.begin(); at != text.end();) {
+        const auto end = std::find_if_not(at, text.end(), is_capital);
+        const std::string word(at, end);
+        const bool is_code = (word.size() > 3 && word != "RRCB") || word == "ON" || word == "OFF";
+        marked += is_code ? '`' + word + '`' : word;
+        at = std::find_if(end, text.end(), is_capital);
+        marked.append(end, at);
+    }
+    return marked;
 }
 
 std::string values_of(const Option& option, const Choice& choice, const Options& first) {
@@ -260,8 +271,8 @@ template <class Number>
 std::string values_of(const Option& option, const Range<Number>& range, const Options& first) {
     const std::string value = write_option(option, first);
     std::string text = value == "AUTO" ? "`AUTO`" : value;
-    text +=
-        std::regex_replace(legal_values(option), std::regex("^a (whole )?number(,| from)? "), ", ");
+    const std::string legal = legal_values(option);
+    text += ", " + legal.substr(legal.find_first_of("0123456789"));
     if (range.most_in_3d != range.most) {
         std::ostringstream most;
         most << " (" << range.most_in_3d << " in 3-D)";

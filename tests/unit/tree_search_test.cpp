@@ -4,7 +4,6 @@
 #include "../support/clouds.hpp"
 #include "../support/virtual_owners.hpp"
 #include "cuts/cut_limits.hpp"
-#include "passes/binned_points.hpp"
 
 #include <rrcb/plan.hpp>
 
@@ -234,12 +233,10 @@ class Global {
             for (std::size_t a = 0; a < d_; ++a) coordinates.push_back(x(i, a));
             if (!weights_.empty()) weights.push_back(weights_[i]);
         }
-        Points points = interleaved_points(coordinates, case_.dimension, weights);
-        const BinnedPoints binned =
-            bin_by_cell(points, make_support_mesh(bounding_box(points), case_.dimension, 4));
+        const Points points = interleaved_points(coordinates, case_.dimension, weights);
         local_parts_.emplace_back(mine.size(), -1);
-        searches_.push_back(std::make_unique<TreeSearch>(tree, rank, box(), sort_by_cell(binned),
-                                                         local_parts_.back()));
+        searches_.push_back(
+            std::make_unique<TreeSearch>(tree, rank, box(), points, local_parts_.back()));
     }
 
     std::map<std::size_t, Cut> known_by(int rank) const {

@@ -1,7 +1,10 @@
 #include "boundaries/boundaries.hpp"
+#include "particles/vectors.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace mpm {
 
@@ -42,6 +45,41 @@ struct PlaneColumns {
     Column reach = 0;                ///< height above the plane below which they touch it, m
 };
 
+/// Consecutive points that are skipped together if all are far from the plane.
+constexpr std::size_t seen_together = 32;
+
+/// Columns that show whether points are at the plane, or were in the step before.
+template <int D>
+struct SeenPoints {
+    SeenPoints(const Particles& particles, const PlaneColumns<D>& columns)
+        : reach(particles[columns.reach].data()), damping(particles[columns.damping].data()) {
+        for (std::size_t a = 0; a < D; ++a) {
+            position[a] = particles[columns.motion.position[a]].data();
+            force[a] = particles[columns.force[a]].data();
+        }
+    }
+
+    std::array<const double*, D> position, force;
+    const double *reach, *damping;
+};
+
+/// Whether any of some points is at the plane, or has forces of the step before.
+template <int D>
+MPM_VECTOR_CLONES bool touches_any(const SeenPoints<D>& points, const Ground<D>& ground,
+                                   std::size_t begin, std::size_t end) {
+    std::uint64_t any = 0;
+    for (std::size_t p = begin; p < end; ++p) {
+        Components<D> at;
+        any |= std::bit_cast<std::uint64_t>(points.damping[p]);
+        for (std::size_t a = 0; a < D; ++a) {
+            at[a] = points.position[a][p];
+            any |= std::bit_cast<std::uint64_t>(points.force[a][p]);
+        }
+        any |= points.reach[p] > ground.height(at) ? 1 : 0;
+    }
+    return any != 0;
+}
+
 /// A plane that meets points through a layer of springs and dashpots.
 ///
 /// The nodes behind an inclined plane are no plane: they shake a body that slides across them,
@@ -72,23 +110,29 @@ class RubbingPlane {
 
     /// Finds the forces of the next step on a block of points.
     void push(Particles& particles, const PointBlock<D>& block) const {
-        const double* const reach = particles.data(columns_.reach);
-        for (std::size_t p = block.begin; p < block.end; ++p) {
-            const Components<D> at = position_of(particles, p);
-            const double depth = reach[p] - ground_.height(at);
-            double& damping = particles.data(columns_.damping)[p];
-            damping = depth > 0 ? damping_of(particles, p, block.time_step) : 0;
-            const double spring = depth > 0 ? spring_of(particles, p, depth) : 0;
-            damping = std::max(damping, -spring);
-            const double push = spring + damping;
-            const Components<D> held =
-                push > 0 ? friction_on(particles, p, at, push, block.time_step) : Components<D>{};
-            for (std::size_t a = 0; a < D; ++a)
-                particles.data(columns_.force[a])[p] = push * ground_.normal[a] + held[a];
+        const SeenPoints<D> seen(particles, columns_);
+        for (std::size_t begin = block.begin; begin < block.end; begin += seen_together) {
+            const std::size_t end = std::min(begin + seen_together, block.end);
+            if (!touches_any<D>(seen, ground_, begin, end)) continue;
+            for (std::size_t p = begin; p < end; ++p) push_point(particles, p, block.time_step);
         }
     }
 
   private:
+    void push_point(Particles& particles, std::size_t p, double time_step) const {
+        const Components<D> at = position_of(particles, p);
+        const double depth = particles[columns_.reach][p] - ground_.height(at);
+        double& damping = particles.data(columns_.damping)[p];
+        damping = depth > 0 ? damping_of(particles, p, time_step) : 0;
+        const double spring = depth > 0 ? spring_of(particles, p, depth) : 0;
+        damping = std::max(damping, -spring);
+        const double push = spring + damping;
+        const Components<D> held =
+            push > 0 ? friction_on(particles, p, at, push, time_step) : Components<D>{};
+        for (std::size_t a = 0; a < D; ++a)
+            particles.data(columns_.force[a])[p] = push * ground_.normal[a] + held[a];
+    }
+
     Components<D> position_of(const Particles& particles, std::size_t p) const {
         Components<D> at;
         for (std::size_t a = 0; a < D; ++a) at[a] = particles[columns_.motion.position[a]][p];

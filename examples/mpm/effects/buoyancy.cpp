@@ -7,21 +7,13 @@ namespace mpm {
 
 namespace {
 
-double only_density(const Scene& scene) {
-    const double density = density_of(scene.materials.front(), scene.dimension);
-    for (const Material& material : scene.materials)
-        if (density_of(material, scene.dimension) != density)
-            throw std::invalid_argument(
-                "effects / buoyancy: all materials must have the same density");
-    return density;
-}
-
 template <int D>
 void build(const EffectBuilder<D>& builder) {
     if (!builder.stages.gravity)
         throw std::invalid_argument("effects / buoyancy: needs the effect gravity");
     const Gravity<D> gravity = *builder.stages.gravity;
-    const double share = builder.values.number("water_density") / only_density(builder.scene);
+    const double share =
+        builder.values.number("water_density") / only_density(builder.scene, "buoyancy");
     for (double& component : builder.stages.gravity->acceleration) component *= 1 - share;
     builder.stages.forces.push_back({"buoyancy", [=](GridPatch<D>& patch, const StepTime& step) {
                                          Components<D> lift = gravity.acceleration;

@@ -1,7 +1,6 @@
 #include "effects/effect.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 namespace mpm {
@@ -13,35 +12,13 @@ namespace mpm {
 namespace {
 
 const EffectKind& kind_of(const Effect& effect) {
-    const std::string& name = effect.kind.empty() ? effect.name : effect.kind;
     std::vector<std::string> names;
     for (const EffectKind& kind : effect_kinds()) {
-        if (kind.name == name) return kind;
+        if (kind.name == effect.name) return kind;
         names.push_back(kind.name);
     }
-    throw std::invalid_argument("effects: there is no effect '" + name + "'; possible: " +
-                                joined(names) + "; another name needs one of these as its 'kind'");
-}
-
-/// Throws std::invalid_argument where a name would not do in the files that tell columns by it.
-void check_name(const std::string& name) {
-    const auto may_stand = [](unsigned char character) {
-        return std::isalnum(character) != 0 || character == '_' || character == '-';
-    };
-    if (name.empty() || !std::ranges::all_of(name, may_stand))
-        throw std::invalid_argument("effects / " + name +
-                                    ": the name must be of letters, digits, _ and -");
-}
-
-/// Throws std::invalid_argument where an effect may not stand beside one before it.
-void check_beside(const NamedEffect& effect, const std::vector<NamedEffect>& before) {
-    const std::string place = "effects / " + effect.name;
-    for (const NamedEffect& other : before) {
-        if (other.name == effect.name) throw std::invalid_argument(place + " is named twice");
-        if (other.kind == effect.kind && !effect.kind->may_repeat)
-            throw std::invalid_argument(place + " is a second " + effect.kind->name + " beside '" +
-                                        other.name + "', of which a scene has one");
-    }
+    throw std::invalid_argument("effects: there is no effect '" + effect.name +
+                                "'; possible: " + joined(names));
 }
 
 }  // namespace
@@ -59,14 +36,12 @@ std::vector<NamedEffect> effects_of(const Scene& scene) {
     std::vector<NamedEffect> effects;
     for (const Effect& effect : scene.effects) {
         const EffectKind& kind = kind_of(effect);
-        NamedEffect named{
-            &kind, effect.name,
-            Values(effect.parameters, kind.rules, "effects / " + effect.name, scene.dimension)};
-        check_name(effect.name);
-        check_beside(named, effects);
-        effects.push_back(std::move(named));
+        const std::string place = "effects / " + effect.name;
+        if (std::ranges::find(effects, &kind, &NamedEffect::kind) != effects.end())
+            throw std::invalid_argument(place + " is named twice");
+        effects.push_back({&kind, Values(effect.parameters, kind.rules, place, scene.dimension)});
     }
-    std::ranges::stable_sort(effects, {}, &NamedEffect::kind);
+    std::ranges::sort(effects, {}, &NamedEffect::kind);
     return effects;
 }
 

@@ -1,4 +1,5 @@
 #include "effects/effect.hpp"
+#include "materials/material.hpp"
 
 #include <stdexcept>
 
@@ -16,6 +17,7 @@ void build(const EffectBuilder<D>& builder) {
         throw std::invalid_argument(
             "effects / geostatic: stresses of the full weight are there from the start, so gravity "
             "must be, too; leave out its 'ramp'");
+    const double density = only_density(builder.scene, "geostatic");
     const double pull = -builder.stages.gravity->acceleration[vertical];
     const double surface = builder.values.number("surface");
     const double ratio = builder.values.number("lateral_ratio");
@@ -24,7 +26,6 @@ void build(const EffectBuilder<D>& builder) {
     builder.stages.preparations.push_back([=](Particles& particles) {
         for (std::size_t p = 0; p < particles.size(); ++p) {
             const double depth = surface - particles[motion.position[vertical]][p];
-            const double density = particles[motion.mass][p] / particles[motion.volume][p];
             const double pressure = density * pull * std::max(depth, 0.0);
             // The first three columns are those along the axes.
             for (std::size_t a = 0; a < 3; ++a)
@@ -36,7 +37,7 @@ void build(const EffectBuilder<D>& builder) {
 }  // namespace
 
 /// Ground that rests under its weight from the start: vertical stress density * gravity * depth
-/// below a level surface, lateral stress a share of it; exact for one density.
+/// below a level surface, lateral stress a share of it. All materials have one density.
 EffectKind geostatic_effect() {
     return {"geostatic",
             {number("surface", "m", 0.0), not_negative("lateral_ratio", "", 1.0)},

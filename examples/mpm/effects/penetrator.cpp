@@ -251,7 +251,7 @@ Loads<D> read_loads(const EffectBuilder<D>& builder, const Penetrator<D>& body) 
     const Values& values = builder.values;
     const double fluid = values.number("fluid_density") * body.share_in(builder.scene.grid);
     return {.gravity = builder.stages.gravity.value_or(Gravity<D>{}),
-            .heavy_mass = values.number("weight_share") * body.mass - fluid * body.volume(),
+            .heavy_mass = body.mass - fluid * body.volume(),
             .drag_factor = 0.5 * fluid * values.number("drag_coefficient") * body.section()};
 }
 
@@ -287,14 +287,14 @@ void build(const EffectBuilder<D>& builder) {
 /// Friction is at most friction * normal force and, if it is given, adhesion_factor * undrained
 /// strength * area.
 EffectKind penetrator_effect() {
-    return {"penetrator",
-            {vector("tip", "m"), positive("radius", "m"), not_negative("cone_height", "m", 0.0),
-             positive("length", "m"), positive("mass", "kg"), number("velocity", "m/s", 0.0),
-             number("weight_share", "", 1.0), not_negative("fluid_density", "kg/m^3", 0.0),
-             not_negative("drag_coefficient", "", 0.0), not_negative("friction", "", 0.0),
-             optional(not_negative("adhesion_factor", ""))},
-            build<2>,
-            build<3>};
+    return {
+        "penetrator",
+        {vector("tip", "m"), positive("radius", "m"), not_negative("cone_height", "m", 0.0),
+         positive("length", "m"), positive("mass", "kg"), number("velocity", "m/s", 0.0),
+         not_negative("fluid_density", "kg/m^3", 0.0), not_negative("drag_coefficient", "", 0.0),
+         not_negative("friction", "", 0.0), optional(not_negative("adhesion_factor", ""))},
+        build<2>,
+        build<3>};
 }
 
 }  // namespace mpm

@@ -17,12 +17,9 @@ struct NodeField {
     /// Weighted by the shape functions' derivatives along it; -1: by themselves; squared_slopes.
     int axis = -1;
     int component = -1;  ///< of a vector, which the mirror image in a wall turns; -1: a scalar
+    /// Number of a field before it. Nodes where that is not above 0 need no sum. -1: all nodes do.
+    int where = -1;
 };
-
-/// Share of a load that is there at a time, if it grows along a straight line over `ramp` s.
-inline double share_at(double ramp, double time) {
-    return time < ramp ? time / ramp : 1;
-}
 
 /// Acceleration of weight, buoyancy included, at its full strength, m/s^2.
 template <int D>
@@ -30,7 +27,8 @@ struct Gravity {
     Components<D> acceleration{};
     double ramp = 0;  ///< s
 
-    double share_at(double time) const { return mpm::share_at(ramp, time); }
+    /// Share of it that is there at a time: it grows along a straight line over the ramp.
+    double share_at(double time) const { return time < ramp ? time / ramp : 1; }
 };
 
 /// A number for the history from an effect, the same on all ranks.
@@ -56,6 +54,7 @@ struct Stages {
     /// state contains them.
     std::vector<double*> kept;
     std::optional<Gravity<D>> gravity;  ///< for the potential energy
+    VolumeChange volume_change = VolumeChange::own;
 };
 
 }  // namespace mpm

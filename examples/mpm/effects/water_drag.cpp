@@ -73,7 +73,8 @@ void build(const EffectBuilder<D>& builder) {
     stages.fields.push_back({"node_volume", volume});
     stages.fields.push_back({"water_surface", drag.mark});
     for (int axis = 0; axis < D; ++axis)
-        stages.fields.push_back({"surface_area", volume, axis, axis});
+        stages.fields.push_back(
+            {"surface_area", volume, axis, axis, static_cast<int>(drag.mark_field)});
     stages.forces.push_back({"water_drag", force_kernel<D>(drag)});
     stages.gradients.push_back(
         {"water_surface", mark_kernel<D>(drag, std::pow(builder.scene.grid.spacing, D))});

@@ -1,6 +1,7 @@
 #include "grid/grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mpm {
 
@@ -44,32 +45,40 @@ namespace {
 
 /// Moves the nodes, whose masses strain the points as least(node) at least.
 template <int D, typename Least>
-void move_nodes_of(GridPatch<D>& patch, double time_step, Least least) {
+double move_nodes_of(GridPatch<D>& patch, double time_step, double lightest_point, Least least) {
+    double fastest = 0;  // squared
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         const NodeSums<D>& node = patch.sums[n];
         NodeMotion<D>& motion = patch.motion[n];
         motion = {};
         if (!(node.mass > 0)) continue;
+        const double share = std::min(node.mass / lightest_point, 1.0);
+        double square = 0;
         for (std::size_t a = 0; a < D; ++a) {
             const double old_velocity = node.momentum[a] / node.mass;
             const double impulse = time_step * node.force[a];
             motion.velocity_change[a] = impulse / node.mass;
             motion.velocity[a] = old_velocity + motion.velocity_change[a];
             motion.strain_velocity[a] = old_velocity + impulse / std::max(node.mass, least(n));
+            square += motion.velocity[a] * motion.velocity[a];
         }
+        fastest = std::max(fastest, share * share * square);
     }
+    return std::sqrt(fastest);
 }
 
 }  // namespace
 
 template <int D>
-void move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_mass) {
+double move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_mass,
+                  double lightest_point) {
     if (!least_mass.field)
-        return move_nodes_of(patch, time_step,
+        return move_nodes_of(patch, time_step, lightest_point,
                              [least = least_mass.everywhere](std::size_t) { return least; });
-    move_nodes_of(patch, time_step,
-                  [factor = least_mass.factor, field = patch.fields[*least_mass.field].data()](
-                      std::size_t n) { return factor * field[n]; });
+    return move_nodes_of(
+        patch, time_step, lightest_point,
+        [factor = least_mass.factor, field = patch.fields[*least_mass.field].data()](
+            std::size_t n) { return factor * field[n]; });
 }
 
 template NodeRange<2> intersection<2>(const NodeRange<2>&, const NodeRange<2>&);
@@ -78,7 +87,7 @@ template NodeRange<2> nodes_of<2>(const GridShape&, const Box&, int);
 template NodeRange<3> nodes_of<3>(const GridShape&, const Box&, int);
 template void resize<2>(GridPatch<2>&, const NodeRange<2>&);
 template void resize<3>(GridPatch<3>&, const NodeRange<3>&);
-template void move_nodes<2>(GridPatch<2>&, double, const LeastMass&);
-template void move_nodes<3>(GridPatch<3>&, double, const LeastMass&);
+template double move_nodes<2>(GridPatch<2>&, double, const LeastMass&, double);
+template double move_nodes<3>(GridPatch<3>&, double, const LeastMass&, double);
 
 }  // namespace mpm

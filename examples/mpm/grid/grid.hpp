@@ -119,7 +119,11 @@ struct LeastMass {
 /// A node at the rim of a point's reach has next to no mass but a finite force. Its large
 /// acceleration does no harm where the same small shape function weights it. In the velocity
 /// gradient it does: there its mass counts as at least `least_mass`. Momentum stays exact.
+///
+/// Returns the speed of the fastest node, m/s. Nodes lighter than the lightest point count as heavy
+/// as that: no point moves with more of their velocity.
 template <int D>
-void move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_mass);
+double move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_mass,
+                  double lightest_point);
 
 }  // namespace mpm

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 namespace mpm {
 
@@ -19,18 +20,41 @@ MPM_VECTOR_CLONES void return_to(const DruckerPrager& cone, const StressPointers
         store<D>(returned<D>(admissible, load<D>(columns, p)), columns, p);
 }
 
-/// Kernel that bounds the volume of points parted by tension.
+/// Columns that the return reads and changes.
+template <int D>
+struct Columns {
+    explicit Columns(Particles& particles)
+        : stress(add_stress_columns<D>(particles)),
+          mass(particles.add_column("mass")),
+          volume(particles.add_column("volume")) {}
+    StressColumns<D> stress;
+    Column mass, volume;
+    std::optional<Column> plastic_strain = {};  ///< if the scene asks for it
+};
+
+/// Adds the shear strain that the return will take from the stress.
+template <int D>
+void add_plastic_strain(const DruckerPrager& cone, double shear_modulus,
+                        const StressPointers<D>& stresses, double* plastic,
+                        const PointBlock<D>& block) {
+    for (std::size_t p = block.begin; p < block.end; ++p) {
+        const Stress<D> trial = load<D>(stresses, p), after = returned<D>(cone, trial);
+        const auto tau = [](const Stress<D>& stress) {
+            return std::sqrt(second_invariant(deviator(stress, mean(stress))));
+        };
+        plastic[p] += (tau(trial) - tau(after)) / shear_modulus;
+    }
+}
+
+/// Bounds the volume of points parted by tension.
 ///
 /// The force of a point is its stress times its volume. Points that meet again would be too stiff,
 /// had their volume grown without end.
-template <int D>
-PointKernel<D> limit_kernel(double largest_by_mass, Column mass, Column volume) {
-    return [=](Particles& particles, const PointBlock<D>& block) {
-        const double* const masses = particles.data(mass);
-        double* const volumes = particles.data(volume);
-        for (std::size_t p = block.begin; p < block.end; ++p)
-            volumes[p] = std::min(volumes[p], largest_by_mass * masses[p]);
-    };
+void limit_volumes(double largest_by_mass, const double* masses, double* volumes, std::size_t begin,
+                   std::size_t end) {
+#pragma GCC ivdep
+    for (std::size_t p = begin; p < end; ++p)
+        volumes[p] = std::min(volumes[p], largest_by_mass * masses[p]);
 }
 
 template <int D>
@@ -39,17 +63,21 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
     const DruckerPrager cone =
         matched_cone(values.number("cohesion"), values.number("friction_angle"),
                      values.number("tension_cut_off"));
-    model.kernels.push_back({"drucker_prager", [cone, columns = add_stress_columns<D>(particles)](
-                                                   Particles& points, const PointBlock<D>& block) {
-                                 return_to<D>(cone, stress_pointers<D>(points, columns),
-                                              block.begin, block.end);
-                             }});
-    if (values.has("most_expansion")) {
-        const double largest = values.number("most_expansion") / values.number("density");
-        model.kernels.push_back(
-            {"volume_limit", limit_kernel<D>(largest, particles.add_column("mass"),
-                                             particles.add_column("volume"))});
-    }
+    Columns<D> columns(particles);
+    if (values.word("plastic_strain") == "kept")
+        columns.plastic_strain = particles.add_column("plastic_strain");
+    const auto kernel = [cone, columns, shear_modulus = elastic_of(values).shear_modulus(),
+                         largest = values.number("most_expansion") / values.number("density")](
+                            Particles& points, const PointBlock<D>& block) {
+        const StressPointers<D> stresses = stress_pointers<D>(points, columns.stress);
+        if (columns.plastic_strain)
+            add_plastic_strain<D>(cone, shear_modulus, stresses,
+                                  points.data(*columns.plastic_strain), block);
+        return_to<D>(cone, stresses, block.begin, block.end);
+        limit_volumes(largest, points.data(columns.mass), points.data(columns.volume), block.begin,
+                      block.end);
+    };
+    model.kernels.push_back({"drucker_prager", kernel});
     return model;
 }
 
@@ -67,7 +95,8 @@ MaterialKind drucker_prager_material() {
         "drucker_prager",
         elastic_rules({not_negative("cohesion", "Pa"), within("friction_angle", "degrees", 0, 89),
                        not_negative("tension_cut_off", "Pa", 0.0),
-                       optional(within("most_expansion", "", 1, 1e6))}),
+                       within("most_expansion", "", 1, 1e6, 1.5),
+                       choice("plastic_strain", {"none", "kept"})}),
         elastic_wave_speed, build<2>, build<3>};
 }
 

@@ -39,6 +39,15 @@ Values values_of(const Material& material, int dimension) {
     return {material.parameters, find_material_kind(material).rules, place_of(material), dimension};
 }
 
+double only_density(const Scene& scene, const std::string& effect) {
+    const double density = density_of(scene.materials.front(), scene.dimension);
+    for (const Material& material : scene.materials)
+        if (density_of(material, scene.dimension) != density)
+            throw std::invalid_argument("effects / " + effect +
+                                        ": all materials must have the same density");
+    return density;
+}
+
 std::size_t material_of(const Scene& scene, const Body& body) {
     std::vector<std::string> names;
     for (const Material& material : scene.materials) {

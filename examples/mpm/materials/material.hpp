@@ -43,6 +43,10 @@ inline double density_of(const Material& material, int dimension) {
     return values_of(material, dimension).number("density");
 }
 
+/// Density that all materials have. Throws std::invalid_argument that names the effect if they
+/// differ.
+double only_density(const Scene& scene, const std::string& effect);
+
 /// Number of a body's material in the scene. Throws std::invalid_argument where it has no such one.
 std::size_t material_of(const Scene& scene, const Body& body);
 

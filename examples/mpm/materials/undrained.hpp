@@ -77,9 +77,9 @@ template <int D>
 inline Stress<D> returned(double strength, const Stress<D>& trial) {
     const double pressure = mean(trial);
     const Stress<D> shear = deviator(trial, pressure);
-    const double tau = std::sqrt(second_invariant(shear));
-    const double ratio = strength / std::max(tau, std::numeric_limits<double>::min());
-    return composed(pressure, std::min(ratio, 1.0), shear);
+    const double tau =
+        std::max(std::sqrt(second_invariant(shear)), std::numeric_limits<double>::min());
+    return composed(pressure, std::min(strength, tau) / tau, shear);
 }
 
 }  // namespace mpm

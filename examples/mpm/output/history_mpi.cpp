@@ -3,7 +3,10 @@
 #include "parallel/communicator_mpi.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace mpm {
 
@@ -24,10 +27,38 @@ Extremes extremes_of(const Simulation& simulation, double cell_size, double lowe
     return extremes;
 }
 
+/// Position along x behind which a share of the mass lies, to a millionth of the domain, m.
+/// Collective.
+double front_of_mass(const Particles& particles, double share, double lower, double upper,
+                     MPI_Comm comm) {
+    constexpr std::size_t num_bins = 1024;
+    const auto x = particles["x"], mass = particles["mass"];
+    double width = (upper - lower) / num_bins, missing = 0;
+    // The second histogram is that of the bin of the first in which the position lies.
+    for (const bool is_first : {true, false}) {
+        std::array<double, num_bins> bins{};
+        for (std::size_t p = 0; p < x.size(); ++p) {
+            const double k = std::floor((x[p] - lower) / width), most = num_bins - 1;
+            if (is_first || (k >= 0 && k <= most))
+                bins[static_cast<std::size_t>(std::clamp(k, 0.0, most))] += mass[p];
+        }
+        MPI_Allreduce(MPI_IN_PLACE, bins.data(), num_bins, MPI_DOUBLE, MPI_SUM, comm);
+        if (is_first) missing = share * std::accumulate(bins.begin(), bins.end(), 0.0);
+        std::size_t k = 0;
+        for (; k + 1 < num_bins && missing > bins[k]; ++k) missing -= bins[k];
+        lower += width * static_cast<double>(k);
+        width /= num_bins;
+    }
+    return lower;
+}
+
 }  // namespace
 
 History::History(const std::string& path, const Scene& scene, MPI_Comm comm)
-    : cell_size_(scene.grid.spacing), lower_x_(scene.grid.lower[0]), comm_(comm) {
+    : cell_size_(scene.grid.spacing),
+      lower_x_(scene.grid.lower[0]),
+      upper_x_(scene.grid.upper()[0]),
+      comm_(comm) {
     const bool is_writer = rank_of(comm) == 0;
     if (is_writer) file_.open(path);
     fail_together(is_writer && !file_ ? path + ": cannot be written" : "", comm);
@@ -36,8 +67,8 @@ History::History(const std::string& path, const Scene& scene, MPI_Comm comm)
 
 void History::write_head(const std::vector<std::pair<std::string, double>>& reports) {
     file_ << "step,time,dt,points,mass,center_x,center_y,center_z,momentum_x,momentum_y,momentum_z,"
-             "kinetic_energy,strain_energy,potential_energy,front_x,top_y,imbalance,migrated,ghost_"
-             "nodes";
+             "kinetic_energy,strain_energy,potential_energy,front_x,front_99,top_y,imbalance,"
+             "migrated,ghost_nodes,left";
     for (const auto& [name, value] : reports) file_ << ',' << name;
     file_ << '\n';
     has_head_ = true;
@@ -46,6 +77,7 @@ void History::write_head(const std::vector<std::pair<std::string, double>>& repo
 void History::write(const Simulation& simulation) {
     const Totals totals = simulation.totals();
     const Extremes extremes = extremes_of(simulation, cell_size_, lower_x_, comm_);
+    const double front = front_of_mass(simulation.particles(), 0.99, lower_x_, upper_x_, comm_);
     if (!file_.is_open()) return;
     const auto reports = simulation.reports();
     if (!has_head_) write_head(reports);
@@ -54,9 +86,12 @@ void History::write(const Simulation& simulation) {
     for (const double component : totals.center) file_ << ',' << component;
     for (const double component : totals.momentum) file_ << ',' << component;
     file_ << ',' << totals.kinetic_energy << ',' << totals.strain_energy << ','
-          << totals.potential_energy << ',' << extremes.front_x << ',' << extremes.top_y << ','
-          << extremes.num_points * size_of(comm_) / static_cast<double>(totals.num_points) << ','
-          << totals.num_migrated - num_migrated_ << ',' << totals.num_ghost_nodes;
+          << totals.potential_energy << ',' << extremes.front_x << ',' << front << ','
+          << extremes.top_y << ','
+          << extremes.num_points * size_of(comm_) /
+                 std::max(static_cast<double>(totals.num_points), 1.0)
+          << ',' << totals.num_migrated - num_migrated_ << ',' << totals.num_ghost_nodes << ','
+          << simulation.num_points() - totals.num_points;
     for (const auto& [name, value] : reports) file_ << ',' << value;
     file_ << std::endl;
     num_migrated_ = totals.num_migrated;

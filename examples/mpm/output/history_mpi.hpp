@@ -24,7 +24,7 @@ class History {
     void write_head(const std::vector<std::pair<std::string, double>>& reports);
 
     double cell_size_;
-    double lower_x_;
+    double lower_x_, upper_x_;
     MPI_Comm comm_;
     std::ofstream file_;  ///< on rank 0
     bool has_head_ = false;

@@ -13,7 +13,8 @@ namespace {
 constexpr std::array<const char*, 9> columns{
     "x", "y", "z", "stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
 
-using Row = std::array<double, columns.size()>;
+/// The columns, and 1 for a point that is still in the domain.
+using Row = std::array<double, columns.size() + 1>;
 
 }  // namespace
 
@@ -36,15 +37,18 @@ void ProbeTable::write(const Simulation& simulation) {
     std::vector<Row> local(points_.size(), Row{}), rows = local;
     const auto ids = particles["id"];
     for (std::size_t p = 0; p < ids.size(); ++p)
-        for (std::size_t k = 0; k < points_.size(); ++k)
-            for (std::size_t c = 0;
-                 ids[p] == static_cast<double>(points_[k].number) && c < columns.size(); ++c)
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            if (ids[p] != static_cast<double>(points_[k].number)) continue;
+            for (std::size_t c = 0; c < columns.size(); ++c)
                 if (particles.has_column(columns[c])) local[k][c] = particles[columns[c]][p];
+            local[k].back() = 1;
+        }
     // A point has one owner, so a sum is exact.
-    MPI_Reduce(local.data(), rows.data(), static_cast<int>(local.size() * columns.size()),
+    MPI_Reduce(local.data(), rows.data(), static_cast<int>(local.size() * std::tuple_size_v<Row>),
                MPI_DOUBLE, MPI_SUM, 0, comm_);
     if (!file_.is_open()) return;
     for (std::size_t k = 0; k < points_.size(); ++k) {
+        if (rows[k].back() == 0) continue;
         file_ << simulation.step_count() << ',' << simulation.time() << ',' << names_[k];
         for (std::size_t a = 0; a < 3; ++a) file_ << ',' << rows[k][a];
         for (std::size_t a = 0; a < 3; ++a) file_ << ',' << rows[k][a] - points_[k].place[a];

@@ -12,7 +12,8 @@
 namespace mpm {
 
 /// Position, displacement and stress of a scene's probes as a table, a row for each probe and call.
-/// A probe follows a point by its number, which costs the points nothing.
+/// A probe follows a point by its number, which costs the points nothing. It ends when its point
+/// leaves the domain.
 class ProbeTable {
   public:
     /// Rank 0 opens the file. Collective; throws std::runtime_error on all ranks when it cannot.

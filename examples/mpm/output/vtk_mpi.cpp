@@ -95,6 +95,15 @@ std::vector<double> displacement_rows(const Simulation& simulation) {
     return rows;
 }
 
+/// Pressure, Pa.
+std::vector<double> pressures(const Particles& particles) {
+    const auto xx = particles["stress_xx"], yy = particles["stress_yy"],
+               zz = particles["stress_zz"];
+    std::vector<double> pressure(particles.size());
+    for (std::size_t p = 0; p < pressure.size(); ++p) pressure[p] = -(xx[p] + yy[p] + zz[p]) / 3;
+    return pressure;
+}
+
 bool write_points(const std::string& path, const Simulation& simulation, int rank) {
     const Particles& particles = simulation.particles();
     std::ofstream file(path, std::ios::binary);
@@ -107,6 +116,7 @@ bool write_points(const std::string& path, const Simulation& simulation, int ran
          << "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n";
     for (const std::string& name : scalars_of(particles))
         write_array<double>(file, "Float64", name, 1, particles[name]);
+    write_array<double>(file, "Float64", "pressure", 1, pressures(particles));
     write_array<double>(file, "Float64", "velocity", 3, triples(particles, "velocity_"));
     write_array<double>(file, "Float64", "displacement", 3, displacement_rows(simulation));
     write_array<std::int32_t>(file, "Int32", "part", 1, std::vector<std::int32_t>(count, rank));

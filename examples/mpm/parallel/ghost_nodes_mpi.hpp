@@ -22,6 +22,7 @@ class GhostNodes {
     void sum(GridPatch<D>& patch);
 
     /// Nodes that this rank shares with any other.
+    const std::vector<std::size_t>& shared() const { return shared_; }
     std::size_t num_shared() const { return shared_.size(); }
 
     /// Ranks that share a node with this one, ascending.

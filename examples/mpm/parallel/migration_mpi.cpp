@@ -22,6 +22,7 @@ std::vector<Message> pack(const Particles& particles, const Leavers& leavers,
     std::vector<Message> messages;
     for (const int receiver : receivers) messages.push_back({receiver, {}});
     for (std::size_t k = 0; k < leavers.points.size(); ++k) {
+        if (leavers.owners[k] == nobody) continue;
         const auto message =
             std::ranges::lower_bound(messages, leavers.owners[k], {}, &Message::rank);
         const std::size_t at = message->rows.size();
@@ -45,7 +46,8 @@ struct Partners {
 
 Partners find_partners(const Leavers& leavers, MPI_Comm comm) {
     std::vector<int> outgoing(static_cast<std::size_t>(size_of(comm))), incoming(outgoing.size());
-    for (const int owner : leavers.owners) outgoing[static_cast<std::size_t>(owner)] = 1;
+    for (const int owner : leavers.owners)
+        if (owner != nobody) outgoing[static_cast<std::size_t>(owner)] = 1;
     MPI_Alltoall(outgoing.data(), 1, MPI_INT, incoming.data(), 1, MPI_INT, comm);
     return {ranks_with(outgoing), ranks_with(incoming)};
 }
@@ -67,7 +69,10 @@ std::vector<double> receive(int sender, MPI_Comm comm) {
 // steps exchange are sums at nodes, which rrcb::ghosts, of points, has none of.
 std::size_t migrate(Particles& particles, const Leavers& leavers, Reach reach,
                     std::span<const int> neighbours, MPI_Comm comm) {
-    if (reach == Reach::nowhere) return 0;
+    if (reach == Reach::nowhere) {
+        particles.remove(leavers.points);
+        return 0;
+    }
     Partners partners{{neighbours.begin(), neighbours.end()}, {}};
     partners.senders = partners.receivers;
     if (reach == Reach::anywhere) partners = find_partners(leavers, comm);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -13,24 +14,31 @@ namespace mpm {
 
 namespace {
 
-/// Text about a point that has left the grid.
+/// Text about a point whose position is not finite.
 std::string text_of(double id, Positions positions, std::size_t p, double now) {
     std::ostringstream text;
     text << "point " << std::setprecision(15) << id << std::setprecision(6)
-         << " has left the grid at x = " << positions.x[p] << " m, y = " << positions.y[p] << " m";
+         << " has no finite position: x = " << positions.x[p] << " m, y = " << positions.y[p]
+         << " m";
     if (!positions.z.empty()) text << ", z = " << positions.z[p] << " m";
-    text << ", time = " << now
-         << " s: make the grid larger, give it walls, or lower the Courant number";
+    text << ", time = " << now << " s: lower the Courant number";
     return text.str();
+}
+
+bool is_open(const Wall& wall) {
+    return wall.kind == Wall::open;
 }
 
 }  // namespace
 
-Ownership::Ownership(const GridShape& grid, MPI_Comm comm)
+Ownership::Ownership(const GridShape& grid, const Walls& walls, MPI_Comm comm)
     : comm_(comm),
       rank_(rank_of(comm)),
       num_ranks_(static_cast<std::size_t>(size_of(comm))),
-      grid_{grid.lower, grid.upper()} {}
+      grid_{grid.lower, grid.upper()},
+      is_open_{{{is_open(walls.left), is_open(walls.right)},
+                {is_open(walls.bottom), is_open(walls.top)},
+                {is_open(walls.back), is_open(walls.front)}}} {}
 
 /// Whether a point lies in the box along all axes.
 template <int D>
@@ -59,47 +67,69 @@ bool are_inside(const Box& box, const std::array<const double*, 3>& at, std::siz
     return inside[0] && inside[1] && (p == end || is_inside<D>(box, at, p));
 }
 
+/// Whether a point beyond the grid stays in it, turned back by a wall.
 template <int D>
-void Ownership::find_outside(const Box& box, Positions positions, std::span<const double> ids,
+bool Ownership::stays(Particles& particles, const MotionColumns& motion, std::size_t p) const {
+    bool stays = true;
+    for (std::size_t a = 0; a < D; ++a) {
+        double& at = particles.data(motion.position[a])[p];
+        const std::array side{grid_.lower[a], grid_.upper[a]};
+        const std::size_t end = at > side[1] ? 1 : 0;
+        if (at >= side[0] && at <= side[1]) continue;
+        stays = stays && !is_open_[a][end];
+        particles.data(motion.velocity[a])[p] *= -1;
+        at = std::clamp(2 * side[end] - at, side[0], side[1]);
+    }
+    return stays;
+}
+
+template <int D>
+void Ownership::find_outside(const Box& box, Particles& particles, const MotionColumns& motion,
                              double now) {
     constexpr std::size_t block = 256;
-    const std::array<const double*, 3> at{positions.x.data(), positions.y.data(),
-                                          positions.z.data()};
+    std::array<const double*, 3> at{};
     Box inner = box;
     for (std::size_t a = 0; a < D; ++a) {
+        at[a] = particles[motion.position[a]].data();
         inner.lower[a] = std::max(box.lower[a], grid_.lower[a]);
         inner.upper[a] = std::min(box.upper[a], grid_.upper[a]);
     }
-    for (std::size_t begin = 0; begin < positions.size(); begin += block) {
-        const std::size_t end = std::min(begin + block, positions.size());
+    for (std::size_t begin = 0; begin < particles.size(); begin += block) {
+        const std::size_t end = std::min(begin + block, particles.size());
         if (are_inside<D>(inner, at, begin, end)) continue;
         for (std::size_t p = begin; p < end; ++p) {
-            if (!is_inside<D>(grid_, at, p)) {
-                lost_ = text_of(ids[p], positions, p, now);
-                return report(Fault::left_grid);
-            }
-            if (is_inside<D>(box, at, p)) continue;
+            for (std::size_t a = 0; a < D; ++a)
+                if (!std::isfinite(at[a][p])) {
+                    lost_ = text_of(particles[motion.id][p], positions_of(particles, motion, D), p,
+                                    now);
+                    return report(Fault::not_finite);
+                }
+            const bool is_lost = !is_inside<D>(grid_, at, p) && !stays<D>(particles, motion, p);
+            if (!is_lost && is_inside<D>(box, at, p)) continue;
             leavers_.points.push_back(p);
-            for (std::size_t a = 0; a < D; ++a) at_[a].push_back(at[a][p]);
+            leavers_.owners.push_back(is_lost ? nobody : rank_);
+            for (std::size_t a = 0; a < D && !is_lost; ++a) at_[a].push_back(at[a][p]);
         }
     }
 }
 
-void Ownership::find_leavers(const Decomposition& decomposition, Positions positions,
-                             std::span<const double> ids, double now,
+template <int D>
+void Ownership::find_leavers(const Decomposition& decomposition, Particles& particles,
+                             const MotionColumns& motion, double now,
                              std::span<const int> neighbours) {
     leavers_.points.clear();
+    leavers_.owners.clear();
     for (std::vector<double>& column : at_) column.clear();
     const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_)];
-    if (positions.z.empty())
-        find_outside<2>(box, positions, ids, now);
-    else
-        find_outside<3>(box, positions, ids, now);
-    leavers_.owners.clear();
-    if (leavers_.points.empty() || !ask_owners(decomposition, {at_[0], at_[1], at_[2]})) return;
-    for (std::size_t k = 0; k < owners_.size(); ++k)
-        check_owner(decomposition, owners_[k], {at_[0], at_[1], at_[2]}, k);
-    leavers_.owners.assign(owners_.begin(), owners_.end());
+    find_outside<D>(box, particles, motion, now);
+    const Positions at{at_[0], at_[1], at_[2]};
+    if (at.x.empty() || !ask_owners(decomposition, at)) return;
+    std::size_t k = 0;
+    for (int& owner : leavers_.owners) {
+        if (owner == nobody) continue;
+        check_owner(decomposition, owners_[k], at, k);
+        owner = owners_[k++];
+    }
     measure_reach(neighbours);
 }
 
@@ -152,6 +182,7 @@ void Ownership::check_owner(const Decomposition& decomposition, int owner, Posit
 
 void Ownership::measure_reach(std::span<const int> neighbours) {
     for (const int owner : leavers_.owners) {
+        if (owner == nobody) continue;
         const bool near = std::ranges::binary_search(neighbours, owner);
         reach_ = std::max(reach_, near ? Reach::neighbours : Reach::anywhere);
     }
@@ -187,10 +218,15 @@ void Ownership::throw_fault(Fault fault, bool is_mine) {
     if (fault == Fault::misplaced)
         throw std::runtime_error(
             "the decomposition gave a point to a rank whose box does not hold it");
-    if (fault == Fault::left_grid) fail_together(is_mine ? lost_ : "", comm_);
+    if (fault == Fault::not_finite) fail_together(is_mine ? lost_ : "", comm_);
     throw std::runtime_error(
         "the decomposition named no owner of some point: it must give one box per rank and a "
         "rank for every position in the grid");
 }
+
+template void Ownership::find_leavers<2>(const Decomposition&, Particles&, const MotionColumns&,
+                                         double, std::span<const int>);
+template void Ownership::find_leavers<3>(const Decomposition&, Particles&, const MotionColumns&,
+                                         double, std::span<const int>);
 
 }  // namespace mpm

@@ -22,12 +22,16 @@ struct Agreement {
 /// Finds the points that belong to other ranks, and makes all ranks agree on what follows.
 class Ownership {
   public:
-    Ownership(const GridShape& grid, MPI_Comm comm);
+    /// Points beyond the grid leave it through the open walls; others return them.
+    Ownership(const GridShape& grid, const Walls& walls, MPI_Comm comm);
 
-    /// Finds the points that have left this rank's box. `now` and the numbers of the points are for
-    /// the message about one that has left the grid. Not collective.
-    void find_leavers(const Decomposition& decomposition, Positions positions,
-                      std::span<const double> ids, double now, std::span<const int> neighbours);
+    /// Finds the points that have left this rank's box. Not collective.
+    ///
+    /// A point that a step has carried beyond a closed side is put back where a mirror would have
+    /// sent it. `now` is for the message about one whose position is not finite.
+    template <int D>
+    void find_leavers(const Decomposition& decomposition, Particles& particles,
+                      const MotionColumns& motion, double now, std::span<const int> neighbours);
 
     /// Finds the points that a new decomposition gives to other ranks. Not collective.
     ///
@@ -44,12 +48,15 @@ class Ownership {
 
   private:
     /// Faults of a rank, in ascending order of gravity.
-    enum class Fault { none, misplaced, no_owner, left_grid };
+    enum class Fault { none, misplaced, no_owner, not_finite };
 
     [[noreturn]] void throw_fault(Fault fault, bool is_mine);
     void report(Fault fault);
     template <int D>
-    void find_outside(const Box& box, Positions positions, std::span<const double> ids, double now);
+    void find_outside(const Box& box, Particles& particles, const MotionColumns& motion,
+                      double now);
+    template <int D>
+    bool stays(Particles& particles, const MotionColumns& motion, std::size_t p) const;
     bool ask_owners(const Decomposition& decomposition, Positions positions);
     void check_owner(const Decomposition& decomposition, int owner, Positions positions,
                      std::size_t point);
@@ -62,12 +69,13 @@ class Ownership {
     int rank_;
     std::size_t num_ranks_;
     Box grid_;
+    std::array<std::array<bool, 2>, 3> is_open_;  ///< by axis: the lower and the upper side
     Leavers leavers_;
     std::array<std::vector<double>, 3> at_;  ///< positions of the leavers
     std::vector<int> owners_;
     Reach reach_ = Reach::nowhere;
     Fault fault_ = Fault::none;
-    std::string lost_;  ///< text about a point that has left the grid
+    std::string lost_;  ///< text about a point whose position is not finite
 };
 
 }  // namespace mpm

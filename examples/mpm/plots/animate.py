@@ -30,8 +30,8 @@ def draw_fall(axes: Axes, folder: Path, now: float) -> None:
     time, tip = read_fall(folder)
     axes.plot(time, tip, color="#999999")
     axes.plot(now, np.interp(now, time, tip), "o", color=STEEL)
-    axes.set_xlabel("time, s", fontsize=8)
-    axes.set_ylabel("tip, m", fontsize=8)
+    axes.set_xlabel("time [s]", fontsize=8)
+    axes.set_ylabel("tip [m]", fontsize=8)
     axes.tick_params(labelsize=7)
     axes.grid(lw=0.3)
 
@@ -49,7 +49,7 @@ def draw_imbalance(axes: Axes, painters: list[Painter], frames: list[Frame], now
         time, imbalance = read_imbalance(painter.folder)
         line = axes.plot(time[1:], imbalance[1:], lw=1, label=name)[0]
         axes.plot(now, np.interp(now, time[1:], imbalance[1:]), "o", ms=4, color=line.get_color())
-    axes.set_xlabel("time, s", fontsize=8)
+    axes.set_xlabel("time [s]", fontsize=8)
     axes.set_ylabel("most / mean\npoints of ranks", fontsize=8)
     axes.set_ylim(bottom=0.9)
     axes.tick_params(labelsize=7)

@@ -24,6 +24,7 @@ from views import VIEWS, Moment, View  # noqa: E402
 from vtk_files import arrays_in, frames_of, points_of  # noqa: E402
 
 POINTS_PER_INCH = 72
+SMALLEST_MARKER = 1.5  # printer's points
 MARGIN = 0.015  # of the larger side
 BOX = {"color": "black", "lw": 0.6}
 START = {"color": "black", "lw": 0.8, "ls": "--"}
@@ -48,7 +49,7 @@ def with_image(left: float, low: float, right: float, high: float) -> list[tuple
 def read_frame(time: float, point_files: list[Path], box_files: list[Path], view: View) -> Frame:
     points = points_of(point_files)
     position, displacement = points["position"], points["displacement"]
-    value = points[view.column] if view.column else np.linalg.norm(displacement, axis=1)
+    value = view.value(points)
     start_z = position[:, 2] - displacement[:, 2]
     layer = start_z <= start_z.min() + 1e-9
     volume = np.median(points["volume"])
@@ -107,7 +108,8 @@ class Painter:
         axes.set_xlim(self.low[0], self.high[0])
         axes.set_ylim(self.low[1], self.high[1])
         key = self.view.backdrop(axes, Moment(self.scene, self.folder, frame.time))
-        side = self.view.marker * POINTS_PER_INCH * inches_per_metre * frame.spacing
+        side = self.view.marker * POINTS_PER_INCH * inches_per_metre * self.first.spacing
+        side = max(side, SMALLEST_MARKER)
         self.shown = axes.scatter(
             *frame.position.T,
             c=frame.value,
@@ -126,8 +128,8 @@ class Painter:
             key.append(Line2D([], [], **START, label="surface at the start"))
         axes.set_title(f"{frame.time:.3g} s", fontsize=9)
         axes.tick_params(labelsize=7)
-        axes.set_xlabel("x, m", fontsize=8)
-        axes.set_ylabel("y, m", fontsize=8)
+        axes.set_xlabel("x [m]", fontsize=8)
+        axes.set_ylabel("y [m]", fontsize=8)
         return key
 
     def finish(self, figure: plt.Figure, panels, key: list[Patch | Line2D]) -> None:

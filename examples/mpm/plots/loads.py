@@ -43,7 +43,7 @@ def main(history, picture=None):
         axis.plot(steps, mean, "k--", linewidth=1, label="mean")
         axis.set_title(f"--cost={cost}: slowest ranks {imbalance(loads):.2f} times the mean")
         axis.set_xlabel("step")
-    axes[0].set_ylabel("time of a step, µs")
+    axes[0].set_ylabel("time of a step [µs]")
     axes[0].set_ylim(bottom=0)
     axes[0].legend(fontsize=8)
     if picture:

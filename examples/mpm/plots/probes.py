@@ -18,10 +18,10 @@ import numpy as np  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
 
 PANELS: list[tuple[str, Callable]] = [
-    ("way, m", lambda probe: np.hypot(probe["displacement_x"], probe["displacement_y"])),
-    ("vertical stress, kPa\n(tension positive)", lambda probe: probe["stress_yy"] / 1e3),
+    ("way [m]", lambda probe: np.hypot(probe["displacement_x"], probe["displacement_y"])),
+    ("vertical stress [kPa]\n(tension positive)", lambda probe: probe["stress_yy"] / 1e3),
     (
-        "mean stress, kPa\n(tension positive)",
+        "mean stress [kPa]\n(tension positive)",
         lambda probe: sum(probe[f"stress_{axis}"] for axis in ("xx", "yy", "zz")) / 3e3,
     ),
 ]
@@ -50,7 +50,7 @@ def draw(folder: Path, picture: Path) -> None:
         axes.set_ylabel(label)
         axes.grid(lw=0.3)
     panels[0].legend(fontsize=8, ncols=len(probes))
-    panels[-1].set_xlabel("time, s")
+    panels[-1].set_xlabel("time [s]")
     panels[-1].set_xlim(left=0)
     figure.savefig(picture, dpi=150, metadata={"Software": None})
 

@@ -52,7 +52,7 @@ def hydrostatic_column(axes: Axes, folder: Path, scene: str) -> None:
     compare(axes, depth, points["stress_yy"] / 1e3, -weight * depth, "vertical")
     axes.plot(depth, points["stress_xx"] / 1e3, ".", ms=3, color="C1", label="horizontal")
     axes.axhline(0, lw=1, color="C1", label="horizontal, theory")
-    axes.set(xlabel="depth, m", ylabel="stress, kPa (tension positive)")
+    axes.set(xlabel="depth [m]", ylabel="stress [kPa], tension positive")
 
 
 def axial_bar(axes: Axes, folder: Path, scene: str) -> None:
@@ -68,17 +68,7 @@ def axial_bar(axes: Axes, folder: Path, scene: str) -> None:
         phase = np.sin(wave_number * wave_speed * time)
         theory = modulus * speed / wave_speed * np.cos(wave_number * start) * phase
         compare(axes, start, points["stress_xx"], theory, f"{time:.3g} s")
-    axes.set(xlabel="x at the start, m", ylabel="stress, Pa (tension positive)")
-
-
-def falling_body(axes: Axes, folder: Path, scene: str) -> None:
-    density, water = number_in(scene, "density"), number_in(scene, "water_density")
-    terminal = np.sqrt(2 * (density - water) * G / (water * number_in(scene, "drag_coefficient")))
-    tau = density * terminal / ((density - water) * G)
-    history = history_of(folder)
-    time, y = history["time"], history["center_y"]
-    compare(axes, time, y, y[0] - terminal * tau * np.log(np.cosh(time / tau)), "centre")
-    axes.set(xlabel="time, s", ylabel="height, m")
+    axes.set(xlabel="x at the start [m]", ylabel="stress [Pa], tension positive")
 
 
 def incline_block(axes: Axes, folder: Path, scene: str) -> None:
@@ -94,12 +84,12 @@ def incline_block(axes: Axes, folder: Path, scene: str) -> None:
         time < ramp, time**3 / (6 * ramp), late**2 / 2 - ramp * late / 2 + ramp**2 / 6
     )
     compare(axes, time, way, theory, "way along the plane")
-    axes.set(xlabel="time, s", ylabel="way, m")
+    axes.set(xlabel="time [s]", ylabel="way [m]")
 
 
 DRAWINGS = {
     drawing.__name__: drawing
-    for drawing in (hydrostatic_column, axial_bar, falling_body, incline_block)
+    for drawing in (hydrostatic_column, axial_bar, incline_block)
 }
 
 

@@ -26,16 +26,36 @@ class Moment:
     time: float
 
 
+Points = dict[str, np.ndarray]  # columns
+
+
+def moved(points: Points) -> np.ndarray:
+    return np.linalg.norm(points["displacement"], axis=1)
+
+
+def speed(points: Points) -> np.ndarray:
+    return np.linalg.norm(points["velocity"], axis=1)
+
+
+def kilopascals(points: Points) -> np.ndarray:
+    """Pressure."""
+    return -sum(points[f"stress_{axis}"] for axis in ("xx", "yy", "zz")) / 3e3
+
+
+def plastic_strain(points: Points) -> np.ndarray:
+    return points["plastic_strain"]
+
+
 @dataclass(frozen=True)
 class View:
-    label: str = "moved, m"
-    column: str | None = None  # of the points; none: how far they have moved
+    label: str = "moved [m]"
+    value: Callable[[Points], np.ndarray] = moved  # that colours the points
     most: float | None = None  # end of the colours; none: the largest value
     colours: str = "viridis"
     is_mirrored: bool = False  # a quarter or a half, shown with its image
     shows_start: bool = False  # the surface at the start, as a line
     space: float = 0  # above the points, m
-    marker: float = 1.3  # side of a point's square, by the spacing at the start
+    marker: float = 1.6  # side of a point's square, by the spacing at the start
     backdrop: Callable[[Axes, Moment], list[Patch | Line2D]] = lambda axes, moment: []
 
 
@@ -96,7 +116,7 @@ def clamped_feet(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
     return [Patch(facecolor=ROCK, label="clamp")]
 
 
-STRAIN = {"label": "plastic shear strain", "column": "plastic_strain", "colours": "YlOrBr"}
+STRAIN = {"label": "plastic shear strain [-]", "value": plastic_strain, "colours": "YlOrBr"}
 
 VIEWS = {
     "slope": View(**STRAIN, most=2, shows_start=True),
@@ -107,7 +127,9 @@ VIEWS = {
         **STRAIN, most=2, is_mirrored=True, space=6.2, backdrop=anchor_in_water
     ),
     "elastic_structure": View(backdrop=clamped_feet),
-    "anchor_plate": View(space=4.2, backdrop=anchor),
-    # Shear draws the rows of points apart: squares of 2.2 spacings fill a layer as dense as at first.
-    "granular_column": View(marker=2.2),
+    "two_disks": View(label="speed [m/s]", value=speed),
+    # Shear draws the rows of points apart: larger squares fill a layer as dense as at first.
+    "dam_break": View(label="pressure [kPa]", value=kilopascals, most=20, marker=6),
+    "granular_column": View(**STRAIN, most=3, marker=3.2),
+    "vertical_cut": View(**STRAIN, most=1, marker=2),
 }

@@ -149,26 +149,31 @@ class Schedule {
     std::optional<rrcb::CostModel> model_;
 };
 
-/// Shows the share that is done and the time that is left, about once a second.
+/// Shows the share that is done and the time that is left: about once a second on a terminal, else
+/// in a line for each tenth.
 class Progress {
   public:
     Progress(double start_time, double end_time) : from_(start_time), to_(end_time) {}
 
     void show(const mpm::Simulation& simulation, bool is_last) {
         const double now = MPI_Wtime();
-        if (!isatty(STDERR_FILENO) || (now - shown_ < 1 && !is_last)) return;
-        shown_ = now;
         const double share =
             to_ > from_ ? std::min((simulation.time() - from_) / (to_ - from_), 1.0) : 1;
-        std::fprintf(stderr, "\r%5.1f %% of %.4g s, step %lld", 100 * share, to_,
-                     static_cast<long long>(simulation.step_count()));
-        if (share > 0)
-            std::fprintf(stderr, ", %.0f s left   ", (now - begin_) * (1 - share) / share);
-        if (is_last) std::fprintf(stderr, "\n");
+        const bool is_due = is_terminal_ ? now - shown_ >= 1 : share >= 0.1 * (num_tenths_ + 1);
+        if (!is_due && !(is_last && is_terminal_)) return;
+        shown_ = now;
+        num_tenths_ = static_cast<int>(10 * share + 1e-9);
+        const double left = share > 0 ? (now - begin_) * (1 - share) / share : 0;
+        std::fprintf(stderr, "%s%5.1f %% of %.4g s, step %lld, %.0f s left%s",
+                     is_terminal_ ? "\r" : "", 100 * share, to_,
+                     static_cast<long long>(simulation.step_count()), left,
+                     is_last || !is_terminal_ ? "\n" : "   ");
     }
 
   private:
     double from_, to_;
+    bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+    int num_tenths_ = 0;  ///< that are shown
     double begin_ = MPI_Wtime(), shown_ = begin_ - 1;
 };
 

@@ -39,6 +39,8 @@ Vector StartPlaces::place(const Lattice& lattice, const std::array<std::int64_t,
 }
 
 void StartPlaces::visit(const Body& body, const Lattice& lattice, const PointVisit& visit) const {
+    constexpr double most_places = 1e10;
+    double num_places = 1;
     std::array<std::int64_t, 3> first{}, end = lattice.count;
     // Only the part of the lattice that the bounds of the body touch.
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension_); ++a) {
@@ -49,7 +51,12 @@ void StartPlaces::visit(const Body& body, const Lattice& lattice, const PointVis
         };
         first[a] = node(body.bounds.lower[a], -2);
         end[a] = node(body.bounds.upper[a], 2);
+        num_places *= static_cast<double>(end[a] - first[a]);
     }
+    if (num_places > most_places)
+        throw std::invalid_argument("bodies / " + body.name +
+                                    ": has more than 1e10 places for points; take larger cells or "
+                                    "fewer points_per_cell");
     std::array<std::int64_t, 3> at;
     for (at[2] = first[2]; at[2] < end[2]; ++at[2])
         for (at[1] = first[1]; at[1] < end[1]; ++at[1])

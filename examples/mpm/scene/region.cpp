@@ -73,6 +73,23 @@ Region polygon_region(std::vector<Vector> corners) {
     };
 }
 
+bool crosses_itself(const std::vector<Vector>& corners) {
+    const auto side = [](const Vector& a, const Vector& b, const Vector& at) {
+        return (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0]);
+    };
+    const auto are_apart = [&](const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+        return (side(a, b, c) < 0 && side(a, b, d) > 0) || (side(a, b, c) > 0 && side(a, b, d) < 0);
+    };
+    const std::size_t count = corners.size();
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 2; j < count; ++j) {
+            const Vector &a = corners[i], &b = corners[i + 1];
+            const Vector &c = corners[j], &d = corners[(j + 1) % count];
+            if (are_apart(a, b, c, d) && are_apart(c, d, a, b)) return true;
+        }
+    return false;
+}
+
 Region both_of(Region a, Region b) {
     return [a = std::move(a), b = std::move(b)](const Vector& at) { return a(at) || b(at); };
 }

@@ -3,6 +3,8 @@
 
 #include <mpm/scene.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
@@ -52,7 +54,37 @@ void check_plane(const Scene& scene, const Plane& plane) {
     check_friction(plane.friction, place);
 }
 
+/// All effects of water must be in the same.
+void check_water(const std::vector<NamedEffect>& effects) {
+    double density = 0;
+    for (const NamedEffect& effect : effects)
+        for (const char* key : {"water_density", "fluid_density"}) {
+            const double own = effect.values.has(key) ? effect.values.number(key) : 0;
+            require(own == 0 || density == 0 || own == density,
+                    "effects / " + effect.kind->name + ": '" + key +
+                        "' must be the density of water of the other effects");
+            density = std::max(density, own);
+        }
+}
+
+/// A probe's name stands in a table.
+void check_probe(const Probe& probe) {
+    const auto may_stand = [](unsigned char character) {
+        return std::iscntrl(character) == 0 && character != ',' && character != '"';
+    };
+    const std::string place = "probe '" + probe.name + "'";
+    require(std::ranges::all_of(probe.name, may_stand),
+            place + " must have a name of one line without commas and quotes");
+    for (const double coordinate : probe.position)
+        require(std::isfinite(coordinate), place + " must have a finite position");
+}
+
 }  // namespace
+
+const Effect* find_effect(const Scene& scene, const std::string& name) {
+    const auto found = std::ranges::find(scene.effects, name, &Effect::name);
+    return found == scene.effects.end() ? nullptr : &*found;
+}
 
 void validate(const Scene& scene) {
     check_grid(scene);
@@ -64,15 +96,10 @@ void validate(const Scene& scene) {
          {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
         check_friction(wall->friction, "a wall");
     for (const Plane& plane : scene.planes) check_plane(scene, plane);
-    for (const Probe& probe : scene.probes)
-        for (const double coordinate : probe.position)
-            require(std::isfinite(coordinate),
-                    "probe '" + probe.name + "' must have a finite position");
+    for (const Probe& probe : scene.probes) check_probe(probe);
     require(scene.courant_number > 0 && scene.courant_number <= 1,
             "the Courant number must lie in 0 ... 1");
-    require(scene.least_node_mass >= 0 && scene.least_node_mass < 1,
-            "the least mass of a node must lie in 0 ... 1");
-    effects_of(scene);
+    check_water(effects_of(scene));
 }
 
 }  // namespace mpm

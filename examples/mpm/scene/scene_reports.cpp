@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <numbers>
 #include <sstream>
 
 namespace mpm {
@@ -18,17 +19,9 @@ std::string written(double number) {
     return text.str();
 }
 
-/// An effect of this kind; null if the scene names none.
-const Effect* effect_of(const Scene& scene, const std::string& kind) {
-    const auto found = std::ranges::find_if(scene.effects, [&](const Effect& effect) {
-        return (effect.kind.empty() ? effect.name : effect.kind) == kind;
-    });
-    return found == scene.effects.end() ? nullptr : &*found;
-}
-
 /// Stress that the scene's own weight can cause, Pa; 0 without gravity.
 double weight_stress(const Scene& scene, double density) {
-    const Effect* gravity = effect_of(scene, "gravity");
+    const Effect* gravity = find_effect(scene, "gravity");
     if (gravity == nullptr) return 0;
     double most = 0;
     for (const double along : std::get<std::vector<double>>(gravity->parameters.at("acceleration")))
@@ -37,6 +30,22 @@ double weight_stress(const Scene& scene, double density) {
 }
 
 using Warnings = std::vector<std::string>;
+
+/// The cone is inside Mohr-Coulomb's pyramid where both lateral stresses are equal.
+void check_rest(const Scene& scene, const Values& soil, const std::string& place, double weight,
+                Warnings& warnings) {
+    const Effect* geostatic = find_effect(scene, "geostatic");
+    if (geostatic == nullptr) return;
+    const auto given = geostatic->parameters.find("lateral_ratio");
+    const double ratio = given == geostatic->parameters.end() ? 1 : std::get<double>(given->second);
+    const double angle = soil.number("friction_angle") * std::numbers::pi / 180;
+    const double sine = std::sin(angle), root = std::numbers::sqrt3;
+    const double strength = soil.number("cohesion") * std::cos(angle);
+    if ((1 - ratio) / root * weight - sine * (1 + 2 * ratio) / 3 * weight > strength)
+        warnings.push_back("effects / geostatic: at the lateral_ratio " + written(ratio) + ", " +
+                           place + "yields at rest; without cohesion it needs " +
+                           written((root - sine) / (root + 2 * sine)));
+}
 
 void check_material(const Scene& scene, const Material& material, Warnings& warnings) {
     const Values values = values_of(material, scene.dimension);
@@ -52,10 +61,11 @@ void check_material(const Scene& scene, const Material& material, Warnings& warn
     const double angle = values.number("friction_angle");
     if (angle > 0 && angle < 1.6)
         warnings.push_back(place + "the friction_angle " + written(angle) + " must be in degrees");
-    if (angle > 0 && effect_of(scene, "locking_cure") == nullptr)
+    if (angle > 0 && find_effect(scene, "locking_cure") == nullptr)
         warnings.push_back(place +
                            "frictional soil without dilation is too strong by a tenth or "
                            "more, as cells lock; name the effect locking_cure");
+    check_rest(scene, values, place, weight, warnings);
 }
 
 void check_bounds(const Scene& scene, const Body& body, Warnings& warnings) {
@@ -83,7 +93,7 @@ void check_probe(const Scene& scene, const Probe& probe, Warnings& warnings) {
 }  // namespace
 
 double stable_courant_number(const Scene& scene) {
-    return scene.shape_function == ShapeFunction::linear ? 0.6 : 0.7;
+    return scene.shape_function == ShapeFunction::linear ? 0.4 : 0.6;
 }
 
 std::vector<std::string> scene_warnings(const Scene& scene) {

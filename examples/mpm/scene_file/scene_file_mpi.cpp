@@ -81,6 +81,7 @@ Shape polygon_shape(const List& list, const std::vector<double>& rows) {
         list.refuse("corners", "must be 3 or more rows (x, y)");
     std::vector<Vector> corners;
     for (std::size_t k = 0; k < rows.size(); k += 2) corners.push_back({rows[k], rows[k + 1]});
+    if (crosses_itself(corners)) list.refuse("corners", "must be in order: two edges cross");
     Shape polygon{polygon_region(corners)};
     for (std::size_t a = 0; a < 2; ++a) {
         const auto along = [a](const Vector& corner) { return corner[a]; };
@@ -203,13 +204,11 @@ Plane read_plane(const List& list, int dimension) {
 
 void read_method(const List& list, int dimension, Scene& scene) {
     const Values values = list.values({choice("shape_function", {"linear", "quadratic"}),
-                                       within("courant_number", "", 1e-6, 1, scene.courant_number),
-                                       within("least_node_mass", "", 0, 0.5, 0.0)},
+                                       within("courant_number", "", 1e-6, 1, scene.courant_number)},
                                       dimension);
     if (values.word("shape_function") == "quadratic")
         scene.shape_function = ShapeFunction::quadratic;
     scene.courant_number = values.number("courant_number");
-    scene.least_node_mass = values.number("least_node_mass");
 }
 
 OutputPlan read_output(const List& list, int dimension) {
@@ -249,9 +248,9 @@ SceneFile read_list(const List& list, const std::string& name) {
     }
     for (const List& one : list.lists_in("bodies"))
         scene.bodies.push_back(read_body(one, dimension));
-    for (List& one : list.lists_in("effects")) {
-        const std::string kind = take_word("kind", one);
-        scene.effects.push_back({one.name, one.parameters, kind});
+    for (const List& one : list.lists_in("effects")) {
+        one.check_lists({});
+        scene.effects.push_back({one.name, one.parameters});
     }
     for (const List& one : list.lists_in("probes"))
         scene.probes.push_back(

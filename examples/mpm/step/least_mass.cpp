@@ -1,6 +1,7 @@
 #include "step/stepper.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mpm {
 
@@ -11,26 +12,15 @@ double layers_of(const Body& body, int dimension) {
     return *std::min_element(per_cell.begin(), per_cell.begin() + dimension);
 }
 
-/// Whether slopes vanish at the rim as values do: those of quadratic functions, except under a cure
-/// of locking, which replaces them by those of a centre.
-bool vanish_at_the_rim(const Scene& scene) {
-    return scene.shape_function == ShapeFunction::quadratic &&
-           std::ranges::none_of(scene.effects, [](const Effect& effect) {
-               return effect.name == "locking_cure" || effect.kind == "locking_cure";
-           });
-}
-
-/// Scene::least_node_mass, or the least share that keeps layers of points stable.
+/// Least share of a full node's mass: 0, except under a cure of locking, which replaces the slopes
+/// at points by those of a centre.
 ///
-/// A node that only the rim of a layer touches is as stiff as a full one, but light, unless slopes
-/// vanish there. In units of cell and wave speed, its frequency squared is 1 / (layers * share of
-/// mass). The frequency must stay near 1 per time step beside heavier neighbours and at a corner.
+/// A point in a corner of a cell then has a node that is light but not soft. With n points along a
+/// cell the point has 1/n^2 of a full node's mass, and the square of that node's frequency is at
+/// most 1/4 per step. More would give energy: strains lack what nodes gain (least_mass_test).
 double least_share(const Scene& scene, const Body& body) {
-    constexpr double least = 0.01;
-    if (scene.least_node_mass > 0) return scene.least_node_mass;
-    if (vanish_at_the_rim(scene)) return 0;
-    const double courant_number = scene.courant_number;
-    return std::max(least, courant_number * courant_number / layers_of(body, scene.dimension));
+    if (find_effect(scene, "locking_cure") == nullptr) return 0;
+    return 2 * std::pow(scene.courant_number / layers_of(body, scene.dimension), 2);
 }
 
 }  // namespace

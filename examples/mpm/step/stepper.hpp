@@ -10,12 +10,13 @@
 
 #include <mpm/simulation.hpp>
 
+#include <limits>
 #include <optional>
 #include <span>
 
 namespace mpm {
 
-/// Least mass of the nodes of a scene (Scene::least_node_mass). Where bodies differ in density it
+/// Least mass of the nodes of a scene under a cure of locking. Where bodies differ in density it
 /// adds a field of the nodes, so that each node goes by the points that touch it.
 template <int D>
 LeastMass add_least_mass(const Scene& scene, Column mass, Stages<D>& stages);
@@ -77,6 +78,7 @@ class Stepper final : public Simulation::Model {
     void load_state(const std::string& path);
     void append_own(std::span<const double> rows);
     void divide_by(Decomposition next, MPI_Comm comm);
+    void sum_fields();
     void advance_nodes();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
@@ -95,13 +97,15 @@ class Stepper final : public Simulation::Model {
     std::optional<Column> material_column_;  ///< where the scene has several materials
     Stages<D> stages_;
     LeastMass least_mass_;
-    double fingerprint_;  ///< of the points at the start
+    double lightest_point_ = std::numeric_limits<double>::infinity();  ///< of all ranks, kg
+    double fastest_node_ = 0;  ///< of this rank in the last step, m/s; see move_nodes
+    double fingerprint_;       ///< of the points at the start
 
     Ownership ownership_;
     GridPatch<D> patch_;
     std::vector<NodeRange<D>> patches_;  ///< of all ranks
     std::optional<GhostNodes<D>> ghosts_;
-    std::vector<CellRun<D>> runs_;
+    std::vector<CellRun<D>> runs_, field_runs_;
     std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();
     std::size_t num_out_of_order_ = 0;
     int steps_since_sort_ = 0;

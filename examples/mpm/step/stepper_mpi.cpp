@@ -2,6 +2,7 @@
 #include "parallel/communicator_mpi.hpp"
 #include "particles/vectors.hpp"
 #include "step/stepper.hpp"
+#include "transfer/scatter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +40,7 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
     add_walls<D>(ground, stages);
     add_plane_friction<D>(ground, wave_speed, particles, stages);
     for (const NamedEffect& effect : effects_of(scene)) {
-        const EffectBuilder<D> builder{scene,     effect.name, effect.values,
-                                       particles, stages,      wave_speed};
+        const EffectBuilder<D> builder{scene, effect.values, particles, stages, wave_speed};
         if constexpr (D == 2)
             effect.kind->build_2(builder);
         else
@@ -58,9 +58,9 @@ Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm
       ground_(with_ground(scene)),
       comm_(duplicate(comm)),
       wave_speed_(max_wave_speed(scene)),
-      transfers_(make_transfers<D>(scene_.shape_function, particles)),
+      transfers_(make_transfers<D>(scene_, particles)),
       fingerprint_(points.fingerprint),
-      ownership_(ground_.grid, comm_) {
+      ownership_(ground_.grid, scene_.walls, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, ground_, wave_speed_, particles);
     least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
@@ -76,6 +76,9 @@ Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm
         transfers_->sort(particles, patch_);
     };
     in_memory(place, "bodies: the points", comm_);
+    for (const double mass : particles[motion_.mass])
+        lightest_point_ = std::min(lightest_point_, mass);
+    MPI_Allreduce(MPI_IN_PLACE, &lightest_point_, 1, MPI_DOUBLE, MPI_MIN, comm_);
     max_speed = ownership_.agree(fastest_point()).max_speed;
     set_time_step();
 }
@@ -104,15 +107,27 @@ void Stepper<D>::divide_by(Decomposition next, MPI_Comm comm) {
     ghosts_.emplace(patches_, comm_);
 }
 
+/// Sums the fields of effects. Those with the same `where` follow one another.
+template <int D>
+void Stepper<D>::sum_fields() {
+    int found = -1;  // the field that field_runs_ are for
+    for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
+        const NodeField& field = stages_.fields[f];
+        if (field.where >= 0 && field.where != found)
+            find_runs_at<D>(patch_.fields[static_cast<std::size_t>(field.where)], ghosts_->shared(),
+                            patch_, runs_, field_runs_);
+        found = field.where;
+        std::ranges::fill(patch_.fields[f], 0.0);
+        transfers_->scatter(particles, field.column, field.axis,
+                            field.where < 0 ? runs_ : field_runs_, patch_, patch_.fields[f]);
+    }
+}
+
 template <int D>
 void Stepper<D>::advance_nodes() {
     transfers_->find_runs(particles, patch_, runs_);
-    transfers_->p2g(particles, runs_, patch_);
-    for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
-        std::ranges::fill(patch_.fields[f], 0.0);
-        const NodeField& field = stages_.fields[f];
-        transfers_->scatter(particles, field.column, field.axis, runs_, patch_, patch_.fields[f]);
-    }
+    transfers_->p2g(particles, runs_, stages_.volume_change, patch_);
+    sum_fields();
     for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
     work.pause();
     ghosts_->sum(patch_);
@@ -120,7 +135,7 @@ void Stepper<D>::advance_nodes() {
     const StepTime now{time, time_step};
     for (const auto& effect : stages_.forces) effect.kernel(patch_, now);
     for (const auto& effect : stages_.constraints) effect.kernel(patch_, now);
-    move_nodes(patch_, time_step, least_mass_);
+    fastest_node_ = move_nodes(patch_, time_step, least_mass_, lightest_point_);
     for (const auto& effect : stages_.moved) effect.kernel(patch_, now);
 }
 
@@ -132,7 +147,7 @@ void Stepper<D>::advance_points() {
         block.block_begin = block.begin;
         block.end = std::min(block.begin + block_size, particles.size());
         const std::size_t first_run = run;
-        run = transfers_->g2p(particles, patch_, runs_, run, block);
+        run = transfers_->g2p(particles, patch_, runs_, run, stages_.volume_change, block);
         for (const auto& effect : stages_.gradients)
             effect.kernel(particles, patch_, std::span(runs_).subspan(first_run, run - first_run),
                           block);
@@ -192,7 +207,8 @@ template <int D>
 void Stepper<D>::migrate_leavers(double speed) {
     const Agreement agreement = ownership_.agree(speed);
     max_speed = agreement.max_speed;
-    num_sent += static_cast<std::int64_t>(ownership_.leavers().points.size());
+    const auto& owners = ownership_.leavers().owners;
+    num_sent += std::ssize(owners) - std::ranges::count(owners, nobody);
     num_out_of_order_ +=
         migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_);
 }
@@ -219,9 +235,8 @@ void Stepper<D>::step() {
     time += time_step;
     ++num_steps;
     ++steps_since_sort_;
-    ownership_.find_leavers(decomposition, positions(), particles[motion_.id], time,
-                            ghosts_->neighbours());
-    migrate_leavers(fastest_point());
+    ownership_.find_leavers<D>(decomposition, particles, motion_, time, ghosts_->neighbours());
+    migrate_leavers(std::max(fastest_point(), fastest_node_));
     sort_if_needed();
     set_time_step();
 }

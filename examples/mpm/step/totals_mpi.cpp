@@ -6,7 +6,8 @@ namespace {
 
 /// Sums of one rank, all of them doubles: one reduction adds them.
 struct Sums {
-    double mass = 0, kinetic_energy = 0, strain_energy = 0, num_sent = 0, num_ghost_nodes = 0;
+    double num_points = 0, mass = 0, kinetic_energy = 0, strain_energy = 0, num_sent = 0,
+           num_ghost_nodes = 0;
     Vector moment{}, momentum{};
 };
 
@@ -19,7 +20,12 @@ void append_names(const Kernels& kernels, std::vector<std::string>& names) {
 
 template <int D>
 std::vector<std::string> Stepper<D>::kernels() const {
-    std::vector<std::string> names{"p2g"};
+    std::vector<std::string> names;
+    const auto append_transfer = [&](const std::string& name) {
+        names.push_back(name);
+        if (stages_.volume_change == VolumeChange::shared) names.push_back("locking_cure");
+    };
+    append_transfer("p2g");
     append_names(stages_.fields, names);
     append_names(stages_.scatters, names);
     names.push_back("ghost_nodes");
@@ -27,7 +33,7 @@ std::vector<std::string> Stepper<D>::kernels() const {
     append_names(stages_.constraints, names);
     names.push_back("move_nodes");
     append_names(stages_.moved, names);
-    names.push_back("g2p");
+    append_transfer("g2p");
     append_names(stages_.gradients, names);
     for (const MaterialModel<D>& material : materials_) append_names(material.kernels, names);
     append_names(stages_.after_materials, names);
@@ -39,6 +45,7 @@ std::vector<std::string> Stepper<D>::kernels() const {
 template <int D>
 Totals Stepper<D>::totals() const {
     Sums sums;
+    sums.num_points = static_cast<double>(particles.size());
     for (std::size_t p = 0; p < particles.size(); ++p) {
         const double mass = particles[motion_.mass][p];
         sums.mass += mass;
@@ -55,7 +62,7 @@ Totals Stepper<D>::totals() const {
     sums.num_sent = static_cast<double>(num_sent);
     sums.num_ghost_nodes = static_cast<double>(ghosts_->num_shared());
     MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, comm_);
-    Totals totals{.num_points = num_points,
+    Totals totals{.num_points = static_cast<std::int64_t>(sums.num_points),
                   .mass = sums.mass,
                   .momentum = sums.momentum,
                   .kinetic_energy = sums.kinetic_energy,
@@ -63,7 +70,7 @@ Totals Stepper<D>::totals() const {
                   .num_migrated = static_cast<std::int64_t>(sums.num_sent),
                   .num_ghost_nodes = static_cast<std::int64_t>(sums.num_ghost_nodes)};
     for (std::size_t a = 0; a < D; ++a) {
-        totals.center[a] = sums.moment[a] / sums.mass;
+        if (sums.mass > 0) totals.center[a] = sums.moment[a] / sums.mass;
         if (stages_.gravity)
             totals.potential_energy -= stages_.gravity->acceleration[a] * sums.moment[a];
     }

@@ -94,13 +94,26 @@ struct PointWriter {
     double* volume;
 };
 
+/// Rate of the change of volume at the centre of a run, times the spacing of the nodes.
+template <int D, std::size_t N>
+[[gnu::always_inline]] inline double centre_expansion(
+    const std::array<Components<D>, power(N, D)>& slopes, const RunMotion<D, N>& motion) {
+    double expansion = 0;
+    for (std::size_t n = 0; n < slopes.size(); ++n)
+        for (std::size_t a = 0; a < D; ++a) expansion += slopes[n][a] * motion.strain[a][n];
+    return expansion;
+}
+
 /// Moves the points of a run with the nodes. They keep their velocity and add the change of the
 /// nodes' (FLIP), so that nothing damps them.
-template <int D, class Shape>
+///
+/// If they share their change of volume, they take that of their centre and keep their own shear.
+template <int D, class Shape, VolumeChange change>
 [[gnu::always_inline]] inline void move_run(const PointWriter<D>& to, const Shape& shape,
                                             const CellRun<D>& run,
                                             const RunMotion<D, Shape::num_nodes>& motion,
-                                            double spacing, const PointBlock<D>& block) {
+                                            double centre, double spacing,
+                                            const PointBlock<D>& block) {
     constexpr std::size_t N = Shape::num_nodes;
     const double inverse_spacing = 1 / spacing, time_step = block.time_step;
     const PointWriter<D> points = to;
@@ -125,6 +138,11 @@ template <int D, class Shape>
                 if constexpr (a == b) expansion = a == 0 ? slope : expansion + slope;
             });
         });
+        if constexpr (change == VolumeChange::shared) {
+            const double more = (1.0 / D) * (centre - expansion);
+            unrolled<D>([&](auto a) __attribute__((always_inline)) { gradient[a][a][k] += more; });
+            expansion = centre;
+        }
         points.volume[p] *= 1 + time_step * expansion;
         const auto values = values_of<D, N>(weights);
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
@@ -135,7 +153,7 @@ template <int D, class Shape>
     }
 }
 
-template <int D, class Shape>
+template <int D, class Shape, VolumeChange change>
 MPM_VECTOR_CLONES std::size_t grid_to_points(Particles& particles,
                                              const TransferColumns<D>& columns, const Shape& shape,
                                              const GridPatch<D>& patch,
@@ -143,10 +161,13 @@ MPM_VECTOR_CLONES std::size_t grid_to_points(Particles& particles,
                                              std::size_t first_run, const PointBlock<D>& block) {
     const PointWriter<D> target(particles, columns);
     const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
+    const auto slopes = centre_slopes<D>(shape);
     std::size_t run = first_run;
     for (; run < runs.size() && runs[run].begin < block.end; ++run) {
         const RunMotion<D, Shape::num_nodes> motion(patch.motion.data() + runs[run].node, offsets);
-        move_run<D, Shape>(target, shape, runs[run], motion, patch.shape.spacing, block);
+        const double centre = centre_expansion<D>(slopes, motion) / patch.shape.spacing;
+        move_run<D, Shape, change>(target, shape, runs[run], motion, centre, patch.shape.spacing,
+                                   block);
     }
     return run;
 }

@@ -95,6 +95,32 @@ template <int D, std::size_t N, std::size_t n>
     return square;
 }
 
+/// Slopes of the nodes' shape functions at the centre of the points that share them, per cell: of a
+/// cell, or of the square around a node.
+template <int D, class Shape>
+std::array<Components<D>, power(Shape::num_nodes, D)> centre_slopes(const Shape& shape) {
+    constexpr std::size_t N = Shape::num_nodes;
+    std::array<Weights<N>, D> weights;
+    weights.fill(shape.at(0.5 * (N - 1)));
+    std::array<Components<D>, power(N, D)> slopes;
+    unrolled<power(N, D)>([&](auto n) {
+        unrolled<D>([&](auto a) { slopes[n][a] = slope_of<D, N, n, a>(weights); });
+    });
+    return slopes;
+}
+
+/// Subtracts the mean of the stresses along the axes from them, and returns it.
+template <int D>
+[[gnu::always_inline]] inline double take_axial_mean(Stress<D>& stress) {
+    double sum = stress.xx + stress.yy;
+    if constexpr (D == 3) sum += stress.zz;
+    const double mean = (1.0 / D) * sum;
+    stress.xx -= mean;
+    stress.yy -= mean;
+    if constexpr (D == 3) stress.zz -= mean;
+    return mean;
+}
+
 /// Columns of the points that p2g reads.
 template <int D>
 struct PointReader {
@@ -137,18 +163,25 @@ struct PointReader {
 ///             mass[n] += weight(n, p) * mass[p]
 ///             momentum[n] += weight(n, p) * mass[p] * velocity[p]
 ///             force[n] -= volume[p] * stress[p] * slope(n, p)
-template <int D, class Shape>
+///
+/// If the points share their change of volume, the mean of the stresses along the axes works in it:
+/// it acts with the slopes of the centre.
+template <int D, class Shape, VolumeChange change>
 [[gnu::always_inline]] inline std::array<NodeSums<D>, power(Shape::num_nodes, D)> sum_run(
-    const PointReader<D>& from, const Shape& shape, const CellRun<D>& run, double spacing) {
+    const PointReader<D>& from, const Shape& shape,
+    const std::array<Components<D>, power(Shape::num_nodes, D)>& centre, const CellRun<D>& run,
+    double spacing) {
     constexpr std::size_t N = Shape::num_nodes;
     const double inverse_spacing = 1 / spacing;
     std::array<NodeSums<D>, power(N, D)> sums{};
+    double pull = 0;
     for (std::size_t p = run.begin; p < run.end; ++p) {
         std::array<Weights<N>, D> weights;
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
             weights[a] = shape.at((from.position[a][p] - run.corner[a]) * inverse_spacing);
         });
-        const Contribution<D> point = from.at(p, inverse_spacing);
+        Contribution<D> point = from.at(p, inverse_spacing);
+        if constexpr (change == VolumeChange::shared) pull += take_axial_mean(point.stress);
         unrolled<power(N, D)>([&](auto n) __attribute__((always_inline)) {
             const double weight = weight_of<D, N, n>(weights);
             sums[n].mass += weight * point.mass;
@@ -160,18 +193,23 @@ template <int D, class Shape>
             add_force<D>(slope, point.stress, sums[n]);
         });
     }
+    if constexpr (change == VolumeChange::shared)
+        for (std::size_t n = 0; n < sums.size(); ++n)
+            for (std::size_t a = 0; a < D; ++a) sums[n].force[a] -= pull * centre[n][a];
     return sums;
 }
 
-template <int D, class Shape>
+template <int D, class Shape, VolumeChange change>
 MPM_VECTOR_CLONES void points_to_grid(Particles& particles, const TransferColumns<D>& columns,
                                       const Shape& shape, const std::vector<CellRun<D>>& runs,
                                       GridPatch<D>& patch) {
     const PointReader<D> source(particles, columns);
     const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
+    const auto centre = centre_slopes<D>(shape);
     std::ranges::fill(patch.sums, NodeSums<D>{});
     for (const CellRun<D>& run : runs) {
-        const auto sums = sum_run<D, Shape>(source, shape, run, patch.shape.spacing);
+        const auto sums =
+            sum_run<D, Shape, change>(source, shape, centre, run, patch.shape.spacing);
         NodeSums<D>* const lowest = patch.sums.data() + run.node;
         for (std::size_t n = 0; n < sums.size(); ++n) add(sums[n], lowest[offsets[n]]);
     }

@@ -2,6 +2,7 @@
 
 #include "grid/grid.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -15,19 +16,25 @@ struct Weights {
 };
 
 /// Two nodes to a point.
+///
+/// A node that only points near a face reach is light, but as stiff as others, so explicit steps
+/// would be unstable. Therefore a point counts as at least 3/4 C^2 of a cell from each face, where
+/// C is the Courant number: the square of the node's frequency is then at most 4/3 per step. Forces
+/// and strains use the same functions, so that this yields no energy.
 struct LinearShape {
     static constexpr std::size_t num_nodes = 2;
     static constexpr int margin = 0;
+
+    explicit LinearShape(double courant_number = 0)
+        : least(std::clamp(0.75 * courant_number * courant_number, 1e-12, 0.5)), most(1 - least) {}
 
     /// Lowest node of a coordinate.
     int first_node(const GridShape& shape, double coordinate, std::size_t axis) const {
         return cell_of(shape, coordinate, axis);
     }
 
-    /// Weights at `u` cells from the lowest node.
-    ///
-    /// On a face both stay above 0. The slopes need the velocities of both nodes there, and a node
-    /// without mass has no velocity.
+    /// Weights at `u` cells from the lowest node, both above 0: the slopes need the velocities of
+    /// both nodes, and a node without mass has no velocity.
     Weights<2> at(double u) const {
         const double above = u > least ? u : least;
         const double inside = above < most ? above : most;
@@ -36,7 +43,7 @@ struct LinearShape {
 
     /// Bounds of the upper weight. As constants compilers would make branches of them, which keep
     /// loops over points from vectors.
-    double least = 1e-12, most = 1 - 1e-12;
+    double least, most;
 };
 
 /// Quadratic B-spline (Steffen, Kirby and Berzins 2008): smooth gradients, so that points
@@ -44,6 +51,8 @@ struct LinearShape {
 struct QuadraticShape {
     static constexpr std::size_t num_nodes = 3;
     static constexpr int margin = 1;
+
+    explicit QuadraticShape(double /*courant_number*/ = 0) {}
 
     /// Lowest of the three nodes around the nearest one.
     int first_node(const GridShape& shape, double coordinate, std::size_t axis) const {

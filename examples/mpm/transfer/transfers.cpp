@@ -1,6 +1,7 @@
 #include "transfer/transfers.hpp"
 
 #include "transfer/g2p.hpp"
+#include "transfer/scatter.hpp"
 
 namespace mpm {
 
@@ -10,7 +11,7 @@ namespace {
 template <int D, class Shape>
 class TransfersOf final : public Transfers<D> {
   public:
-    explicit TransfersOf(Particles& particles) {
+    TransfersOf(double courant_number, Particles& particles) : shape_(courant_number) {
         columns_.motion = add_motion_columns(particles, D);
         columns_.stress = add_stress_columns<D>(particles);
     }
@@ -48,42 +49,36 @@ class TransfersOf final : public Transfers<D> {
         particles.reorder(order);
     }
 
-    void p2g(Particles& particles, const std::vector<CellRun<D>>& runs,
+    void p2g(Particles& particles, const std::vector<CellRun<D>>& runs, VolumeChange change,
              GridPatch<D>& patch) const override {
-        points_to_grid<D, Shape>(particles, columns_, shape_, runs, patch);
+        const auto transfer = change == VolumeChange::own
+                                  ? points_to_grid<D, Shape, VolumeChange::own>
+                                  : points_to_grid<D, Shape, VolumeChange::shared>;
+        transfer(particles, columns_, shape_, runs, patch);
     }
 
     std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
-                    const std::vector<CellRun<D>>& runs, std::size_t first_run,
+                    const std::vector<CellRun<D>>& runs, std::size_t first_run, VolumeChange change,
                     const PointBlock<D>& block) const override {
-        return grid_to_points<D, Shape>(particles, columns_, shape_, patch, runs, first_run, block);
+        const auto transfer = change == VolumeChange::own
+                                  ? grid_to_points<D, Shape, VolumeChange::own>
+                                  : grid_to_points<D, Shape, VolumeChange::shared>;
+        return transfer(particles, columns_, shape_, patch, runs, first_run, block);
     }
 
     void scatter(const Particles& particles, Column column, int axis,
-                 const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
+                 std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
                  std::vector<double>& field) const override {
-        constexpr std::size_t N = Shape::num_nodes;
         const auto at = positions(particles);
-        const std::span<const double> values = particles[column];
-        const auto offsets = node_offsets<D, N>(patch);
-        const double inverse_spacing = 1 / patch.shape.spacing;
-        for (const CellRun<D>& run : runs)
-            for (std::size_t p = run.begin; p < run.end; ++p) {
-                if (values[p] == 0) continue;  // as forces on most points are
-                std::array<Weights<N>, D> weights;
-                for (std::size_t a = 0; a < D; ++a) {
-                    weights[a] = shape_.at((at[a][p] - run.corner[a]) * inverse_spacing);
-                    if (static_cast<int>(a) != axis) continue;
-                    for (std::size_t i = 0; i < N; ++i)
-                        weights[a].value[i] = inverse_spacing * weights[a].slope[i];
-                }
-                unrolled<power(N, D)>([&](auto n) {
-                    const double weight = axis == squared_slopes
-                                              ? squared_slope_of<D, N, n>(weights)
-                                              : weight_of<D, N, n>(weights);
-                    field[run.node + offsets[n]] += weight * values[p];
-                });
-            }
+        const auto add = [&]<int kind>(std::integral_constant<int, kind>) {
+            scatter_column<D, Shape, kind>(at, particles[column], shape_, runs, patch,
+                                           field.data());
+        };
+        if (axis == squared_slopes) return add(std::integral_constant<int, squared_slopes>{});
+        if (axis < 0) return add(std::integral_constant<int, -1>{});
+        unrolled<D>([&](auto a) {
+            if (axis == static_cast<int>(a)) add(std::integral_constant<int, int{a}>{});
+        });
     }
 
   private:
@@ -136,13 +131,13 @@ class TransfersOf final : public Transfers<D> {
 }  // namespace
 
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles) {
-    if (shape == ShapeFunction::linear)
-        return std::make_unique<TransfersOf<D, LinearShape>>(particles);
-    return std::make_unique<TransfersOf<D, QuadraticShape>>(particles);
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles) {
+    if (scene.shape_function == ShapeFunction::linear)
+        return std::make_unique<TransfersOf<D, LinearShape>>(scene.courant_number, particles);
+    return std::make_unique<TransfersOf<D, QuadraticShape>>(scene.courant_number, particles);
 }
 
-template std::unique_ptr<Transfers<2>> make_transfers<2>(ShapeFunction, Particles&);
-template std::unique_ptr<Transfers<3>> make_transfers<3>(ShapeFunction, Particles&);
+template std::unique_ptr<Transfers<2>> make_transfers<2>(const Scene&, Particles&);
+template std::unique_ptr<Transfers<3>> make_transfers<3>(const Scene&, Particles&);
 
 }  // namespace mpm

@@ -115,6 +115,12 @@ struct Named {
     Kernel kernel;
 };
 
+/// How points change their volume.
+enum class VolumeChange {
+    own,    ///< each by the velocity gradient at its place
+    shared  ///< those of a run alike, as their centre
+};
+
 /// Columns that the transfers read and change.
 template <int D>
 struct TransferColumns {
@@ -143,7 +149,7 @@ class Transfers {
     virtual void sort(Particles& particles, const GridPatch<D>& patch) const = 0;
 
     /// Particles to grid: overwrites the patch with the sums of mass, momentum, internal force.
-    virtual void p2g(Particles& particles, const std::vector<CellRun<D>>& runs,
+    virtual void p2g(Particles& particles, const std::vector<CellRun<D>>& runs, VolumeChange change,
                      GridPatch<D>& patch) const = 0;
 
     /// Grid to particles: moves the points of one block and reads their velocity gradients.
@@ -151,17 +157,17 @@ class Transfers {
     /// Takes runs from `first_run` on; returns the first run of the next block.
     virtual std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
                             const std::vector<CellRun<D>>& runs, std::size_t first_run,
-                            const PointBlock<D>& block) const = 0;
+                            VolumeChange change, const PointBlock<D>& block) const = 0;
 
     /// Adds a column of the points to a field of the nodes, weighted by the shape functions, by
     /// their derivatives along `axis` where that is not -1, or by squared_slopes.
     virtual void scatter(const Particles& particles, Column column, int axis,
-                         const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
+                         std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
                          std::vector<double>& field) const = 0;
 };
 
-/// Transfers with a shape function; adds the columns they need.
+/// Transfers with the shape function of a scene; adds the columns they need.
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles);
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles);
 
 }  // namespace mpm

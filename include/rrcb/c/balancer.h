@@ -42,7 +42,7 @@ typedef struct rrcb_report {
     int rounds;                 /**< of counting, for the refinement */
     int coincident_cuts;        /**< that would divide points which no allowed cut separates */
     int all_weights_zero;       /**< 1: balanced by count instead */
-    int surplus_parts;          /**< parts that must stay empty: more parts than points */
+    int surplus_parts;          /**< parts that stay empty: more than points, or by min_points */
     double near_before;         /**< share of the weight near the earlier cuts; NaN if not known */
     double near_after;          /**< share of the weight near the cuts; NaN if not known */
 } rrcb_report;
@@ -119,6 +119,20 @@ RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
  * @param cuts     the same on all ranks, which rrcb_rebalance checks */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
+/** Shows the cuts as bytes, as rrcb::save. Not collective.
+ *
+ * @param balancer owns the bytes until the next call; fails as rrcb_get_cuts
+ * @param bytes    gets their address
+ * @param size     gets their number */
+RRCB_API int rrcb_save_cuts(rrcb_balancer* balancer, const void** bytes, size_t* size);
+
+/** Copies saved cuts into the balancer, as rrcb::load. Not collective.
+ *
+ * @param balancer for rrcb_rebalance and look-ups
+ * @param bytes    of rrcb_save_cuts
+ * @param size     number of them */
+RRCB_API int rrcb_load_cuts(rrcb_balancer* balancer, const void* bytes, size_t size);
+
 /** Writes the part of a position, as rrcb::part_of. Not collective.
  *
  * @param balancer with cuts
@@ -145,6 +159,8 @@ RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* p
 
 /** Writes the region of a part; sides without a cut are +-infinity. Not collective.
  *
+ * With rrcb_set("axes.plain", "ON") it contains its lower faces and not its upper ones, see
+ * rrcb::box_of.
  * @param balancer with cuts
  * @param part     0 ... num_parts - 1
  * @param lower    gets the lower end, of length 3

@@ -59,6 +59,31 @@ RRCB_API int rrcb_controller_due(const rrcb_controller* controller, int* due);
 RRCB_API int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* report,
                                         double cost);
 
+/** Shows the state as bytes, the same on every rank, as rrcb::save. Collective.
+ *
+ * @param controller owns the bytes until the next call
+ * @param bytes      gets their address
+ * @param size       gets their number */
+RRCB_API int rrcb_controller_save(rrcb_controller* controller, const void** bytes, size_t* size);
+
+/** Makes a controller that continues from saved bytes, as rrcb::load. Collective.
+ *
+ * @param comm       may be freed before the controller
+ * @param bytes      the same on every rank
+ * @param size       number of them
+ * @param controller belongs to the caller; unchanged if the call fails */
+RRCB_API int rrcb_controller_load(MPI_Comm comm, const void* bytes, size_t size,
+                                  rrcb_controller** controller);
+
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm       may be freed before the controller
+ * @param bytes      the same on every rank
+ * @param size       number of them
+ * @param controller belongs to the caller; unchanged if the call fails */
+RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t size,
+                                          rrcb_controller** controller);
+
 /** Makes a cost model, as rrcb::CostModel. Collective.
  *
  * @param comm        may be freed before the model
@@ -80,6 +105,33 @@ RRCB_API int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* co
 
 /** Frees a cost model, which may be null. Collective unless it was made with a controller. */
 RRCB_API void rrcb_cost_model_destroy(rrcb_cost_model* model);
+
+/** Shows the state as bytes, as rrcb_controller_save. Collective.
+ *
+ * @param model owns the bytes until the next call
+ * @param bytes gets their address
+ * @param size  gets their number */
+RRCB_API int rrcb_cost_model_save(rrcb_cost_model* model, const void** bytes, size_t* size);
+
+/** Makes a model that continues from saved bytes, as rrcb::load. Collective.
+ *
+ * @param comm       may be freed before the model
+ * @param controller loaded before, outlives the model; null: as for rrcb_cost_model_create
+ * @param bytes      the same on every rank
+ * @param size       number of them
+ * @param model      belongs to the caller; unchanged if the call fails */
+RRCB_API int rrcb_cost_model_load(MPI_Comm comm, rrcb_controller* controller, const void* bytes,
+                                  size_t size, rrcb_cost_model** model);
+
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm       may be freed before the model
+ * @param controller address of a controller, or null
+ * @param bytes      the same on every rank
+ * @param size       number of them
+ * @param model      belongs to the caller; unchanged if the call fails */
+RRCB_API int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller,
+                                          const void* bytes, size_t size, rrcb_cost_model** model);
 
 /** Records a step, also in the controller of the model, whose decision rrcb_controller_due returns.
  * Collective.

@@ -10,6 +10,13 @@ extern "C" {
 /** Points that ranks send and receive as ghosts, and their communicator. */
 typedef struct rrcb_ghosts rrcb_ghosts;
 
+/** Whose radius counts, if points have different ones; as rrcb::Needs. */
+typedef enum rrcb_needs {
+    RRCB_NEEDS_SENDER = 0,   /**< the points whose radii reach a part */
+    RRCB_NEEDS_RECEIVER = 1, /**< those within the radius of a point of a part */
+    RRCB_NEEDS_EITHER = 2    /**< both */
+} rrcb_needs;
+
 /** Distances at which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
     double radius;       /**< cut-off of all points, in the unit of the coordinates */
@@ -20,6 +27,7 @@ typedef struct rrcb_ghost_options {
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
                                               as by rrcb_ranks_of_part */
     size_t num_parts;                      /**< length of `ranks_of_parts` */
+    int needs;                             /**< an rrcb_needs */
 } rrcb_ghost_options;
 
 /** Lists of points sent and received as ghosts, as rrcb::GhostPlan; indices count from 0. */
@@ -78,6 +86,45 @@ RRCB_API int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns,
 RRCB_API int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
                                     const rrcb_column* columns, const rrcb_transfer_limits* limits,
                                     rrcb_transfer_report* report);
+
+/** Scope of rrcb_ghosts_verify, as rrcb::VerifyOptions. */
+typedef struct rrcb_verify_options {
+    size_t sample;              /**< most points, over all ranks, whose neighbours are looked for */
+    double radius;              /**< true cut-off, if the ghosts have a skin; 0: that of these */
+    const double* radii;        /**< one for each point, if the ghosts have some, or null */
+    size_t num_ids;             /**< number of points, or 0 without ids */
+    const uint64_t* ids;        /**< of the points */
+    size_t num_ids_before;      /**< number of points of this rank before a transfer, or 0 */
+    const uint64_t* ids_before; /**< of these */
+} rrcb_verify_options;
+
+/** Point that is not where it should be, as rrcb::Fault. */
+typedef struct rrcb_fault {
+    uint64_t id;        /**< of the point; without ids its index */
+    int rank;           /**< that holds it, or did before the transfer */
+    uint64_t needed_by; /**< point of this rank, or the same id */
+} rrcb_fault;
+
+/** Result of rrcb_ghosts_verify, as rrcb::Verification. */
+typedef struct rrcb_verification {
+    int64_t num_pairs;           /**< of the sample, over all ranks */
+    int64_t num_faults;          /**< over all ranks */
+    size_t num_missing;          /**< length of `missing`, and so on */
+    const rrcb_fault* missing;   /**< near points that are no ghosts, ids that are lost */
+    size_t num_twice;            /**< */
+    const rrcb_fault* twice;     /**< ghosts that came twice, ids that another rank has too */
+    size_t num_strangers;        /**< */
+    const rrcb_fault* strangers; /**< own points that came as ghosts, new ids */
+} rrcb_verification;
+
+/** Compares ghosts with all pairs of a sample of the points, as rrcb::verify. Collective.
+ *
+ * @param ghosts  own the lists of the result, until the next call
+ * @param points  of this rank
+ * @param options null: a sample of 1000 points
+ * @param seen    gets the result */
+RRCB_API int rrcb_ghosts_verify(rrcb_ghosts* ghosts, const rrcb_points* points,
+                                const rrcb_verify_options* options, rrcb_verification* seen);
 
 /** Moves fetched positions to those of the images, as rrcb::apply_shifts. Not collective.
  *

@@ -99,5 +99,13 @@ TEST(Effects, that_are_not_named_leave_no_trace) {
                                         "elastic", "migrate"}));
 }
 
+TEST(Effects, that_are_named_twice_or_not_there_are_refused) {
+    Scene scene = in_water(2000);
+    scene.effects.push_back(gravity_effect(g));
+    EXPECT_THROW(validate(scene), std::invalid_argument);
+    scene.effects.back().name = "levity";
+    EXPECT_THROW(validate(scene), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace mpm::test

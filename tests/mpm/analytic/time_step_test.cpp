@@ -9,10 +9,9 @@ namespace {
 
 /// Where a scene has come to.
 struct End {
-    double energy;   ///< kinetic and elastic
-    Vector way{};    ///< of the centre
-    double front;    ///< largest x
-    double tip = 0;  ///< y of a penetrator's tip, where there is one
+    double energy;  ///< kinetic and elastic
+    Vector way{};   ///< of the centre
+    double front;   ///< behind which 95 % of the points are; single grains lie beyond
 };
 
 End end_of(Scene scene, double end_time, double courant_number) {
@@ -25,22 +24,19 @@ End end_of(Scene scene, double end_time, double courant_number) {
     const double late = simulation.time() - end_time;
     for (std::size_t a = 0; a < 2; ++a)
         end.way[a] = totals.center[a] - start[a] - totals.momentum[a] / totals.mass * late;
-    end.front = *std::ranges::max_element(simulation.particles()["x"]);
-    if (find_effect(scene, "penetrator")) end.tip = report(simulation, "penetrator_tip_y");
+    std::vector<double> x = gathered(simulation, "x", MPI_COMM_WORLD);
+    const auto front = x.begin() + std::ssize(x) * 95 / 100;
+    std::ranges::nth_element(x, front);
+    end.front = *front;
     return end;
 }
 
-/// Changes no way and front by more than a fiftieth, nor energy where it is kept. Where a body
-/// strikes, its tip alone: some clay splashes up beside it.
+/// Changes no way and front by more than a fiftieth, nor energy where it is kept.
 void expect_same_at_any_step(const Scene& scene, double end_time, bool keeps_energy) {
     const End coarse = end_of(scene, end_time, scene.courant_number);
     for (const double courant_number : {0.1, 0.025}) {
         SCOPED_TRACE(courant_number);
         const End fine = end_of(scene, end_time, courant_number);
-        if (fine.tip != 0) {
-            EXPECT_NEAR(coarse.tip, fine.tip, 0.02 * std::abs(fine.tip));
-            continue;
-        }
         const double way = std::hypot(fine.way[0], fine.way[1]);
         for (std::size_t a = 0; a < 2; ++a)
             EXPECT_NEAR(coarse.way[a], fine.way[a], 0.02 * way + 1e-9);
@@ -74,9 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, TimeStep,
                          testing::Values(Case{"granular_column", 0.2, 1},
                                          Case{"elastic_structure", 0.125, 0.75},
                                          Case{"axial_bar", 1, 2.5}, Case{"incline_block", 0.5, 2},
-                                         Case{"falling_body", 0.25, 1}, Case{"dam_break", 0.2, 0.8},
-                                         Case{"submarine_slide", 5, 4},
-                                         Case{"anchor_plate", 0.5, 0.6}),
+                                         Case{"dam_break", 0.2, 0.8},
+                                         Case{"submarine_slide", 5, 4}),
                          [](const auto& tested) { return tested.param.scene; });
 
 }  // namespace

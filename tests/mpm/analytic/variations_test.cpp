@@ -84,21 +84,6 @@ Outcome incline_block_outcome(const Variation& varied) {
     return {std::abs(way / expected - 1), 0.01};
 }
 
-// m v' = W' - rho_w Cd A v^2 / 2: v_t tanh(t / tau), v_t = sqrt(2 W' / (rho_w Cd A)).
-Outcome falling_body_outcome(const Variation& varied) {
-    Simulation simulation(shipped("falling_body", varied), MPI_COMM_WORLD);
-    const double weight = 1000 * g, terminal = std::sqrt(2 * weight / 1000);
-    const double tau = 2000 * terminal / weight;
-    double worst = 0;
-    while (simulation.time() < 2) {
-        simulation.step();
-        const Totals now = simulation.totals();
-        worst = std::max(worst, std::abs(now.momentum[1] / now.mass +
-                                         terminal * std::tanh(simulation.time() / tau)));
-    }
-    return {worst / terminal, 0.02};
-}
-
 /// Largest displacement of a cut of 2 m whose weight * height is that many times its strength, m.
 double slip_of_cut(const Variation& varied, double number) {
     constexpr double weight = 1800 * g, height = 2;
@@ -177,7 +162,6 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values(Problem{"axial_bar", axial_bar_outcome},
                                      Problem{"hydrostatic_column", hydrostatic_column_outcome},
                                      Problem{"incline_block", incline_block_outcome},
-                                     Problem{"falling_body", falling_body_outcome},
                                      Problem{"portal", portal_outcome},
                                      Problem{"two_disks", two_disks_outcome},
                                      Problem{"standing_cut", standing_cut_outcome},

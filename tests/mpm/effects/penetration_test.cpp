@@ -10,11 +10,13 @@ namespace {
 constexpr double g = 9.81, density = 1600;
 constexpr double radius = 0.6, cone_height = 0.6, mass = 1200, speed = 6;
 constexpr double rate_factor = 0.15, reference_rate = 0.1;
-constexpr double section = std::numbers::pi / 4 * radius * radius;  // of a quarter
+constexpr double section = std::numbers::pi / 4 * radius * radius;               // of a quarter
+constexpr double length = 4, volume = section * (length - cone_height * 2 / 3);  // of a quarter
 constexpr double deepest = 2.8, slow_speed = 2, slowing = 1.5 * g;
 
-/// A quarter of an anchor above clay that rests under its weight.
-Scene anchor_scene(double body_mass, double weight_share, double first_speed, bool has_rate) {
+/// A quarter of an anchor, `lift` of whose weight a fluid carries, above clay that rests under its
+/// weight.
+Scene anchor_scene(double body_mass, double lift, double first_speed, bool has_rate) {
     Material clay = elastic_material("clay", density, 1e6, 0.45);
     clay.model = "von_mises";
     clay.parameters["strength"] = 2e3;
@@ -39,9 +41,9 @@ Scene anchor_scene(double body_mass, double weight_share, double first_speed, bo
                          {{"tip", std::vector<double>{0, 0.05, 0}},
                           {"radius", radius},
                           {"cone_height", cone_height},
-                          {"length", 4.0},
+                          {"length", length},
                           {"mass", body_mass},
-                          {"weight_share", weight_share},
+                          {"fluid_density", lift * body_mass / volume},
                           {"velocity", -first_speed},
                           {"friction", 0.3},
                           {"adhesion_factor", 0.5}}},
@@ -84,7 +86,7 @@ Way follow(const Scene& scene, double first_speed) {
 
 /// Pushed at a constant speed, or slowed down at a given rate.
 Way push(double first_speed, bool has_rate, double slowed_by = 0) {
-    return follow(anchor_scene(1e12, -slowed_by / g, first_speed, has_rate), first_speed);
+    return follow(anchor_scene(1e12, 1 + slowed_by / g, first_speed, has_rate), first_speed);
 }
 
 double buoyancy(double depth) {
@@ -169,7 +171,7 @@ Way integrate(const Measured& measured) {
 // the end and takes more from it before; that, and the clay's elastic return, are the few per cent.
 TEST(Penetration, ends_where_the_equation_of_motion_ends) {
     const Measured measured = measure();
-    const Way fall = follow(anchor_scene(mass, 1, speed, true), speed);
+    const Way fall = follow(anchor_scene(mass, 0, speed, true), speed);
     const Way expected = integrate(measured);
     const double depth = expected.depth.back();
     EXPECT_NEAR(fall.depth.back(), depth, 0.06 * depth);

@@ -160,7 +160,8 @@ TEST(Penetrator, falls_freely_before_it_meets_the_soil) {
     Scene scene = struck_block(100, 0);
     find_effect(scene, "penetrator")->at("tip") = std::vector<double>{3, 7};
     scene.effects.push_back(gravity_effect(10));
-    scene.effects.front().parameters["weight_share"] = 0.5;
+    // Half its weight is carried by fluid, 3 m x 1 m of it.
+    scene.effects.front().parameters["fluid_density"] = 0.5 * 100 / 3;
     Simulation simulation(scene, MPI_COMM_WORLD);
     double velocity = 0, tip = 7;
     while (simulation.time() < 0.2) {

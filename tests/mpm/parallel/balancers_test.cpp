@@ -114,8 +114,7 @@ TEST(Balancers, do_not_show_under_water_where_clay_softens_and_is_dragged) {
     expect_serial_under(usual, scene);
 }
 
-TEST(Balancers, do_not_show_where_a_penetrator_strikes_in_two_and_three_dimensions) {
-    expect_serial_under(usual, shipped("anchor_plate", 0.75));
+TEST(Balancers, do_not_show_where_a_penetrator_strikes) {
     expect_serial_under(usual, shipped("torpedo_anchor", 0.375));
 }
 

@@ -170,16 +170,6 @@ TEST(Decomposition, refuses_an_owner_that_one_rank_gets_wrong_on_every_rank) {
     simulation.step();
 }
 
-TEST(Decomposition, stops_every_rank_when_a_point_leaves_the_grid) {
-    Simulation simulation(flying_disk(), MPI_COMM_WORLD);
-    EXPECT_THROW(
-        {
-            while (simulation.time() < 5) simulation.step();
-        },
-        std::runtime_error);
-    EXPECT_GT(simulation.time(), 1.5);
-}
-
 TEST(Slabs, divide_the_longest_extent_equally) {
     const Decomposition wide = slabs({{0, 0}, {8, 2}}, 4);
     EXPECT_EQ(wide.boxes[1].lower[0], 2);

@@ -74,18 +74,6 @@ TEST(SceneFile, names_the_file_the_place_the_key_and_what_is_allowed) {
     expect_names(error_with("cells: [116, 38]", "cells: [116, 38"), {"not understood"});
 }
 
-TEST(SceneFile, takes_effects_of_a_kind_under_names) {
-    std::string text = text_of(slope_path);
-    text.insert(text.find("    gravity:"),
-                "    pull:\n      kind: traction\n      side: right\n      traction: [1, 2]\n");
-    const Scene scene = parse_scene(text, "a.yaml").scene;
-    EXPECT_EQ(scene.effects.front().name, "pull");
-    EXPECT_EQ(scene.effects.front().kind, "traction");
-    expect_names(error_with("    gravity:", "    weight:\n      kind: levity"),
-                 {"'levity'", "possible", "gravity"});
-    expect_names(error_with("    gravity:", "    weight:"), {"'weight'", "'kind'"});
-}
-
 /// The slope's file with a plane named face.
 std::string error_of_plane(const std::string& keys) {
     return error_with("  materials:",

@@ -54,8 +54,8 @@ TEST(SceneReports, warn_of_bodies_beyond_the_domain) {
 TEST(SceneReports, warn_of_a_courant_number_beyond_the_stable_one) {
     Scene scene = scene_of(blocks({box("0, 0", "1, 1")}));
     EXPECT_TRUE(scene_warnings(scene).empty());
-    scene.courant_number = 1;
-    expect_names(scene_warnings(scene).front(), {"method", "courant_number 1 ", "lower it"});
+    scene.courant_number = 0.45;
+    expect_names(scene_warnings(scene).front(), {"method", "courant_number 0.45 ", "lower it"});
 }
 
 TEST(SceneReports, warn_of_numbers_that_look_as_if_in_other_units) {
@@ -75,6 +75,56 @@ TEST(SceneReports, warn_of_numbers_that_look_as_if_in_other_units) {
          {std::pair(0, "kg/m^3"), std::pair(1, "in Pa"), std::pair(2, "in degrees"),
           std::pair(3, "locking_cure"), std::pair(4, "probes / far")})
         expect_names(warnings[static_cast<std::size_t>(k)], {word});
+}
+
+/// Sand that begins at rest under its weight, with a ratio of lateral to vertical stress.
+Scene resting(double lateral_ratio) {
+    Scene scene = scene_of(blocks({box("0, 0", "1, 1")}));
+    scene.effects = {gravity_effect(9.81),
+                     {"geostatic", {{"lateral_ratio", lateral_ratio}}},
+                     {"locking_cure", {}}};
+    scene.materials.front().model = "drucker_prager";
+    scene.materials.front().parameters.insert({{"cohesion", 0.0}, {"friction_angle", 30.0}});
+    return scene;
+}
+
+// (sqrt(3) - sin 30) / (sqrt(3) + 2 sin 30) = 0.451; Mohr-Coulomb's is 1/3.
+TEST(SceneReports, warn_of_ground_that_yields_at_rest) {
+    EXPECT_TRUE(scene_warnings(resting(0.452)).empty());
+    const auto warnings = scene_warnings(resting(0.45));
+    ASSERT_EQ(warnings.size(), 1u);
+    expect_names(warnings.front(), {"geostatic", "lateral_ratio 0.45", "rubber", "0.451"});
+}
+
+TEST(Scene, that_contradicts_itself_is_refused) {
+    const auto expect_refused = [](const Scene& scene, const std::vector<std::string>& words) {
+        try {
+            const Simulation simulation(scene, MPI_COMM_WORLD);
+            ADD_FAILURE() << words.front();
+        } catch (const std::invalid_argument& error) {
+            expect_names(error.what(), words);
+        }
+    };
+    Scene scene = resting(1);
+    scene.materials.push_back(elastic_material("stone", 2700, 1e6, 0.3));
+    scene.bodies.push_back(scene.bodies.front());
+    scene.bodies.back().material = "stone";
+    scene.bodies.back().contains = box_region({{2, 0}, {3, 1}});
+    scene.bodies.back().bounds = everywhere;
+    expect_refused(scene, {"effects / geostatic", "same density"});
+    scene = resting(1);
+    scene.effects.push_back({"buoyancy", {{"water_density", 1000.0}}});
+    scene.effects.push_back({"water_drag", {{"water_density", 1025.0}, {"drag_coefficient", 1.0}}});
+    expect_refused(scene, {"effects / water_drag", "'water_density'", "other effects"});
+    scene = resting(1);
+    scene.probes = {{"two\nlines", {0.5, 0.5, 0}}};
+    expect_refused(scene, {"probe 'two", "one line"});
+    scene = resting(1);
+    scene.bodies.front().points_per_cell = {1000000, 1000000, 1};
+    expect_refused(scene, {"bodies / block0", "1e10", "points_per_cell"});
+    expect_names(error_of(blocks({"shape: polygon, corners: [[0, 0], [2, 2], [2, 0], [0, 2]]"})),
+                 {"'corners'", "two edges cross"});
+    EXPECT_EQ(error_of(blocks({"shape: polygon, corners: [[0, 0], [2, 0], [2, 2], [1, 1]]"})), "");
 }
 
 // A frame: what is called stable gains no energy.

@@ -52,7 +52,7 @@ double imbalance_of(double seconds) {
     return most * size_of(MPI_COMM_WORLD) / sum;
 }
 
-/// Imbalance of time after a number of rebalances, 40 steps apart.
+/// Imbalance of time after a number of rebalances, 50 steps apart.
 double imbalance_after(int num_rebalances, bool learns) {
     Simulation simulation(dam_break(), MPI_COMM_WORLD);
     rrcb::CostModel model(MPI_COMM_WORLD, 4);
@@ -61,8 +61,8 @@ double imbalance_after(int num_rebalances, bool learns) {
                                                           : std::vector<double>());
     });
     double imbalance = 0;
-    for (int step = 0; step <= 40 * num_rebalances; ++step) {
-        if (step % 40 == 0) simulation.rebalance(balancer);
+    for (int step = 0; step <= 50 * num_rebalances; ++step) {
+        if (step % 50 == 0) simulation.rebalance(balancer);
         simulation.step();
         model.step(seconds_of(simulation.work_columns()), simulation.work_columns());
         imbalance = imbalance_of(seconds_of(simulation.work_columns()));

@@ -14,6 +14,8 @@ Region ball_region(const Vector& centre, double radius);
 Region half_space_region(const Vector& point, const Vector& normal);
 /// A polygon of the corners in their order, at least 3; in three dimensions at any z.
 Region polygon_region(std::vector<Vector> corners);
+/// Whether two edges of a polygon cross.
+bool crosses_itself(const std::vector<Vector>& corners);
 
 Region both_of(Region a, Region b);    ///< in a or in b
 Region without(Region a, Region b);    ///< in a but not in b

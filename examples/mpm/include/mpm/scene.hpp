@@ -48,7 +48,7 @@ struct Material {
 /// A side of the domain.
 struct Wall {
     enum Kind {
-        open,       ///< free; a point that reaches it has left the grid, which is an error
+        open,       ///< free; a point that passes it leaves the scene
         roller,     ///< no velocity across the wall
         fixed,      ///< no velocity
         frictional  ///< none into the wall, and Coulomb friction along it
@@ -76,9 +76,8 @@ struct Plane {
 
 /// An effect, with its parameters; see effect.hpp.
 struct Effect {
-    std::string name;  ///< of its kind, where that is not given
+    std::string name;
     Parameters parameters;
-    std::string kind = {};  ///< a scene may have several tractions
 };
 
 /// The point nearest to a position at the start, whose motion and stress are recorded.
@@ -108,13 +107,12 @@ struct Scene {
     std::vector<Probe> probes = {};
 
     ShapeFunction shape_function = ShapeFunction::linear;
-    double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing
-    /// Share of a full node's mass below which a node's acceleration strains points less
-    /// (move_nodes). 0: the least at which the time step is stable, and at least 0.01; none with
-    /// quadratic functions.
-    double least_node_mass = 0;
-    double end_time = 0;  ///< s
+    double courant_number = 0.4;  ///< time step * (wave speed + fastest speed) / grid spacing
+    double end_time = 0;          ///< s
 };
+
+/// An effect of a scene by name; null if the scene does not name it.
+const Effect* find_effect(const Scene& scene, const std::string& name);
 
 /// Checks a scene. Throws std::invalid_argument that names its fault.
 void validate(const Scene& scene);

@@ -15,7 +15,7 @@ namespace mpm {
 
 /// Sums over all points. In two dimensions all but `num_points` are per metre of depth.
 struct Totals {
-    std::int64_t num_points = 0;
+    std::int64_t num_points = 0;       ///< that are in the domain
     double mass = 0;                   ///< kg
     Vector center{};                   ///< of mass, m
     Vector momentum{};                 ///< kg m/s
@@ -45,7 +45,7 @@ class Simulation {
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
-    /// Advances by time_step(); throws when a point has left the grid.
+    /// Advances by time_step(). Points that pass an open side of the domain are gone.
     void step();
 
     /// Asks the balancer for a new decomposition and moves the points to their new owners. Returns
@@ -61,8 +61,8 @@ class Simulation {
     double time() const;       ///< s
     double time_step() const;  ///< of the next step, s
     std::int64_t step_count() const;
-    std::int64_t num_points() const;  ///< over all ranks
-    double max_speed() const;         ///< over all points, m/s
+    std::int64_t num_points() const;  ///< at the start, over all ranks
+    double max_speed() const;         ///< over all points, and nodes in the last step, m/s
     /// Processor time that this rank has spent on its own nodes and points in the last step, s:
     /// without communication, which waits for others.
     double work_seconds() const;

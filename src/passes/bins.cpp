@@ -1,4 +1,4 @@
-#include "search/bins.hpp"
+#include "passes/bins.hpp"
 
 #include "arithmetic/double_order.hpp"
 

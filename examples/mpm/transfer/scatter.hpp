@@ -1,0 +1,79 @@
+#pragma once
+
+#include "transfer/p2g.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace mpm {
+
+/// Finds the runs that reach a node with a field above 0, or a shared node: before the sum over the
+/// ranks it may have the field from another rank.
+template <int D>
+void find_runs_at(const std::vector<double>& field, std::span<const std::size_t> shared,
+                  const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
+                  std::vector<CellRun<D>>& found) {
+    std::vector<char> has_field(field.size());
+    for (std::size_t n = 0; n < field.size(); ++n) has_field[n] = field[n] > 0;
+    for (const std::size_t n : shared) has_field[n] = 1;
+    found.clear();
+    for (const CellRun<D>& run : runs) {
+        char any = 0;
+        visit_run_nodes<D>(patch, run, [&](std::size_t n) { any |= has_field[n]; });
+        if (any != 0) found.push_back(run);
+    }
+}
+
+/// Consecutive points that are skipped together if a column is 0 on all of them.
+inline constexpr std::size_t skipped_together = 32;
+
+/// First of the next `skipped_together` points, from `begin` on, on one of which a column is not 0;
+/// `size` if there are none.
+[[gnu::always_inline]] inline std::size_t next_filled(const double* values, std::size_t begin,
+                                                      std::size_t size) {
+    for (; begin < size; begin += skipped_together) {
+        const std::size_t end = std::min(begin + skipped_together, size);
+        std::uint64_t bits = 0;
+        for (std::size_t p = begin; p < end; ++p) bits |= std::bit_cast<std::uint64_t>(values[p]);
+        if (bits != 0) break;
+    }
+    return std::min(begin, size);
+}
+
+/// Adds a column of the points to a field of the nodes, with the weights of Transfers::scatter.
+template <int D, class Shape, int axis>
+MPM_VECTOR_CLONES void scatter_column(const std::array<const double*, D>& at,
+                                      std::span<const double> values, const Shape& shape,
+                                      std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
+                                      double* field) {
+    constexpr std::size_t N = Shape::num_nodes;
+    const auto offsets = node_offsets<D, N>(patch);
+    const double inverse_spacing = 1 / patch.shape.spacing;
+    std::size_t filled = next_filled(values.data(), 0, values.size());
+    for (const CellRun<D>& run : runs) {
+        if (run.end <= filled) continue;
+        std::array<double, power(N, D)> sums;
+        for (std::size_t n = 0; n < sums.size(); ++n) sums[n] = field[run.node + offsets[n]];
+        for (std::size_t p = run.begin; p < run.end; ++p) {
+            if (values[p] == 0) continue;
+            std::array<Weights<N>, D> weights;
+            unrolled<D>([&](auto a) __attribute__((always_inline)) {
+                weights[a] = shape.at((at[a][p] - run.corner[a]) * inverse_spacing);
+            });
+            if constexpr (axis >= 0)
+                for (std::size_t i = 0; i < N; ++i)
+                    weights[axis].value[i] = inverse_spacing * weights[axis].slope[i];
+            unrolled<power(N, D)>([&](auto n) __attribute__((always_inline)) {
+                const double weight = axis == squared_slopes ? squared_slope_of<D, N, n>(weights)
+                                                             : weight_of<D, N, n>(weights);
+                sums[n] += weight * values[p];
+            });
+        }
+        for (std::size_t n = 0; n < sums.size(); ++n) field[run.node + offsets[n]] = sums[n];
+        if (run.end >= filled + skipped_together)
+            filled = next_filled(values.data(), run.end, values.size());
+    }
+}
+
+}  // namespace mpm

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace rrcb {
+
+/// Contents of a saved state.
+enum class StateKind : std::uint64_t { cuts = 1, controller = 2, cost_model = 3 };
+
+/// State as words of 8 bytes, which are written or read by the same calls.
+///
+/// A head contains the format, the kind, the number of words and a checksum. Each word is reversed
+/// if the bytes come from a machine of the other byte order.
+class SavedState {
+  public:
+    /// Begins to write a state.
+    explicit SavedState(StateKind kind);
+    /// Begins to read one. Throws Error if the bytes are not a complete state of this kind.
+    SavedState(std::span<const std::byte> bytes, StateKind kind);
+
+    /// Writes or reads each value.
+    template <class... Values>
+    void each(Values&... values) {
+        (one(values), ...);
+    }
+
+    /// Writes or reads a count, at most `most`. Throws Error if a larger one is read.
+    template <class Count>
+    void count(Count& value, std::size_t most) {
+        one(value);
+        require_count(static_cast<std::uint64_t>(value), most);
+    }
+
+    /// Returns the number of words to read; without limit if it writes.
+    std::size_t num_left() const { return reads_ ? words_.size() - next_ : SIZE_MAX; }
+
+    std::vector<std::byte> bytes();
+
+  private:
+    template <class Value>
+    void one(Value& value) {
+        if constexpr (std::is_same_v<Value, double>) {
+            std::uint64_t word = std::bit_cast<std::uint64_t>(value);
+            exchange(word);
+            value = std::bit_cast<double>(word);
+        } else if constexpr (std::is_integral_v<Value> || std::is_enum_v<Value>) {
+            auto word = static_cast<std::uint64_t>(value);
+            exchange(word);
+            value = static_cast<Value>(word);
+        } else if constexpr (requires { value.store(*this); }) {
+            value.store(*this);
+        } else {
+            for (auto& element : value) one(element);
+        }
+    }
+
+    void exchange(std::uint64_t& word);
+    static void require_count(std::uint64_t value, std::size_t most);
+
+    std::vector<std::uint64_t> words_;
+    std::size_t next_;
+    bool reads_;
+};
+
+}  // namespace rrcb

@@ -1,0 +1,87 @@
+#include "controller/restart_mpi.hpp"
+
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/meeting_mpi.hpp"
+#include "collective/saved_state_mpi.hpp"
+#include "controller/controller_state_mpi.hpp"
+
+#include <rrcb/restart.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace rrcb {
+
+void Controller::State::carry(std::unique_ptr<StepMessage> message) noexcept {
+    // A restored record is taken by the next step.
+    std::ranges::copy_n(message_->all.begin(), StepMessage::num_doubles, message->all.begin());
+    message_ = std::move(message);
+}
+
+void Controller::State::wait(Participant& self) {
+    self.check(MPI_Wait(&request_, MPI_STATUS_IGNORE), "MPI_Wait");
+}
+
+std::array<double, 3> Controller::State::own_numbers() {
+    const auto [load, points] = point_cost.sums();
+    return {load, points, cost_};
+}
+
+void Controller::State::set_own_numbers(std::span<const double> numbers) {
+    point_cost = PointCost(numbers[0], numbers[1]);
+    cost_ = numbers[2];
+    has_bad_cost_ = !is_amount(cost_);
+}
+
+void Controller::State::store(SavedState& state) {
+    std::span record(message_->all.data(), StepMessage::num_doubles);
+    state.each(has_started_, record, is_due, counts_points, least_imbalance_, num_points_,
+               total_weight_, num_rebalances_, num_heeded_, rule_, num_followed_, root_asks_,
+               num_to_skip_);
+}
+
+void Controller::State::resume() {
+    has_started_ = true;
+    is_restored_ = true;
+}
+
+std::vector<std::byte> Restart::save(const Controller& controller) {
+    Controller::State& state = Controller::State::of(controller);
+    Participant self = state.enter(CallName::save);
+    return save_together(
+        StateKind::controller, state.own_numbers(), [&] { state.wait(self); },
+        [&](SavedState& to) {
+            int num_ranks = state.num_ranks();
+            to.each(num_ranks);
+            state.store(to);
+        },
+        self);
+}
+
+Controller Restart::load_controller(std::span<const std::byte> bytes, MPI_Comm comm) {
+    auto state = Controller::State::make(comm, CallName::load);
+    Participant self = state->enter(CallName::load);
+    self.attempt([&] {
+        SavedState from(bytes, StateKind::controller);
+        int num_ranks = 0;
+        from.each(num_ranks);
+        if (num_ranks != state->num_ranks()) return;
+        state->store(from);
+        state->set_own_numbers(numbers_of_rank(from, state->rank()));
+        if (state->has_started()) state->resume();
+    });
+    agree(self, {{"the saved state", hash_of_bytes(bytes)}});
+    return Controller(std::move(state));
+}
+
+std::vector<std::byte> save(const Controller& controller) {
+    return Restart::save(controller);
+}
+
+Controller detail::load_controller(std::span<const std::byte> bytes, MPI_Comm comm) {
+    return Restart::load_controller(bytes, comm);
+}
+
+}  // namespace rrcb

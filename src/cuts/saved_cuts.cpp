@@ -1,0 +1,44 @@
+#include "collective/saved_state.hpp"
+#include "options/rejection.hpp"
+#include "options/validation.hpp"
+
+#include <rrcb/restart.hpp>
+
+namespace rrcb {
+
+namespace {
+
+/// Writes or reads cuts.
+void store(SavedState& state, Cuts& cuts) {
+    state.each(cuts.dimension, cuts.num_parts, cuts.shape.group_size, cuts.shape.larger_below,
+               cuts.shape.dealt);
+    std::size_t num_cuts = cuts.tree.size();
+    state.count(num_cuts, state.num_left() / 3);
+    cuts.tree.resize(num_cuts);
+    for (Cut& cut : cuts.tree) state.each(cut.axis, cut.divides, cut.at);
+}
+
+}  // namespace
+
+std::vector<std::byte> save(const Cuts& cuts) {
+    check_tree(cuts);
+    require(is_whole(cuts), "these are only some of the cuts; call gather_cuts() before save()");
+    return locally([&] {
+        SavedState state(StateKind::cuts);
+        Cuts copy = cuts;
+        store(state, copy);
+        return state.bytes();
+    });
+}
+
+Cuts detail::load_cuts(std::span<const std::byte> bytes) {
+    return locally([&] {
+        SavedState state(bytes, StateKind::cuts);
+        Cuts cuts;
+        store(state, cuts);
+        check_tree(cuts);
+        return cuts;
+    });
+}
+
+}  // namespace rrcb

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "arithmetic/mix.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/exchange_mpi.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+
+/// Returns the rank that collects all that ranks know of a key.
+inline int home_of(std::uint64_t key, int num_ranks) {
+    return static_cast<int>(mix(key) % static_cast<std::uint64_t>(num_ranks));
+}
+
+/// A record and the rank that it comes from.
+template <class Record>
+using Arrived = std::pair<int, Record>;
+
+/// Sends each record to its rank; returns those received, by rank. Collective.
+template <class Record>
+std::vector<Arrived<Record>> exchange(std::span<const int> ranks, std::span<const Record> records,
+                                      std::initializer_list<Shared> arguments, Participant& self) {
+    Exchange exchange(sizeof(Record), mpi::size_of(self.comm));
+    self.attempt([&] {
+        exchange.fill(ranks, [&](std::size_t k, std::byte* place) {
+            std::memcpy(place, &records[k], sizeof(Record));
+        });
+    });
+    const std::size_t num_arrivals = exchange.announce(self);
+    std::vector<Arrived<Record>> arrived;
+    self.attempt([&] { arrived.reserve(num_arrivals); });
+    agree(self, arguments);
+    exchange.run(self);
+    exchange.for_each([&](int source, const std::byte* place) {
+        Record record;
+        std::memcpy(&record, place, sizeof record);
+        arrived.emplace_back(source, record);
+    });
+    return arrived;
+}
+
+/// Records for other ranks.
+template <class Record>
+struct Outgoing {
+    std::vector<int> ranks{};
+    std::vector<Record> records{};
+
+    void add(int rank, const Record& record) {
+        ranks.push_back(rank);
+        records.push_back(record);
+    }
+
+    std::vector<Arrived<Record>> send(Participant& self,
+                                      std::initializer_list<Shared> arguments = {}) const {
+        return exchange(std::span(ranks), std::span(records), arguments, self);
+    }
+};
+
+}  // namespace rrcb

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "arithmetic/infinity.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "options/rejection.hpp"
+
+#include <rrcb/ghosts.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <span>
+
+namespace rrcb {
+
+/// Distances at which points are needed: one for all, or one for each.
+struct Radii {
+    double same = 0;
+    std::optional<std::span<const double>> each{};
+    Needs needs = Needs::sender;
+
+    double of(LocalIndex point) const { return each ? (*each)[point] : same; }
+
+    double greatest() const {
+        if (!each) return same;
+        return each->empty() ? 0 : *std::ranges::max_element(*each);
+    }
+
+    /// Returns whether parts need the points within radii of their own.
+    bool are_of_receivers() const { return needs != Needs::sender; }
+    /// Returns the distance at which other ranks need a point because of its own radius.
+    double of_sender(LocalIndex point) const {
+        return needs == Needs::receiver ? -infinity : of(point);
+    }
+
+    void check(LocalIndex num_points) const {
+        const auto is_usable = [](double radius) { return std::isfinite(radius) && radius >= 0; };
+        require(needs >= Needs::sender && needs <= Needs::either,
+                "needs must be sender, receiver or either");
+        if (!each)
+            return require(
+                is_usable(same),
+                "the radius must be finite, 0 or more; give it or radii, one for each point");
+        require(std::isnan(same) || same == 0, "give one radius or radii, not both");
+        require(each->size() == num_points, "radii must have one entry for each point");
+        require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");
+    }
+
+    /// Returns the one radius, as an argument to compare.
+    Shared shared() const {
+        return {"the radius", std::bit_cast<std::uint64_t>(same + 0.0), !each};
+    }
+    Shared each_given(LocalIndex num_points) const {
+        return {"whether radii are given", each ? 1u : 0u, num_points > 0,
+                "give one for each point on every rank that has points, or on none"};
+    }
+};
+
+}  // namespace rrcb

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <rrcb/ghosts.hpp>
+#include <rrcb/plan.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace rrcb {
+
+/// Returns a number greater than those before, in this process.
+inline std::uint64_t next_stamp() {
+    static std::atomic<std::uint64_t> stamp{0};
+    return ++stamp;
+}
+
+/// The latest transfers with a communicator that moved points, as seen on this rank.
+///
+/// They may be of any points. Ghosts are stale if one by a plan made since took as many points as
+/// they have on every rank, and no older plan brought as many back later.
+class TransferLog {
+  public:
+    /// Notes a transfer; the same calls on every rank.
+    void add(const Plan& plan, bool moves) {
+        ++number_;
+        if (!moves || plan.stamp == 0) return;
+        auto place = std::ranges::find(transfers_, plan.stamp, &Transfer::plan);
+        if (place == transfers_.end())
+            place = std::ranges::min_element(transfers_, {}, &Transfer::number);
+        *place = {plan.stamp, number_, plan.num_points,
+                  plan.num_points - plan.export_indices.size() + plan.import_ranks.size()};
+    }
+
+    /// Returns the number of the latest transfer that may have taken the points of ghosts, or 0.
+    std::uint64_t overtaking(const GhostPlan& ghosts) const {
+        std::uint64_t back = 0;
+        std::uint64_t taken = 0;
+        for (const Transfer& transfer : transfers_) {
+            if (transfer.plan < ghosts.stamp && transfer.after == ghosts.num_points)
+                back = std::max(back, transfer.number);
+            if (transfer.plan > ghosts.stamp && transfer.before == ghosts.num_points)
+                taken = std::max(taken, transfer.number);
+        }
+        return taken > back ? taken : 0;
+    }
+
+  private:
+    struct Transfer {
+        std::uint64_t plan = 0;    ///< stamp of its plan
+        std::uint64_t number = 0;  ///< among all, the same on every rank
+        LocalIndex before = 0;
+        LocalIndex after = 0;
+    };
+
+    std::uint64_t number_ = 0;
+    std::array<Transfer, 16> transfers_{};
+};
+
+}  // namespace rrcb

@@ -1,0 +1,147 @@
+#pragma once
+
+#include "cuts/tree.hpp"
+#include "passes/collected.hpp"
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+
+/// Indices of collected points.
+using Entries = std::vector<LocalIndex>;
+
+/// Weight and number of points.
+struct Total {
+    double weight = 0;
+    double count = 0;
+
+    friend Total operator+(const Total& a, const Total& b) {
+        return {a.weight + b.weight, a.count + b.count};
+    }
+};
+
+/// The points exactly at a cut, which no cut separates. They form one row over all ranks, in the
+/// order of the ranks; the first of the row go below the cut.
+struct Lot {
+    double before = 0;   ///< weight of those on lower ranks
+    double below = 0;    ///< weight of the row that belongs below; 0: all of it stays above
+    double share = 0.5;  ///< share of the weight of the node that belongs below
+
+    /// Returns the side of a point of the row, the one that it makes less too heavy. `sum` is the
+    /// weight of the points of its rank before it.
+    bool is_above(double sum, double weight) const {
+        return before + sum + (1 - share) * weight > below;
+    }
+};
+
+/// The points of one rank in a lot, except those of weight 0.
+struct PointsInLot {
+    double weight = 0;       ///< of all
+    double first = 0;        ///< weight of the first of the row
+    double last = 0;         ///< weight of the last
+    double before_last = 0;  ///< weight of the others
+};
+
+/// The gap between the points on both sides of a cut; ranks join gaps by the maximum of each entry.
+///
+/// Along the axis number k of its order of positions, entry 2 k is minus the smallest coordinate
+/// above the cut and entry 2 k + 1 the largest below. Only points exactly at the cut along the axes
+/// before count; without any the entry is -infinity.
+using Gap = std::array<double, 2 * max_dimension>;
+
+/// Collected points of one rank on their way down a tree of cuts.
+///
+/// A point waits at the first node whose cut may end on either side of it, until this cut is found.
+/// Points that have reached their part are settled. Without intervals a search holds the entries of
+/// its nodes itself. Not collective.
+class CollectedTree {
+  public:
+    /// Collects all points, without intervals. Borrows `parts`. Throws std::bad_alloc.
+    CollectedTree(const Points& points, std::span<Part> parts, Collected memory);
+
+    /// Collects points as collect(). Borrows `points` and `parts`, which become those of the
+    /// settled points. Throws std::bad_alloc.
+    CollectedTree(const Points& points, const Cuts& cuts, std::span<const Bracket> intervals,
+                  bool has_parts, std::span<Part> parts, Collected memory);
+
+    const Collected& points() const { return collected_; }
+    Collected take() { return std::move(collected_); }
+
+    /// Returns the entries of all points.
+    Entries all() const;
+
+    /// Returns what waits at a node, with those of the arrived entries that may end on either side
+    /// of its cut; the others go on.
+    Entries admit(const Descent& at, const Entries& arrived);
+
+    /// Lets entries wait at their node again.
+    void put_back(std::size_t node, Entries&& entries) { waiting_[node] = std::move(entries); }
+
+    /// Returns the total of the points below a node, except those that were taken from there.
+    Total total_in(const Descent& at) const;
+
+    /// Returns an interval in which the cut of a node may still end.
+    const Bracket& interval(std::size_t node) const { return steps_[node].interval; }
+
+    /// Takes new intervals of nodes, and collects the points there once more. Returns the entries
+    /// of each node that are new to it.
+    std::vector<Entries> collect_more(std::span<const Wanted> wanted);
+
+    /// Returns the entries below and above the cut of a node.
+    std::pair<Entries, Entries> divide(Entries&& entries, const Cut& cut, const Lot& lot) const;
+
+    /// Sets the part of entries, without totals.
+    void settle(const Entries& entries, Part part);
+
+    /// Adds the weights of the parts at or below a node by `cuts`, with `entries` taken from it, to
+    /// `weights`, one for each part of the whole tree.
+    void count_parts(const Descent& at, const Entries& entries, const Cuts& cuts,
+                     std::span<double> weights) const;
+
+    /// Returns the weight of entries.
+    double weight_of(const Entries& entries) const;
+
+    /// Appends the positions and weights of entries.
+    void append(const Entries& entries, std::vector<double>& records) const;
+
+    /// Settles all points that still wait, by `cuts`.
+    void settle_rest(const Cuts& cuts);
+
+    /// Returns the points exactly at a cut, in the order in which divide() takes them below.
+    PointsInLot points_at(const Cut& cut, Entries entries) const;
+
+    /// Returns the gap of this rank's points in a node around its cut.
+    Gap gap_about(const Descent& at, const Entries& entries, const Cut& cut);
+
+  private:
+    /// What a point meets at a node.
+    struct Step {
+        Bracket interval{};
+        int axis = 0;
+        int lower_parts = 0;
+    };
+    /// A node on the way down, or a part.
+    struct Place {
+        std::size_t node = 0;
+        Part first_part = 0;
+        int num_parts = 1;
+    };
+    void add_steps(const Descent& at, const Cuts& cuts, std::span<const Bracket> intervals);
+    Place descend(Place at, LocalIndex i) const;
+    void settle(LocalIndex i, Part part);
+    void send(const Place& from, LocalIndex i);
+    void narrow(const Cut& cut, const Entries& entries, Gap& gap) const;
+    void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) const;
+
+    Points points_;  ///< borrowed
+    std::span<Part> parts_;
+    Collected collected_;
+    std::vector<Step> steps_;       ///< at each node
+    std::vector<Entries> waiting_;  ///< of each node
+    std::vector<Box> part_boxes_;   ///< of settled points; empty until a gap needs them
+};
+
+}  // namespace rrcb

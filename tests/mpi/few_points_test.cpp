@@ -1,0 +1,191 @@
+// Fewer points than parts, or little more: the sharp bound of the imbalance, the least number of
+// points of a part, and ranks without points in all that follows a balance.
+#include "../support/clouds.hpp"
+#include "../support/ranks.hpp"
+
+#include <rrcb/cost.hpp>
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+/// Points of all ranks, dealt to the ranks at random.
+struct FewPoints {
+    std::vector<double> all;          ///< interleaved, 2-D
+    std::vector<double> coordinates;  ///< of this rank
+    std::vector<double> weights;      ///< of this rank
+
+    explicit FewPoints(int count, bool is_skewed = false)
+        : all(test::uniform_cloud(static_cast<std::size_t>(count), 2, 7)) {
+        std::mt19937_64 engine(11);
+        weights.reserve(1);
+        for (std::size_t i = 0; i < all.size() / 2; ++i) {
+            const double u = test::uniform(engine, 1e-3);
+            if (static_cast<int>(engine() % static_cast<unsigned>(num_ranks())) != rank()) continue;
+            coordinates.insert(coordinates.end(), {all[2 * i], all[2 * i + 1]});
+            weights.push_back(is_skewed ? std::pow(u, -0.7) : 1);
+        }
+    }
+    Points points() const { return interleaved_points(coordinates, 2, weights); }
+};
+
+/// Returns the number of points of each part. Collective.
+std::vector<int> counts_of(const Balance& result) {
+    std::vector<int> counts(static_cast<std::size_t>(result.cuts.num_parts));
+    for (const Part part : result.parts) ++counts[static_cast<std::size_t>(part)];
+    MPI_Allreduce(MPI_IN_PLACE, counts.data(), result.cuts.num_parts, MPI_INT, MPI_SUM,
+                  MPI_COMM_WORLD);
+    return counts;
+}
+
+/// Returns the least imbalance of all ways to give points of one weight to three parts.
+double least_of_all(int count, const std::vector<double>& sizes) {
+    double least = HUGE_VAL;
+    for (int a = 0; a <= count; ++a)
+        for (int b = 0; a + b <= count; ++b) {
+            const std::vector<double> weights{1.0 * a, 1.0 * b, 1.0 * (count - a - b)};
+            least = std::min(least, imbalance(weights, sizes));
+        }
+    return least;
+}
+
+TEST(FewPoints, have_the_least_imbalance_of_whole_points) {
+    for (const int count : {1, 2, 15, 16, 17, 20, 39, 40, 1001}) {
+        const FewPoints few(count);
+        Options options;
+        options.num_parts = 16;
+        const Balance result = balance(few.points(), options, MPI_COMM_WORLD);
+        EXPECT_DOUBLE_EQ(result.report.details.least_imbalance, (count + 15) / 16 * 16.0 / count);
+        EXPECT_GE(result.report.imbalance, result.report.details.least_imbalance * (1 - 1e-12));
+    }
+    for (const std::vector<double>& sizes :
+         {std::vector<double>{3, 1, 2}, {1, 0, 1}, {1, 10, 0.01}, {2, 2, 2}}) {
+        for (const int count : {1, 2, 5, 7, 12}) {
+            const FewPoints few(count);
+            Options options;
+            options.num_parts = 3;
+            options.part_sizes = sizes;
+            const Report report = balance(few.points(), options, MPI_COMM_WORLD).report;
+            EXPECT_NEAR(report.details.least_imbalance, least_of_all(count, sizes), 1e-12) << count;
+        }
+    }
+}
+
+/// Expects that the parts with points are the first ones with a size, and have at least so many.
+void expect_filled(const Balance& result, const Options& options, int count) {
+    const std::vector<int> counts = counts_of(result);
+    bool is_over = false;
+    int num_filled = 0;
+    for (std::size_t part = 0; part < counts.size(); ++part) {
+        const bool may = options.part_sizes.empty() || options.part_sizes[part] > 0;
+        if (!may || is_over) {
+            EXPECT_EQ(counts[part], 0) << "part " << part;
+        }
+        if (!may) continue;
+        is_over = is_over || counts[part] == 0;
+        if (counts[part] == 0) continue;
+        ++num_filled;
+        EXPECT_GE(counts[part], std::min(options.min_points, count)) << "part " << part;
+    }
+    EXPECT_EQ(num_filled > 0, count > 0);
+    if (!result.report.part_weights.empty()) {
+        EXPECT_NEAR(result.report.imbalance,
+                    imbalance(result.report.part_weights, options.part_sizes), 1e-12);
+    }
+    // NaN, if nothing was counted.
+    EXPECT_FALSE(std::isgreater(result.report.details.least_imbalance,
+                                result.report.imbalance * (1 + 1e-12)));
+}
+
+TEST(MinPoints, are_in_each_part_or_none) {
+    int kind = 0;
+    for (const int count : {0, 1, 2, 39, 40})
+        for (const int least : {1, 3, 10, 64})
+            for (const bool is_skewed : {false, true}) {
+                const FewPoints few(count, is_skewed);
+                Options options;
+                options.num_parts = 16;
+                options.min_points = least;
+                options.refine = static_cast<Refine>(kind % 3);
+                options.tuning.central_parts = kind % 4 == 0 ? 2 : 4096;
+                options.cuts = kind % 8 == 0 ? HeldCuts::own : HeldCuts::whole;
+                if (kind % 5 == 0)
+                    options.part_sizes = {0, 1, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1};
+                if (kind++ % 7 == 0 && count > 1) options.axes.min_width = {1e-9, 1e-9};
+                SCOPED_TRACE(std::to_string(count) + " points, least " + std::to_string(least));
+                Balance result = balance(few.points(), options, MPI_COMM_WORLD);
+                expect_filled(result, options, count);
+                if (!is_skewed && options.part_sizes.empty() && count >= least) {
+                    EXPECT_EQ(16 - result.report.details.surplus_parts,
+                              std::min(16, count / least));
+                }
+                rebalance_into(result, few.points(), options, result.cuts, MPI_COMM_WORLD);
+                expect_filled(result, options, count);
+            }
+}
+
+TEST(MinPoints, change_nothing_if_all_parts_have_as_many) {
+    const FewPoints few(1001);
+    Options options;
+    options.num_parts = 16;
+    const Balance expected = balance(few.points(), options, MPI_COMM_WORLD);
+    options.min_points = 60;
+    const Balance result = balance(few.points(), options, MPI_COMM_WORLD);
+    EXPECT_EQ(result.parts, expected.parts);
+    EXPECT_EQ(result.report.imbalance, expected.report.imbalance);
+    EXPECT_EQ(result.report.details.surplus_parts, 0);
+}
+
+/// Pairs of all points within a distance.
+int pairs_within(const std::vector<double>& all, double radius) {
+    int pairs = 0;
+    for (std::size_t i = 0; i < all.size(); i += 2)
+        for (std::size_t j = 0; j < all.size(); j += 2)
+            pairs += i != j && std::hypot(all[i] - all[j], all[i + 1] - all[j + 1]) <= radius;
+    return pairs;
+}
+
+TEST(EmptyRanks, take_part_in_all_that_follows_a_balance) {
+    for (const int count : {0, 1, 2, 39, 40}) {
+        const FewPoints few(count);
+        Options options;
+        options.min_points = 10;
+        Controller controller(MPI_COMM_WORLD);
+        CostModel model(controller, 1);
+        const Balance result = balance(few.points(), options, MPI_COMM_WORLD);
+        controller.rebalanced(result.report, 1);
+        const std::vector<double> mine =
+            transfer(plan(result, MPI_COMM_WORLD), column(few.coordinates, 2), MPI_COMM_WORLD);
+        const Points points = interleaved_points(mine, 2);
+        const GhostPlan near = ghosts(result.cuts, points, {.radius = 0.3}, MPI_COMM_WORLD);
+        const std::vector<double> others = fetch(near, column(mine, 2), MPI_COMM_WORLD);
+        int pairs = 0;
+        for (std::size_t i = 0; i < mine.size(); i += 2)
+            for (const auto* from : {&mine, &others})
+                for (std::size_t j = 0; j < from->size(); j += 2)
+                    pairs += !(from == &mine && i == j) &&
+                             std::hypot(mine[i] - (*from)[j], mine[i + 1] - (*from)[j + 1]) <= 0.3;
+        MPI_Allreduce(MPI_IN_PLACE, &pairs, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+        EXPECT_EQ(pairs, pairs_within(few.all, 0.3)) << count;
+        const auto load = static_cast<double>(points.count);
+        for (int step = 0; step < 20; ++step) {
+            model.step(load, {{load}});
+            // The points cannot be divided better.
+            EXPECT_FALSE(controller.due()) << count << " points, step " << step;
+        }
+        EXPECT_EQ(model.weights(std::vector<double>(points.count, 1.0)).size(), points.count);
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -160,8 +160,8 @@ void report_near(Call& call) {
     const NearCuts& near = call.decision.verdict.near;
     ReportDetails& details = call.result.report.details;
     call.result.cuts.near = {near.reach, 0};
-    if (near.reach > 0) details.near_after = near.share;
-    if (near.reach > 0 && !call.decision.bisects) details.near_before = near.share;
+    details.near_after = near.share;
+    if (!call.decision.bisects) details.near_before = near.share;
 }
 
 Balance balance_from_scratch(const Points& points, const Options& given, bool may_keep,
@@ -282,7 +282,7 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     report_near(call);
     const double near_now = call.decision.verdict.near.share;
     const bool may_save = may_save_ghosts(call.options, previous.near, near_now);
-    call.result.cuts.near.share = reference(previous.near, near_now, may_save);
+    call.result.cuts.near.share = reference(previous.near, near_now, may_save, !is_kept);
     if (!may_save && !may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
         return std::move(call.result);
     return better(std::move(call.result), balance_from_scratch(points, given, false, self, {}),

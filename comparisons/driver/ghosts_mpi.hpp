@@ -44,6 +44,8 @@ class GhostCounter {
   public:
     GhostCounter(const Workload& workload, const GhostRule& rule, MPI_Comm comm);
 
+    double radius() const { return radius_; }
+
     /// parts: one of 0 ... num_parts - 1 for each point of the workload on this rank.
     Ghosts count(const std::vector<rrcb::Part>& parts, int num_parts) const;
 

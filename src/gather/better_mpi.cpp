@@ -33,16 +33,17 @@ bool may_save_ghosts(const Options& options, const NearCuts& chosen, double shar
            share_now > more * chosen.share;
 }
 
-double reference(const NearCuts& chosen, double share_now, bool was_compared) {
+double reference(const NearCuts& chosen, double share_now, bool was_compared, bool were_moved) {
     constexpr double sampling = 1.1;  // the share of a sample varies
-    constexpr double soon = 0.96;     // compares again if a little more is near
-    if (was_compared) return soon * share_now;
-    return chosen.share > 0 ? std::min(chosen.share, sampling * share_now) : share_now;
+    constexpr double ageing = 0.97;   // other axes may have become better
+    const bool is_new = was_compared || !(chosen.share > 0);
+    const double share = is_new ? share_now : std::min(chosen.share, sampling * share_now);
+    return were_moved ? ageing * share : share;
 }
 
 Balance better(Balance&& reused, Balance&& anew, const Points& points, const Options& options,
                bool compares_ghosts, const Participant& self) {
-    constexpr double fewer = 0.85;
+    constexpr double fewer = 0.92;
     const double tolerance = options.imbalance_tolerance;
     const double reach = anew.cuts.near.reach;
     bool gains = is_worth_moving(reused.report.imbalance, anew.report.imbalance, options);

@@ -67,7 +67,7 @@ TEST(TurningAxes, follow_a_flow_and_move_few_points) {
     std::vector<double> mine = flow.mine();
     Balance balance = rrcb::balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
     EXPECT_GT(balance.report.details.near_after, 0);
-    EXPECT_TRUE(std::isnan(balance.report.details.near_before));
+    EXPECT_EQ(balance.report.details.near_before, 0);
     std::size_t num_moved = 0;
     for (int step = 1; step <= 50; ++step) {
         const std::vector<Part> before = parts_of(flow, balance.cuts);
@@ -81,10 +81,10 @@ TEST(TurningAxes, follow_a_flow_and_move_few_points) {
         EXPECT_TRUE(balance.report.within_tolerance);
         if (step % 5 != 0) continue;
         const Cuts anew = rrcb::balance(points, options, MPI_COMM_WORLD).cuts;
-        EXPECT_LE(flow.num_ghosts(balance.cuts), 1.45 * flow.num_ghosts(anew)) << step;
+        EXPECT_LE(flow.num_ghosts(balance.cuts), 1.15 * flow.num_ghosts(anew)) << step;
     }
     // Three quarters of the points change parts once.
-    EXPECT_LT(num_moved, num_points);
+    EXPECT_LT(num_moved, 1.1 * num_points);
     for (const Cut& cut : balance.cuts.tree) EXPECT_EQ(cut.axis, 0);
 }
 

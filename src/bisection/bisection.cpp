@@ -34,6 +34,26 @@ double share_below_node(const Descent& at, const Options& options) {
     return share_below(sizes, at.lower_parts());
 }
 
+/// Replaces a cut across the longest axis by one across another that has clearly less weight near
+/// it.
+void choose_fewest(const Piece& piece, std::span<const int> axes, double target, const Box& extent,
+                   const Options& options, const NearWeight& near, Cut& best) {
+    // Few patches show the weight near a cut with a large error.
+    const double enough = nearly - 1 / std::sqrt(static_cast<double>(piece.domain.patches.size()));
+    double fewest = near(best);
+    for (const int axis : axes) {
+        if (axis == best.axis || !(extent.lower[axis] < extent.upper[axis])) continue;
+        const Profile profile(piece.domain, axis);
+        // A coarse estimate rules out most axes.
+        if (!(profile.weight_near(target, near.reach()) < (1 + enough) / 2 * fewest)) continue;
+        const Cut cut = weighted_quantile(profile, target, options.axes.plain);
+        const double fewer = near(cut);
+        if (!(fewer < enough * fewest)) continue;
+        best = cut;
+        fewest = fewer;
+    }
+}
+
 /// Returns the cut that leaves the share `below` (0 ... 1) of the piece's weight below it.
 Cut choose_cut(const Piece& piece, double below, Task& task) {
     const double weight = weight_of(piece.domain);
@@ -45,25 +65,12 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     // First: a side of size 0 is empty even if the domain has no weight.
     if (below >= 1) return plane(longest, infinity);
     if (below <= 0 || !(weight > 0)) return plane(longest, -infinity);
-    const auto cut_across = [&](int axis) {
-        return weighted_quantile(Profile(piece.domain, axis), below * weight,
-                                 task.options.axes.plain);
-    };
-    Cut best = cut_across(longest);
-    if (axes.size() == 1 || task.options.axes.order.is_longest()) return best;
-    const NearWeight near(piece.domain, extent, true);
-    double fewest = near(best);
-    // Few patches show the weight near a cut with a large error.
-    const double enough = nearly - 1 / std::sqrt(static_cast<double>(piece.domain.patches.size()));
-    for (const int axis : axes) {
-        if (axis == longest || !(extent.lower[axis] < extent.upper[axis])) continue;
-        const Cut cut = cut_across(axis);
-        const double fewer = near(cut);
-        if (!(fewer < enough * fewest)) continue;
-        best = cut;
-        fewest = fewer;
-    }
-    return best;
+    const double target = below * weight;
+    Cut cut = weighted_quantile(Profile(piece.domain, longest), target, task.options.axes.plain);
+    if (axes.size() > 1 && !task.options.axes.order.is_longest())
+        choose_fewest(piece, axes, target, extent, task.options,
+                      NearWeight(piece.domain, extent, mean_half_side(piece.domain)), cut);
+    return cut;
 }
 
 void bisect_piece(Piece piece, Task& task) {

@@ -97,7 +97,7 @@ Cut cut_in_places(const Piece& piece, double share, int longest, const Box& exte
     const double weight = weight_of(domain);
     const double bearable_error = bearable * std::min(share, 1 - share) * weight;
     const bool counts_near = !options.axes.order.is_longest();
-    const NearWeight near(domain, extent, counts_near);
+    const NearWeight near(domain, extent, counts_near ? mean_half_side(domain) : 0);
     Trial best{};
     double least = infinity;
     double fewest = infinity;

@@ -28,15 +28,12 @@ double weight_within(const StatisticalDomain& domain, const Cut& plane, double r
     return weight;
 }
 
-NearWeight::NearWeight(const StatisticalDomain& domain, const Box& extent, bool counts)
-    : domain_(domain), extent_(extent), reach_(counts ? mean_half_side(domain) : 0) {}
-
 double NearWeight::operator()(const Cut& cut) const {
     const int axis = cut.axis;
     const double at = cut.at[axis];
     const double half_extent = extent_.upper[axis] / 2 - extent_.lower[axis] / 2;
     if (!std::isfinite(at)) return weight_of(domain_);
-    if (!is_known()) return weight_of(domain_) / half_extent;
+    if (!(reach_ > 0)) return weight_of(domain_) / half_extent;
     return weight_within(domain_, cut, reach_);
 }
 

@@ -14,15 +14,15 @@ double weight_within(const StatisticalDomain& domain, const Cut& plane, double r
 /// Estimates the ghosts that a cut of a domain costs, by the weight near it: within half a mean
 /// side of the patches, a length that is the same across all axes.
 ///
-/// If the patches have no sides, or if `counts` is false, the domain is taken as an even box: the
-/// weight over its extent across the cut. Then the longest axis costs the least.
+/// If `reach` is 0, as of patches without sides, the domain is taken as an even box: the weight
+/// over its extent across the cut. Then the longest axis costs the least.
 class NearWeight {
   public:
     /// `extent` is the box of the domain, which is borrowed.
-    NearWeight(const StatisticalDomain& domain, const Box& extent, bool counts);
+    NearWeight(const StatisticalDomain& domain, const Box& extent, double reach)
+        : domain_(domain), extent_(extent), reach_(reach) {}
 
-    /// Returns true if the patches have sides.
-    bool is_known() const { return reach_ > 0; }
+    double reach() const { return reach_; }
 
     /// Returns the whole weight if all of it is on one side.
     double operator()(const Cut& cut) const;

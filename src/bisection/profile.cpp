@@ -62,4 +62,18 @@ Profile::Range Profile::range_of(double target) const {
     return range;
 }
 
+double Profile::weight_near(double target, double reach) const {
+    if (weights_below_.empty() || !(reach > 0)) return 0;
+    const auto passed = std::ranges::lower_bound(weights_below_, target) - weights_below_.begin();
+    const double reach_in_bins = num_profile_bins * (reach / (upper_ - lower_));
+    const auto below = [&](double edge) {
+        const double inside = std::clamp(edge, 0.0, static_cast<double>(num_profile_bins));
+        const auto first = std::min(num_profile_bins - 1, static_cast<std::size_t>(inside));
+        return std::lerp(weights_below_[first], weights_below_[first + 1],
+                         inside - static_cast<double>(first));
+    };
+    const double middle = static_cast<double>(passed) - 0.5;
+    return below(middle + reach_in_bins) - below(middle - reach_in_bins);
+}
+
 }  // namespace rrcb

@@ -27,6 +27,9 @@ class Profile {
     /// Returns a range in which the cumulative weight is likely to pass the target.
     Range range_of(double target) const;
 
+    /// Estimates the weight within `reach` of the cut with `target` below it; 0 if not known.
+    double weight_near(double target, double reach) const;
+
   private:
     const StatisticalDomain* domain_;
     int axis_;

@@ -43,7 +43,7 @@ void choose_fewest(const Piece& piece, std::span<const int> axes, double target,
     double fewest = near(best);
     for (const int axis : axes) {
         if (axis == best.axis || !(extent.lower[axis] < extent.upper[axis])) continue;
-        const Profile profile(piece.domain, axis);
+        const Profile profile(piece.domain, axis, 16);
         // A coarse estimate rules out most axes.
         if (!(profile.weight_near(target, near.reach()) < (1 + enough) / 2 * fewest)) continue;
         const Cut cut = weighted_quantile(profile, target, options.axes.plain);

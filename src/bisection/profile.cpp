@@ -11,7 +11,6 @@ namespace rrcb {
 namespace {
 
 constexpr std::size_t num_profile_bins = 128;
-constexpr std::size_t few_patches = 256;
 
 }  // namespace
 
@@ -19,8 +18,9 @@ bool Profile::Range::is_limited() const {
     return std::isfinite(lower) || std::isfinite(upper);
 }
 
-Profile::Profile(const StatisticalDomain& domain, int axis) : domain_(&domain), axis_(axis) {
-    if (domain.patches.size() < few_patches) return;
+Profile::Profile(const StatisticalDomain& domain, int axis, std::size_t few)
+    : domain_(&domain), axis_(axis) {
+    if (domain.patches.size() < few) return;
     lower_ = infinity;
     upper_ = -infinity;
     for (const Patch& patch : domain.patches) {

@@ -2,6 +2,7 @@
 
 #include <rrcb/method/statistical_domain.hpp>
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace rrcb {
 /// the patches that the search for a cut visits.
 class Profile {
   public:
-    /// The domain is borrowed.
-    Profile(const StatisticalDomain& domain, int axis);
+    /// The domain is borrowed. With fewer patches than `few` nothing is known.
+    Profile(const StatisticalDomain& domain, int axis, std::size_t few = 256);
 
     const StatisticalDomain& domain() const { return *domain_; }
     int axis() const { return axis_; }

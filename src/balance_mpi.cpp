@@ -7,6 +7,7 @@
 #include "collective/machines_mpi.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
+#include "gather/better_mpi.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
@@ -159,6 +160,14 @@ void keep(Call& call, Participant& self) {
     call.result.cuts = std::move(kept.cuts);
 }
 
+void report_near(Call& call) {
+    const NearCuts& near = call.decision.verdict.near;
+    ReportDetails& details = call.result.report.details;
+    call.result.cuts.near = {near.reach, 0};
+    details.near_after = near.share;
+    if (!call.decision.bisects) details.near_before = near.share;
+}
+
 Balance balance_from_scratch(const Points& points, const Options& given, bool may_keep,
                              Participant& self, std::vector<Part>&& memory) {
     Call call(points, given.observer, self, std::move(memory));
@@ -174,6 +183,7 @@ Balance balance_from_scratch(const Points& points, const Options& given, bool ma
     if (is_kept) keep(call, self);
     if (call.is_spread) hold_cuts(call.points, options, call.result, self);
     complete(call);
+    report_near(call);
     return std::move(call.result);
 }
 
@@ -210,7 +220,7 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
                                call.result.parts, self.comm);
     } else {
         call.settlement.prepare(options, false, are_cuts_limited(options), self);
-        add_totals(earlier.totals, call.mine);
+        add_totals(earlier.totals, near_share(cuts, points, cuts.near.reach, 1024), call.mine);
     }
 }
 
@@ -253,15 +263,6 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
     call.settlement.refine(call.points, box, decision, call.result, self);
 }
 
-/// Returns the better balance; that from scratch only if its gain is worth moving points.
-Balance better(Balance&& reused, Balance&& anew, const Options& options) {
-    const int rounds = reused.report.details.rounds + anew.report.details.rounds;
-    const bool gains = is_worth_moving(reused.report.imbalance, anew.report.imbalance, options);
-    Balance best = gains ? std::move(anew) : std::move(reused);
-    best.report.details.rounds = rounds;
-    return best;
-}
-
 Balance balance_from_earlier(const Points& points, const Options& given, const Cuts& previous,
                              bool may_keep, Participant& self, std::vector<Part>&& memory) {
     Call call(points, given.observer, self, std::move(memory));
@@ -283,10 +284,14 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     if (!is_kept) settle_from_earlier(call, earlier, self);
     complete(call);
     const Report& report = call.result.report;
-    if (!may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
+    report_near(call);
+    const double near_now = call.decision.verdict.near.share;
+    const bool may_save = may_save_ghosts(call.options, previous.near, near_now);
+    call.result.cuts.near.share = reference(previous.near, near_now, may_save, !is_kept);
+    if (!may_save && !may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
         return std::move(call.result);
     return better(std::move(call.result), balance_from_scratch(points, given, false, self, {}),
-                  call.options);
+                  points, call.options, may_save, self);
 }
 
 }  // namespace

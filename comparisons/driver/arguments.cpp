@@ -49,7 +49,7 @@ const std::map<std::string, std::string>& documentation() {
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
         {"drift", "fraction of its extent by which the cloud moves between calls; 0"},
-        {"radius", "cut-off of the counted ghosts; twice the mean spacing of the points"},
+        {"radius", "cut-off of the counted ghosts; twice the median distance to the nearest point"},
         {"ranks-per-node", "ranks on each machine, to count ghosts between machines"},
         {"only", "of a scene: calls on its snapshots or simulations; both"},
         {"out", "folder of the results; comparisons/out"},

@@ -124,6 +124,52 @@ Vector spiral_point(const Cloud&, GlobalCount, CounterRandom& random) {
             100 * along + width * normal(random)};
 }
 
+/// Even in x and y, within a height; in 2-D a layer.
+Vector below(const Cloud& cloud, double x, double height, CounterRandom& random) {
+    const double z = random.uniform(0, height);
+    return cloud.dimension == 2 ? Vector{x, z, 0} : Vector{x, random.uniform(0, side), z};
+}
+
+Vector slab_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
+    return below(cloud, random.uniform(0, side), side / 10, random);
+}
+
+Vector wave_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
+    const double x = random.uniform(0, side);
+    return below(cloud, x, 6 + 4 * std::sin(4 * std::numbers::pi * x / side), random);
+}
+
+/// A layer of 3 m; one point in 200 is a drop above it.
+Vector drops_point(const Cloud& cloud, GlobalCount index, CounterRandom& random) {
+    return below(cloud, random.uniform(0, side), index % 200 == 0 ? side : 3, random);
+}
+
+/// A triangle or cone of 100 m x 25 m; one point in 100 is a grain elsewhere.
+Vector pile_point(const Cloud& cloud, GlobalCount index, CounterRandom& random) {
+    if (index % 100 == 0) return below(cloud, random.uniform(0, side), side, random);
+    const double rest = std::pow(1 - random.uniform(), 1.0 / cloud.dimension);
+    const double z = side / 4 * (1 - rest);
+    const double t = random.uniform(-1, 1);
+    if (cloud.dimension == 2) return {side / 2 * (1 + rest * t), z, 0};
+    const double radius = side / 2 * rest * std::sqrt(std::abs(t));
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    return {side / 2 + radius * std::cos(angle), side / 2 + radius * std::sin(angle), z};
+}
+
+/// A layer of 4 m across a diagonal of the square or cube.
+Vector diagonal_point(const Cloud&, GlobalCount, CounterRandom& random) {
+    const double along = random.uniform(0, side);
+    const double across = random.uniform(-1.4, 1.4);
+    return {along + across, along - across, random.uniform(0, side)};
+}
+
+/// Dense at the faces of a corner.
+Vector cusps_point(const Cloud& cloud, GlobalCount index, CounterRandom& random) {
+    Vector x = uniform_point(cloud, index, random);
+    for (double& coordinate : x) coordinate = side * std::pow(coordinate / side, 4);
+    return x;
+}
+
 GlobalCount lattice_side(const Cloud& cloud) {
     const auto full = [&](GlobalCount n) { return cloud.dimension == 2 ? n * n : n * n * n; };
     const double estimate = std::pow(static_cast<double>(cloud.num_points), 1.0 / cloud.dimension);
@@ -148,9 +194,11 @@ struct Generator {
 };
 
 constexpr Generator generators[] = {
-    {"uniform", uniform_point}, {"slope", slope_point},     {"clusters", cluster_point},
-    {"lattice", lattice_point}, {"run_out", run_out_point}, {"polygon", polygon_point},
-    {"shell", shell_point},     {"spiral", spiral_point},
+    {"uniform", uniform_point},   {"slope", slope_point},     {"clusters", cluster_point},
+    {"lattice", lattice_point},   {"run_out", run_out_point}, {"polygon", polygon_point},
+    {"shell", shell_point},       {"spiral", spiral_point},   {"slab", slab_point},
+    {"wave", wave_point},         {"drops", drops_point},     {"pile", pile_point},
+    {"diagonal", diagonal_point}, {"cusps", cusps_point},
 };
 
 }  // namespace

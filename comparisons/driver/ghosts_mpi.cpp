@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -42,19 +43,42 @@ struct FinitePoints {
     rrcb::Box box;
 };
 
-/// Side of a cube of which as many as there are points fill the box, on the axes on which points
-/// differ; 1 if all coincide, so that any distance does.
-double mean_spacing(const rrcb::Box& box, std::size_t mine, MPI_Comm comm) {
-    auto count = static_cast<std::int64_t>(mine);
-    MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, comm);
-    double sum_of_logs = -std::log(static_cast<double>(count));
-    int num_axes = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!(box.upper[axis] > box.lower[axis])) continue;
-        sum_of_logs += std::log(box.upper[axis] - box.lower[axis]);
-        ++num_axes;
+/// Returns some positions of all ranks, evenly picked in the order of ranks and points.
+std::vector<rrcb::Vector> sample_of(const std::vector<rrcb::Vector>& mine, MPI_Comm comm) {
+    constexpr std::int64_t most = 128;
+    const auto count = static_cast<std::int64_t>(mine.size());
+    std::int64_t end = 0;
+    MPI_Scan(&count, &end, 1, MPI_INT64_T, MPI_SUM, comm);
+    std::int64_t all = 0;
+    MPI_Allreduce(&count, &all, 1, MPI_INT64_T, MPI_SUM, comm);
+    std::vector<rrcb::Vector> sample(static_cast<std::size_t>(std::min(most, all)));
+    for (std::size_t k = 0; k < sample.size(); ++k) {
+        const std::int64_t i =
+            static_cast<std::int64_t>(k) * all / std::ssize(sample) - (end - count);
+        if (i >= 0 && i < count) sample[k] = mine[static_cast<std::size_t>(i)];
     }
-    return num_axes > 0 ? std::exp(sum_of_logs / num_axes) : 1;
+    MPI_Allreduce(MPI_IN_PLACE, sample.data(), 3 * static_cast<int>(sample.size()), MPI_DOUBLE,
+                  MPI_SUM, comm);
+    return sample;
+}
+
+/// Returns the median distance of some points to the nearest one elsewhere; 1 if all coincide, so
+/// that any distance does. Points far from all others do not matter.
+double median_spacing(const std::vector<rrcb::Vector>& mine, MPI_Comm comm) {
+    const std::vector<rrcb::Vector> sample = sample_of(mine, comm);
+    std::vector<double> nearest(sample.size(), std::numeric_limits<double>::infinity());
+    for (const rrcb::Vector& x : mine)
+        for (std::size_t k = 0; k < sample.size(); ++k) {
+            const double distance =
+                std::hypot(x[0] - sample[k][0], x[1] - sample[k][1], x[2] - sample[k][2]);
+            if (distance > 0) nearest[k] = std::min(nearest[k], distance);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, nearest.data(), static_cast<int>(nearest.size()), MPI_DOUBLE,
+                  MPI_MIN, comm);
+    if (nearest.empty()) return 1;
+    const auto middle = nearest.begin() + std::ssize(nearest) / 2;
+    std::ranges::nth_element(nearest, middle);
+    return std::isfinite(*middle) ? *middle : 1;
 }
 
 /// Cubes over a box, in layers across its longest axis.
@@ -209,7 +233,7 @@ GhostCounter::GhostCounter(const Workload& workload, const GhostRule& rule, MPI_
     : comm_(comm), rule_(rule) {
     const FinitePoints mine(workload.points());
     const rrcb::Box box = joined_box(mine.box, comm);
-    radius_ = rule.radius.value_or(2 * mean_spacing(box, mine.positions.size(), comm));
+    radius_ = rule.radius.value_or(2 * median_spacing(mine.positions, comm));
     const CubeGrid grid(box, radius_);
     num_layers_ = grid.num_layers;
     const int num_ranks = size_of(comm);

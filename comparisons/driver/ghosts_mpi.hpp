@@ -14,7 +14,7 @@ namespace comparisons {
 
 /// Cut-off and machines that ghosts are counted by.
 struct GhostRule {
-    std::optional<double> radius{};       ///< above 0; without it twice the mean spacing
+    std::optional<double> radius{};       ///< above 0; without it twice the median spacing
     std::optional<int> ranks_per_node{};  ///< machines hold so many consecutive parts
 };
 
@@ -43,6 +43,8 @@ struct PointInCube {
 class GhostCounter {
   public:
     GhostCounter(const Workload& workload, const GhostRule& rule, MPI_Comm comm);
+
+    double radius() const { return radius_; }
 
     /// parts: one of 0 ... num_parts - 1 for each point of the workload on this rank.
     Ghosts count(const std::vector<rrcb::Part>& parts, int num_parts) const;

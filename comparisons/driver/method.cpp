@@ -23,11 +23,9 @@ struct Key {
     std::string_view parameter;
 };
 
-constexpr Key keys[] = {{"mesh", "RRCB_SUPPORT_MESH"},
-                        {"refine", "RRCB_REFINE"},
-                        {"tol", "IMBALANCE_TOL"},
-                        {"central", "RRCB_CENTRAL_PARTS"},
-                        {"machines", "RRCB_MACHINES"}};
+constexpr Key keys[] = {{"mesh", "RRCB_SUPPORT_MESH"}, {"refine", "RRCB_REFINE"},
+                        {"tol", "IMBALANCE_TOL"},      {"central", "RRCB_CENTRAL_PARTS"},
+                        {"machines", "RRCB_MACHINES"}, {"axes", "RRCB_AXES"}};
 
 /// A parameter in brackets of the paper's methods.
 struct PaperKey {
@@ -113,12 +111,15 @@ const std::vector<Entry>& entries() {
          "RRCB",
          of_paper(PaperDomain::sampled),
          {"mesh", "cut", "k", "fraction", "seed"}},
-        {"rrcb", "RRCB", Options{}, {"mesh", "refine", "tol", "reuse", "central", "machines"}},
-        {"rrcb-exact", "RRCB", refined(Refine::exact), {"mesh"}},
+        {"rrcb",
+         "RRCB",
+         Options{},
+         {"mesh", "refine", "tol", "reuse", "central", "machines", "axes"}},
+        {"rrcb-exact", "RRCB", refined(Refine::exact), {"mesh", "axes"}},
         {"rrcb-arrays",
          on_arrays,
          Options{},
-         {"mesh", "refine", "tol", "reuse", "central", "machines"}},
+         {"mesh", "refine", "tol", "reuse", "central", "machines", "axes"}},
     };
     return table;
 }

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from methods import parse
 from results import Results, cases
 
-METHOD = "rrcb"  # whose boxes points leave
+BASE, METHOD = "zoltan-rcb", "rrcb"  # the second one's boxes points leave
 
 
 def draw_all(results: Results) -> dict[str, str]:
@@ -158,6 +158,41 @@ def draw_moving_boxes(results: Results) -> Figure | None:
     return figure
 
 
+def draw_ghosts(results: Results) -> Figure | None:
+    """Points by part at the end of a scene, and in black those that are ghosts of another part, because
+    one of its points is within twice the median distance to the nearest point."""
+    end = results.table[results.table["workload"].str.endswith("-end")] if len(results.table) else results.table
+    found = [
+        (row, points, results.data("boxes", row.workload, row.method))
+        for row in end.itertuples()
+        if row.method in (BASE, METHOD)
+        and len(points := results.data("points", row.workload, row.method))
+        and "z" not in points
+    ]
+    if len(found) != 2:
+        return None
+    height = 6 * plot.length_ratio([points for _, points, _ in found]) + 0.6
+    figure, grid = plot.panels(1, 2, 12, height, sharex=True, sharey=True)
+    for axes, (row, points, boxes) in zip(grid[0], found):
+        draw_part_boxes(axes, points, boxes, points)
+        near = points[are_near_others(points)]
+        axes.scatter(near["x"], near["y"], c="black", s=6, linewidths=0)
+        axes.set_title(f"{row.method}: {row.ghosts:,.0f} ghosts")
+    return figure
+
+
+def are_near_others(points: pd.DataFrame) -> np.ndarray:
+    """Of each point, whether one of another part is within twice the median distance to the nearest."""
+    x, parts = points[["x", "y"]].to_numpy(), points["part"].to_numpy()
+    squared = lambda some: ((some[:, None] - x) ** 2).sum(axis=2)  # noqa: E731
+    spacings = squared(x[:: len(x) // 128 + 1])
+    radius = 4 * np.median(np.where(spacings > 0, spacings, np.inf).min(axis=1))
+    chunks = np.array_split(np.arange(len(x)), len(x) // 256 + 1)
+    return np.concatenate([
+        ((squared(x[k]) <= radius) & (parts[k][:, None] != parts)).any(axis=1) for k in chunks
+    ])  # fmt: skip
+
+
 def parts_in(points: pd.DataFrame, boxes: pd.DataFrame) -> np.ndarray:
     """The part whose box contains each point; the outermost boxes have no end outwards."""
     found = np.zeros(len(points), int)
@@ -196,6 +231,7 @@ def draw_rank_times(results: Results) -> Figure | None:
 PICTURES = {
     "price.png": draw_price,
     "parts.png": draw_parts,
+    "ghosts.png": draw_ghosts,
     "moving_boxes.png": draw_moving_boxes,
     "unbalance_history.png": draw_unbalance,
     "rank_times.png": draw_rank_times,

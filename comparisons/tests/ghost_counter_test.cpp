@@ -108,17 +108,21 @@ TEST(GhostCounter, counts_what_every_pair_of_points_tells) {
     }
 }
 
-TEST(GhostCounter, takes_twice_the_mean_spacing) {
-    // 40 points, ten rows of four, in a box of 3 by 9.
+TEST(GhostCounter, takes_twice_the_median_spacing) {
+    // 40 points, ten rows of four, and some far from all others.
     Partition all{{}, {}, 2};
     for (int i = 0; i < 40; ++i) {
         all.points.push_back({i % 4 + 0.0, i / 4 + 0.0, 0});
         all.parts.push_back(i / 20);
     }
+    for (const double far : {1e3, 2e3, 3e3}) {
+        all.points.push_back({far, far, 0});
+        all.parts.push_back(0);
+    }
     const Ghosts ghosts = counted(all, {});
-    EXPECT_NEAR(ghosts.radius, 2 * std::sqrt(27.0 / 40), 1e-12);
-    // 1.64 reaches the row on the other side of the cut, and no second one.
-    EXPECT_EQ(ghosts.sum, 8);
+    EXPECT_EQ(ghosts.radius, 2);
+    // Two rows on each side of the cut.
+    EXPECT_EQ(ghosts.sum, 16);
     EXPECT_FALSE(ghosts.off_machine);
 }
 

@@ -115,7 +115,7 @@ TEST(Method, names_what_is_unknown) {
               "--methods: unknown method 'magic'; choose from: " + method_names());
     EXPECT_EQ(error_of("rrcb[k=2]"),
               "--methods: rrcb has no parameter 'k'; it takes mesh, refine, tol, reuse, central, "
-              "machines");
+              "machines, axes");
     EXPECT_EQ(error_of("zoltan-rib[mesh=2]"),
               "--methods: zoltan-rib has no parameter 'mesh'; it takes none");
     EXPECT_EQ(error_of("rrcb[mesh=2"), "--methods: 'rrcb[mesh=2' lacks the closing bracket");

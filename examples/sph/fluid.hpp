@@ -28,9 +28,11 @@ inline Particles share_of(MPI_Comm comm) {
     MPI_Comm_size(comm, &num_ranks);
     Particles own;
     for (int k = 1600 * rank / num_ranks; k < 1600 * (rank + 1) / num_ranks; ++k) {
+        own.densities.push_back(1);
         for (const double x : {(k / 40 + 0.5) / 40, (k % 40 + 0.5) / 40}) {
             own.positions.push_back(x + 0.1 * std::sin(2 * pi * x));
             own.velocities.push_back(1);
+            own.densities.back() /= 1 + 0.2 * pi * std::cos(2 * pi * x);
         }
         own.numbers.push_back(k);
     }

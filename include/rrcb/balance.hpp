@@ -25,6 +25,10 @@ struct ReportDetails {
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
     int surplus_parts = 0;          ///< parts that stay empty: more than points, or by min_points
+    /// Share of the weight near the earlier cuts, Cuts::near: an estimate of ghosts. 0 if not known,
+    /// as without earlier cuts.
+    double near_before = 0;
+    double near_after = 0;  ///< of the new cuts
 };
 
 /// Result of a call; the same on every rank.
@@ -57,7 +61,8 @@ struct Balance {
 /// Collective. The same input on the same ranks gives the same bits.
 /// @param points   of this rank, also none; the same dimension on every rank
 /// @param options  the same on every rank
-/// @param previous cuts of an earlier call: few points change parts. Empty cuts, `{}`: from scratch
+/// @param previous cuts of an earlier call: few points change parts, unless others save many ghosts.
+/// Empty cuts, `{}`: from scratch
 /// @param comm     duplicated by the first call; the duplicate is freed with it
 /// @return the cuts, the part of each point of this rank and a report
 /// Throws Error on every rank alike: for unusable coordinates, weights or arrays, options out of

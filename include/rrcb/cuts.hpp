@@ -30,6 +30,13 @@ struct Cut {
 /// @param dimension of the points, 1 to 3
 RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 
+/// Points near the cuts when their axes were chosen; 0 if not known.
+struct NearCuts {
+    double reach = 0;  ///< distance within which a point is near
+    double share = 0;  ///< of the weight, from a sample, since the first call from these cuts; a
+                       ///< point near two cuts counts twice
+};
+
 /// The tree of a recursive bisection into `num_parts` parts; bit-identical on every rank, except
 /// `points`.
 ///
@@ -54,6 +61,9 @@ struct Cuts {
     std::uint64_t group = 0;
     /// Hash of this rank's points of the balance, with which ghosts() recognizes them; 0: none.
     std::uint64_t points = 0;
+    /// With which rebalance() notices that other axes would save ghosts. Set it to {} to keep the
+    /// axes.
+    NearCuts near{};
 };
 
 /// Returns true if cuts are the complete tree, the same on every rank, so that look-ups work

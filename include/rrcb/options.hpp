@@ -37,11 +37,23 @@ struct GridLines {
     double spacing = 0;  ///< > 0 and finite
 };
 
-/// Axis that each box is cut across: its own longest one, or one that the caller chooses.
+/// Rule for the axis that each box is cut across. Axes within a tenth of the best are equal to it;
+/// the first of them is taken.
 class AxisOrder {
   public:
-    /// Cuts each box across its own longest axis.
+    /// As fewest_ghosts().
     AxisOrder() = default;
+
+    /// Cuts each box across the axis with the least weight near the cut, as estimated: those points
+    /// are ghosts of the other side. If many ranks make the parts, as longest().
+    static AxisOrder fewest_ghosts() { return {}; }
+
+    /// Cuts each box across its own longest axis, as Zoltan's RCB.
+    static AxisOrder longest() { return {Kind::longest, {}}; }
+
+    /// As fewest_ghosts(), across some axes only: among({2}) makes layers. Names one or more axes
+    /// of the points, the preferred ones first.
+    static AxisOrder among(std::vector<int> axes) { return {Kind::among, std::move(axes)}; }
 
     /// Makes all cuts across the first of `axes`, then all across the next, ...; each axis of the
     /// points is named once.
@@ -50,25 +62,29 @@ class AxisOrder {
     /// Makes cut k of Cuts::tree across axes[k]; one axis for each cut, num_parts - 1.
     static AxisOrder given(std::vector<int> axes) { return {Kind::given, std::move(axes)}; }
 
-    /// Returns true if made by grouped(). Not collective, as all of these.
+    /// Returns true if made by longest(). Not collective, as all of these.
+    bool is_longest() const { return kind_ == Kind::longest; }
+    /// Returns true if made by among().
+    bool is_among() const { return kind_ == Kind::among; }
+    /// Returns true if made by grouped().
     bool is_grouped() const { return kind_ == Kind::grouped; }
     /// Returns true if made by given().
     bool is_given() const { return kind_ == Kind::given; }
-    /// Returns the axes that it was made with; none for the longest.
+    /// Returns the axes that it was made with; none for fewest_ghosts() and longest().
     const std::vector<int>& axes() const { return axes_; }
 
   private:
-    enum class Kind { longest, grouped, given };
+    enum class Kind { fewest_ghosts, longest, among, grouped, given };
 
     AxisOrder(Kind kind, std::vector<int> axes) : kind_(kind), axes_(std::move(axes)) {}
 
-    Kind kind_ = Kind::longest;
+    Kind kind_ = Kind::fewest_ghosts;
     std::vector<int> axes_;
 };
 
 /// Axes that are cut, and the positions of cuts along them. All limits hold at once.
 struct Axes {
-    AxisOrder order{};  ///< such as AxisOrder::grouped({0, 1}); default: the longest of each box
+    AxisOrder order{};  ///< such as AxisOrder::longest(); default: fewest_ghosts()
     /// Planes only: points on a plane stay together, above it, so that regions are half-open boxes.
     bool plain = false;
 

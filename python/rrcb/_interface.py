@@ -58,6 +58,8 @@ class Report(Structure):
         ("coincident_cuts", c_int),
         ("all_weights_zero", c_int),
         ("surplus_parts", c_int),
+        ("near_before", c_double),
+        ("near_after", c_double),
     ]
 
 

@@ -1,5 +1,7 @@
 #include "bisection/axis_choice.hpp"
 
+#include "options/allowed_axes.hpp"
+
 #include <algorithm>
 
 namespace rrcb {
@@ -12,7 +14,7 @@ std::vector<int> group_levels(std::span<const int> order, Box box, int dimension
     constexpr double enough = 1;
     std::array<int, max_dimension> cuts_across{};
     for (int level = 0; level < num_levels; ++level) {
-        const int a = longest_axis(box, dimension, enough);
+        const int a = longest_axis(box, first_axes(dimension), enough);
         ++cuts_across[a];
         box.upper[a] = box.lower[a] / 2 + box.upper[a] / 2;
     }
@@ -25,17 +27,17 @@ std::vector<int> group_levels(std::span<const int> order, Box box, int dimension
 
 }  // namespace
 
-int longest_axis(const Box& box, int dimension, double enough) {
+int longest_axis(const Box& box, std::span<const int> axes, double enough) {
     const auto half_extent = [&](int axis) { return box.upper[axis] / 2 - box.lower[axis] / 2; };
-    double longest = half_extent(0);
-    for (int axis = 1; axis < dimension; ++axis) longest = std::max(longest, half_extent(axis));
-    int axis = 0;
-    while (axis + 1 < dimension && !(half_extent(axis) >= enough * longest)) ++axis;
-    return axis;
+    double longest = half_extent(axes.front());
+    for (const int axis : axes) longest = std::max(longest, half_extent(axis));
+    for (const int axis : axes)
+        if (half_extent(axis) >= enough * longest) return axis;
+    return axes.back();
 }
 
 AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
-    : dimension_(dimension) {
+    : allowed_(allowed_axes(options.axes.order, dimension)) {
     const AxisOrder& order = options.axes.order;
     if (order.is_given()) cut_axes_ = order.axes();
     if (order.is_grouped())
@@ -43,10 +45,11 @@ AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
             group_levels(order.axes(), box, dimension, num_levels(options.tree, options.num_parts));
 }
 
-int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {
-    if (!cut_axes_.empty()) return cut_axes_[node];
-    if (!level_axes_.empty()) return level_axes_[depth];
-    return longest_axis(box, dimension_, near_longest);
+std::span<const int> AxisChoice::operator()(std::size_t node, int depth) const {
+    if (!cut_axes_.empty()) return std::span(cut_axes_).subspan(node, 1);
+    if (!level_axes_.empty())
+        return std::span(level_axes_).subspan(static_cast<std::size_t>(depth), 1);
+    return allowed_;
 }
 
 std::vector<int> AxisChoice::given(const Descent& root) const {

@@ -5,31 +5,27 @@
 #include <rrcb/options.hpp>
 #include <rrcb/points.hpp>
 
+#include <span>
 #include <vector>
 
 namespace rrcb {
 
-/// Share of the greatest extent above which axes of a statistical domain count as equally long.
-inline constexpr double near_longest = 0.9;
+/// An axis is replaced by another only if the other is better by a tenth. Extents and weights of an
+/// analytic domain are estimates; otherwise small changes would turn the cuts of a cube and move
+/// half of the points.
+inline constexpr double nearly = 0.9;
 
-/// Returns the first axis whose extent is at least the share `enough` of the greatest.
-int longest_axis(const Box& box, int dimension, double enough);
+/// Returns the first of `axes` whose extent is at least the share `enough` of the greatest.
+int longest_axis(const Box& box, std::span<const int> axes, double enough);
 
-/// Chooses the axis that each cut crosses: the given one, that of its level, or the longest.
-///
-/// The extents of an analytic domain are estimates, so axes of nearly the same extent count as
-/// equal. Otherwise small changes would turn the cuts of a cube and move half of the points.
+/// Chooses the axes that each cut may cross: the given one, that of its level, or any allowed.
 class AxisChoice {
   public:
-    /// `box` is that of all points; options are complete and checked.
+    /// `box` is that of all points; options are complete and checked. The options must outlive it.
     AxisChoice(const Options& options, const Box& box, int dimension);
 
-    /// Returns the axis of cut number `node` in preorder, at `depth` cuts below the root, across
-    /// `box`.
-    int operator()(std::size_t node, int depth, const Box& box) const;
-
-    /// Returns true if the axis of a cut does not depend on the domain.
-    bool is_given() const { return !cut_axes_.empty() || !level_axes_.empty(); }
+    /// Returns the axes of cut number `node` in preorder, at `depth` cuts below the root.
+    std::span<const int> operator()(std::size_t node, int depth) const;
 
     /// Returns the axes of the cuts below the root of a tree, in preorder; empty if they are not
     /// given.
@@ -40,7 +36,7 @@ class AxisChoice {
 
     std::vector<int> cut_axes_;
     std::vector<int> level_axes_;
-    int dimension_;
+    std::span<const int> allowed_;
 };
 
 }  // namespace rrcb

@@ -3,6 +3,7 @@
 #include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/limited_bisection.hpp"
+#include "bisection/near_weight.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/weighted_quantile.hpp"
 #include "options/option_table.hpp"
@@ -21,23 +22,55 @@ namespace {
 
 struct Task {
     const Options& options;
-    const AxisChoice& axis_of;
+    const AxisChoice& axis_choice;
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
     Bisection result;
+    double near_weight = 0;  ///< within the reach of the result
 };
+
+double share_below_node(const Descent& at, const Options& options) {
+    const auto sizes = std::span(options.part_sizes).subspan(at.first_part, at.num_parts);
+    return share_below(sizes, at.lower_parts());
+}
+
+/// Replaces a cut across the longest axis by one across another that has clearly less weight near
+/// it.
+void choose_fewest(const Piece& piece, std::span<const int> axes, double target, const Box& extent,
+                   const Options& options, const NearWeight& near, Cut& best) {
+    // Few patches show the weight near a cut with a large error.
+    const double enough = nearly - 1 / std::sqrt(static_cast<double>(piece.domain.patches.size()));
+    double fewest = near(best);
+    for (const int axis : axes) {
+        if (axis == best.axis || !(extent.lower[axis] < extent.upper[axis])) continue;
+        const Profile profile(piece.domain, axis, 16);
+        // A coarse estimate rules out most axes.
+        if (!(profile.weight_near(target, near.reach()) < (1 + enough) / 2 * fewest)) continue;
+        const Cut cut = weighted_quantile(profile, target, options.axes.plain);
+        const double fewer = near(cut);
+        if (!(fewer < enough * fewest)) continue;
+        best = cut;
+        fewest = fewer;
+    }
+}
 
 /// Returns the cut that leaves the share `below` (0 ... 1) of the piece's weight below it.
 Cut choose_cut(const Piece& piece, double below, Task& task) {
     const double weight = weight_of(piece.domain);
     const Box extent = extent_of(piece.domain);
-    const int axis = task.axis_of(piece.at.node, piece.depth, extent);
+    const auto axes = task.axis_choice(piece.at.node, piece.depth);
+    const int longest = longest_axis(extent, axes, nearly);
     if (task.limits && task.limits->divides(piece.at))
-        return cut_in_places(piece, below, axis, extent, task.options.axes.plain, *task.limits);
+        return cut_in_places(piece, below, longest, extent, task.options, *task.limits);
     // First: a side of size 0 is empty even if the domain has no weight.
-    if (below >= 1) return plane(axis, infinity);
-    if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
-    return weighted_quantile(Profile(piece.domain, axis), below * weight, task.options.axes.plain);
+    if (below >= 1) return plane(longest, infinity);
+    if (below <= 0 || !(weight > 0)) return plane(longest, -infinity);
+    const double target = below * weight;
+    Cut cut = weighted_quantile(Profile(piece.domain, longest), target, task.options.axes.plain);
+    if (axes.size() > 1 && !task.options.axes.order.is_longest())
+        choose_fewest(piece, axes, target, extent, task.options,
+                      NearWeight(piece.domain, extent, mean_half_side(piece.domain)), cut);
+    return cut;
 }
 
 void bisect_piece(Piece piece, Task& task) {
@@ -46,23 +79,39 @@ void bisect_piece(Piece piece, Task& task) {
         task.result.part_weights.push_back(weight_of(domain));
         return;
     }
-    const auto sizes = std::span(task.options.part_sizes).subspan(at.first_part, at.num_parts);
-    const double below = share_below(sizes, at.lower_parts());
+    const double below = share_below_node(at, task.options);
     const Cut cut = choose_cut(piece, below, task);
     task.result.cuts.tree.push_back(cut);
+    if (std::isfinite(cut.at[cut.axis]))
+        task.near_weight += weight_within(domain, cut, task.result.cuts.near.reach);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
     Halves halves = split_domain(std::move(piece.domain), cut);
     bisect_piece({std::move(halves.lower), at.lower(), box_below(region, cut), depth + 1}, task);
     bisect_piece({std::move(halves.upper), at.upper(), box_above(region, cut), depth + 1}, task);
 }
 
+/// Returns the weight within `reach` of the cuts at and below a node.
+double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts, double reach) {
+    if (at.is_part() || domain.patches.empty()) return 0;
+    const Cut& cut = cuts.tree[at.node];
+    double weight = std::isfinite(cut.at[cut.axis]) ? weight_within(domain, cut, reach) : 0;
+    Halves halves = split_domain(domain, cut);
+    domain.patches = {};
+    weight += weight_near(std::move(halves.lower), at.lower(), cuts, reach);
+    return weight + weight_near(std::move(halves.upper), at.upper(), cuts, reach);
+}
+
 /// Bisects with all cuts at allowed places, if there are limits.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
-                 const AxisChoice& axis_of, CutLimits* limits) {
-    Task task{options, axis_of, limits, with_brackets, {}};
+                 const AxisChoice& axis_choice, CutLimits* limits) {
+    Task task{options, axis_choice, limits, with_brackets, {}};
     task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
     const Box region = limits ? limits->region() : everywhere;
+    const double weight = weight_of(domain);
+    NearCuts& near = task.result.cuts.near;
+    near.reach = mean_half_side(domain);
     bisect_piece({std::move(domain), root_of(task.result.cuts), region, 0}, task);
+    if (weight > 0) near.share = task.near_weight / weight;
     return std::move(task.result);
 }
 
@@ -80,18 +129,25 @@ double expected_error(int depth) {
 }
 
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets) {
-    const AxisChoice axis_of(options, extent_of(domain), domain.dimension);
-    return bisect(std::move(domain), options, with_brackets, axis_of, nullptr);
+    const AxisChoice axis_choice(options, extent_of(domain), domain.dimension);
+    return bisect(std::move(domain), options, with_brackets, axis_choice, nullptr);
+}
+
+bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const NearCuts& fresh) {
+    constexpr double enough = 0.85;
+    const double allowed = fresh.share * weight_of(domain);
+    return !(fresh.reach > 0) ||
+           enough * weight_near(std::move(domain), root_of(cuts), cuts, fresh.reach) <= allowed;
 }
 
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
                         bool with_brackets) {
     const int dimension = domain.dimension;
-    const AxisChoice axis_of(options, points, dimension);
-    const std::vector<int> given = axis_of.given(root_of(options.num_parts, options.tree));
+    const AxisChoice axis_choice(options, points, dimension);
+    const std::vector<int> given = axis_choice.given(root_of(options.num_parts, options.tree));
     CutLimits limits(options, points, dimension, {given, {}});
     limits.require_room();
-    return bisect(std::move(domain), options, with_brackets, axis_of, &limits);
+    return bisect(std::move(domain), options, with_brackets, axis_choice, &limits);
 }
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes) {

@@ -15,4 +15,9 @@ double expected_error(int depth);
 /// As the public function, with complete options and, on request, the brackets of the cuts.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets);
 
+/// Returns true if the weight near all cuts is not much more than that near `fresh` cuts of the
+/// same domain. This is less strict than for a new cut, whose domain is another; otherwise cuts
+/// might turn in every call. Points in few places have no weight near cuts that could be compared.
+bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const NearCuts& fresh);
+
 }  // namespace rrcb

@@ -3,6 +3,7 @@
 #include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
+#include "bisection/near_weight.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
@@ -89,25 +90,33 @@ void move_node(CutLimits& limits, const Descent& at, const Box& region, Cuts& cu
 
 }  // namespace
 
-Cut cut_in_places(const Piece& piece, double share, int preferred, const Box& extent, bool is_plain,
-                  CutLimits& limits) {
+Cut cut_in_places(const Piece& piece, double share, int longest, const Box& extent,
+                  const Options& options, CutLimits& limits) {
     constexpr double bearable = 0.005;
     const StatisticalDomain& domain = piece.domain;
     const double weight = weight_of(domain);
-    const double lighter = std::min(share, 1 - share) * weight;
+    const double bearable_error = bearable * std::min(share, 1 - share) * weight;
+    const bool counts_near = !options.axes.order.is_longest();
+    const NearWeight near(domain, extent, counts_near ? mean_half_side(domain) : 0);
     Trial best{};
     double least = infinity;
-    for (const Way& way : ways_across(piece.at, piece.region, extent, preferred, limits)) {
+    double fewest = infinity;
+    for (const Way& way : ways_across(piece.at, piece.region, extent, longest, limits)) {
         const AxisLimits& across = limits.across(way.axis);
         const auto [first, last] = way.places;
         const Trial trial =
             weight > 0
-                ? trial_at(domain, way, share * weight, is_plain, across)
+                ? trial_at(domain, way, share * weight, options.axes.plain, across)
                 : trial_in(domain, way.axis, across.nearest(first / 2 + last / 2, first, last));
         const double error = std::abs(trial.below - share * weight);
-        if (error < least) best = trial;
+        const bool is_first_bearable = least > bearable_error && error < least;
+        const double fewer = near(trial.cut);
+        if (is_first_bearable || (error <= bearable_error && fewer < nearly * fewest)) {
+            best = trial;
+            fewest = fewer;
+        }
         least = std::min(least, error);
-        if (least <= bearable * lighter) break;
+        if (least <= bearable_error && !counts_near) break;
     }
     return best.cut;
 }

@@ -15,11 +15,12 @@ struct Piece {
     int depth;
 };
 
-/// Returns the cut of a piece with the share `share` of its weight below: the first one with a
-/// bearable error, across the preferred axis or from the longest of `extent` down, or else the one
-/// with the least error. The cuts below are not considered.
-Cut cut_in_places(const Piece& piece, double share, int preferred, const Box& extent, bool is_plain,
-                  CutLimits& limits);
+/// Returns the cut of a piece with the share `share` of its weight below. Among the cuts with a
+/// bearable error it is the one that the options prefer: across the longest axis of `extent`, or
+/// with the least weight near it. If there is none, it is the cut with the least error. The cuts
+/// below are not considered.
+Cut cut_in_places(const Piece& piece, double share, int longest, const Box& extent,
+                  const Options& options, CutLimits& limits);
 
 /// Bisects as bisect(), with all cuts at allowed places, for points in the box `points`. Throws
 /// Error if there is no room for the parts.

@@ -11,7 +11,6 @@ namespace rrcb {
 namespace {
 
 constexpr std::size_t num_profile_bins = 128;
-constexpr std::size_t few_patches = 256;
 
 }  // namespace
 
@@ -19,8 +18,9 @@ bool Profile::Range::is_limited() const {
     return std::isfinite(lower) || std::isfinite(upper);
 }
 
-Profile::Profile(const StatisticalDomain& domain, int axis) : domain_(&domain), axis_(axis) {
-    if (domain.patches.size() < few_patches) return;
+Profile::Profile(const StatisticalDomain& domain, int axis, std::size_t few)
+    : domain_(&domain), axis_(axis) {
+    if (domain.patches.size() < few) return;
     lower_ = infinity;
     upper_ = -infinity;
     for (const Patch& patch : domain.patches) {
@@ -60,6 +60,20 @@ Profile::Range Profile::range_of(double target) const {
     if (passed - 1 - margin > 0) range.lower = edge(passed - 1 - margin);
     if (passed + margin < std::ssize(weights_below_) - 1) range.upper = edge(passed + margin);
     return range;
+}
+
+double Profile::weight_near(double target, double reach) const {
+    if (weights_below_.empty() || !(reach > 0)) return 0;
+    const auto passed = std::ranges::lower_bound(weights_below_, target) - weights_below_.begin();
+    const double reach_in_bins = num_profile_bins * (reach / (upper_ - lower_));
+    const auto below = [&](double edge) {
+        const double inside = std::clamp(edge, 0.0, static_cast<double>(num_profile_bins));
+        const auto first = std::min(num_profile_bins - 1, static_cast<std::size_t>(inside));
+        return std::lerp(weights_below_[first], weights_below_[first + 1],
+                         inside - static_cast<double>(first));
+    };
+    const double middle = static_cast<double>(passed) - 0.5;
+    return below(middle + reach_in_bins) - below(middle - reach_in_bins);
 }
 
 }  // namespace rrcb

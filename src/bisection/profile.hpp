@@ -2,6 +2,7 @@
 
 #include <rrcb/method/statistical_domain.hpp>
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace rrcb {
 /// patches takes 1.4 times as many instructions into 64 parts, and twice as many into 8.
 class Profile {
   public:
-    /// The domain is borrowed.
-    Profile(const StatisticalDomain& domain, int axis);
+    /// The domain is borrowed. With fewer patches than `few` nothing is known.
+    Profile(const StatisticalDomain& domain, int axis, std::size_t few = 256);
 
     const StatisticalDomain& domain() const { return *domain_; }
     int axis() const { return axis_; }
@@ -28,6 +29,9 @@ class Profile {
 
     /// Returns a range in which the cumulative weight is likely to pass the target.
     Range range_of(double target) const;
+
+    /// Estimates the weight within `reach` of the cut with `target` below it; 0 if not known.
+    double weight_near(double target, double reach) const;
 
   private:
     const StatisticalDomain* domain_;

@@ -140,7 +140,9 @@ int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
                    details.rounds,
                    details.coincident_cuts,
                    details.all_weights_zero ? 1 : 0,
-                   details.surplus_parts};
+                   details.surplus_parts,
+                   details.near_before,
+                   details.near_after};
     });
 }
 

@@ -1,6 +1,7 @@
 #include "cuts/cut_limits.hpp"
 
 #include "arithmetic/infinity.hpp"
+#include "options/allowed_axes.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>
@@ -23,6 +24,8 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension, G
     : axes_(axis_limits(options)),
       region_(points),
       dimension_(dimension),
+      allowed_(allowed_axes(options.axes.order, dimension).begin(),
+               allowed_axes(options.axes.order, dimension).end()),
       whole_(root_of(static_cast<int>(options.part_sizes.size()), options.tree)),
       packing_(options.part_sizes, options.tree),
       given_(std::move(given)),
@@ -75,7 +78,7 @@ void CutLimits::require_room() {
 
 Room CutLimits::room_in(const Box& region, int most) const {
     Room room{1, 1, 1};
-    for (int a = 0; a < dimension_; ++a)
+    for (const int a : allowed_)
         room[a] = axes_[a].count_between(region.lower[a], region.upper[a], most);
     return room;
 }

@@ -74,6 +74,7 @@ class CutLimits {
     std::array<AxisLimits, max_dimension> axes_;
     Box region_;
     int dimension_;
+    std::vector<int> allowed_;
     Descent whole_;
     BoxPacking packing_;
     GivenAxes given_;

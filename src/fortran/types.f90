@@ -61,6 +61,7 @@ module rrcb_types
     real(c_double) :: total_weight = 0, least_imbalance = 1, estimated_imbalance = 1
     integer(c_int64_t) :: num_records = 0
     integer(c_int) :: rounds = 0, coincident_cuts = 0, all_weights_zero = 0, surplus_parts = 0
+    real(c_double) :: near_before = 0, near_after = 0
   end type
 
   !> Lists of the points whose rank changes.

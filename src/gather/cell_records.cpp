@@ -12,8 +12,8 @@ namespace rrcb {
 
 namespace {
 
-/// Content of a block of records: cells of a mesh or of a lattice.
-enum class Form { lattice, lean };
+/// Content of a block of records: cells of a lattice, of a mesh, or of one with another frame.
+enum class Form { lattice, lean, framed };
 
 /// Head of a block of records.
 struct BlockOfCells {
@@ -91,14 +91,17 @@ Box box_of_merged(const Moments& moments, int dimension, int exponent) {
     return box;
 }
 
-void append_mesh(const SupportMesh& mesh, std::vector<double>& records) {
+void append_mesh(const SupportMesh& mesh, bool is_framed, std::vector<double>& records) {
     append_vector(mesh.box.lower, mesh.dimension, records);
     append_vector(mesh.box.upper, mesh.dimension, records);
     records.insert(records.end(), mesh.cells.begin(), mesh.cells.begin() + mesh.dimension);
+    if (!is_framed) return;
+    append_vector(mesh.frame.lower, mesh.dimension, records);
+    append_vector(mesh.frame.upper, mesh.dimension, records);
 }
 
 /// Reads a mesh, or the part of it that the boxes of its cells need.
-SupportMesh take_mesh(std::span<const double>& records, int dimension) {
+SupportMesh take_mesh(std::span<const double>& records, int dimension, bool is_framed) {
     Box box;
     box.lower = take_vector(records, dimension);
     box.upper = take_vector(records, dimension);
@@ -106,6 +109,9 @@ SupportMesh take_mesh(std::span<const double>& records, int dimension) {
     const auto cells = take(records, dimension);
     std::ranges::transform(cells, mesh.cells.begin(),
                            [](double number) { return static_cast<int>(number); });
+    if (!is_framed) return mesh;
+    mesh.frame.lower = take_vector(records, dimension);
+    mesh.frame.upper = take_vector(records, dimension);
     return mesh;
 }
 
@@ -131,11 +137,13 @@ void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& me
                        std::vector<double>& records) {
     const LeanCells lean = pack_cells(cells, mesh);
     const std::size_t num_packed = (lean.bytes.size() + sizeof(double) - 1) / sizeof(double);
+    const bool is_framed = mesh.frame.lower != mesh.box.lower || mesh.frame.upper != mesh.box.upper;
+    const Form form = is_framed ? Form::framed : Form::lean;
     append_block(
-        BlockOfCells{static_cast<double>(cells.size()), double(Form::lean),
+        BlockOfCells{static_cast<double>(cells.size()), double(form),
                      static_cast<double>(lean.exponent), unit, static_cast<double>(num_packed)},
         records);
-    append_mesh(mesh, records);
+    append_mesh(mesh, is_framed, records);
     records.resize(records.size() + num_packed);
     std::ranges::copy(lean.bytes,
                       std::as_writable_bytes(std::span(records).last(num_packed)).begin());
@@ -158,7 +166,7 @@ CellSet read_cells(std::span<const double> records, int dimension, bool in_units
         if (form == Form::lattice) {
             take_lattice(records, count, dimension, exponent, all);
         } else {
-            const SupportMesh mesh = take_mesh(records, dimension);
+            const SupportMesh mesh = take_mesh(records, dimension, form == Form::framed);
             const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
             unpack_cells(exponent, std::as_bytes(packed), count, mesh, all.cells);
         }

@@ -2,6 +2,7 @@
 
 #include "cuts/cut_limits.hpp"
 #include "gather/cell_records.hpp"
+#include "passes/frame.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 
@@ -74,6 +75,7 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
         mesh.cells[a] = static_cast<int>(cells);
         mesh.cells_per_length[a] = cells / extent;
     }
+    mesh.frame = mesh.box;
     return mesh;
 }
 
@@ -86,7 +88,7 @@ BinnedPoints bin_by_options(const Points& points, const Box& box, const Options&
             return bin_by_cell(points, *mesh);
     const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count, options)
                                    : options.tuning.support_mesh;
-    return bin_by_cell(points, make_support_mesh(box, dimension, cells));
+    return bin_by_cell(points, make_framed_mesh(points, box, cells));
 }
 
 }  // namespace
@@ -108,7 +110,7 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
     return static_cast<int>(std::max(1.0, std::floor(cells * above_rounding)));
 }
 
-Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
+<< Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
     Summary summary;
     summary.box = points.box;
     summary.num_points = static_cast<std::int64_t>(points.extent.count);
@@ -131,9 +133,12 @@ void add_records(Points points, const Box& box, const Options& options, Contribu
     mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
 }
 
-void add_totals(const PartTotals& totals, Contribution& mine) {
+void add_totals(const PartTotals& totals, const NearShare& near, Contribution& mine) {
     mine.part_totals = totals.weights;
     mine.part_totals.insert(mine.part_totals.end(), totals.counts.begin(), totals.counts.end());
+    if (totals.counts.empty()) return;
+    mine.part_totals.push_back(near.by_weight * mine.summary.weight);
+    mine.part_totals.push_back(near.by_count * static_cast<double>(mine.summary.num_points));
 }
 
 std::size_t most_cells(const Options& options) {

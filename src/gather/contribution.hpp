@@ -4,6 +4,7 @@
 #include "options/request.hpp"
 #include "passes/assignment.hpp"
 #include "passes/binned_points.hpp"
+#include "passes/near_points.hpp"
 #include "passes/summary.hpp"
 
 #include <rrcb/method/statistical_domain.hpp>
@@ -45,8 +46,8 @@ struct Contribution {
     Summary summary;
     std::vector<double> records;    ///< the moments of their cells
     std::vector<double> extents{};  ///< an Extent of the points of each rank, if rank 0 reads these
-    /// Weights in the parts of earlier cuts, then numbers of points in them, if the call counts
-    /// them.
+    /// Weights in the parts of earlier cuts, then numbers of points in them, then weight and number
+    /// of points near the cuts, if the call counts them.
     std::vector<double> part_totals{};
 };
 
@@ -61,8 +62,8 @@ Summary summarize(const PointSummary& points, bool are_weighted, int rank);
 /// options.
 void add_records(Points points, const Box& box, const Options& options, Contribution& mine);
 
-/// Adds the weights and counts of the parts of earlier cuts.
-void add_totals(const PartTotals& totals, Contribution& mine);
+/// Adds the weights and counts of the parts of earlier cuts, and of the points near these.
+void add_totals(const PartTotals& totals, const NearShare& near, Contribution& mine);
 
 /// Returns the most cells that merging leaves: a fixed number, whatever the number of ranks, unless
 /// the options choose the mesh. Twice as many lean cells may be passed on unmerged.

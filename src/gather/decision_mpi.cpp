@@ -5,6 +5,7 @@
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
 #include "collective/meeting_mpi.hpp"
+#include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "options/rejection.hpp"
@@ -38,6 +39,7 @@ Verdict verdict_of(const Summary& summary, const Bisection& bisection,
     verdict.num_records = summary.num_cells;
     verdict.total_weight = summary.weight;
     verdict.box = summary.box;
+    verdict.near = bisection.cuts.near;
     const bool estimates = !bisection.part_weights.empty() || summary.num_points == 0;
     verdict.estimated_imbalance =
         estimates ? imbalance(bisection.part_weights, part_sizes) : not_known;
@@ -148,10 +150,21 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     const std::size_t num_parts = decision.part_weights.size();
     if (num_parts == 0 || all.summary.num_points == 0) return;
     const std::span<const double> totals(all.part_totals);
-    const bool is_counted = decision.verdict.is_counted();
-    std::ranges::copy(is_counted ? totals.last(num_parts) : totals.first(num_parts),
+    const bool is_counted = decision.verdict.is_counted() || !(all.summary.weight > 0);
+    std::ranges::copy(totals.subspan(is_counted ? num_parts : 0, num_parts),
                       decision.part_weights.begin());
+    decision.verdict.near.share = is_counted
+                                      ? totals.back() / static_cast<double>(all.summary.num_points)
+                                      : totals[2 * num_parts] / all.summary.weight;
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
+}
+
+/// Returns true if new cuts might be across the axes of the cuts between the ranks.
+bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contribution& all,
+                       const Options& options) {
+    const bool compares = !options.axes.order.is_longest() && !are_cuts_limited(options);
+    return !compares || axes_of(kept.tree) == axes_of(estimate.tree) ||
+           are_axes_good(build_domain(all, estimate.dimension), kept, estimate.near);
 }
 
 /// Reads the parts that the ranks hold from the extents of their points.
@@ -163,7 +176,7 @@ void weigh_kept(const Contribution& all, const Options& options, Decision& decis
     if (decision.verdict.is_counted())
         for (Extent& extent : extents) extent.weight = extent.count;
     auto kept = read_kept_tree(extents, estimate, options);
-    if (!kept) return;
+    if (!kept || !crosses_good_axes(kept->cuts, estimate, all, options)) return;
     decision.verdict.kept_imbalance = kept->imbalance;
     decision.verdict.keeps = keeps_at_once(kept->imbalance, options.imbalance_tolerance) ? 1 : 0;
     decision.kept = std::move(*kept);

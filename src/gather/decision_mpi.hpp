@@ -34,6 +34,7 @@ struct Verdict {
     Box box{};                              ///< of all points, if cells were gathered
     double kept_imbalance = not_kept;       ///< of the parts that the ranks hold
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
+    NearCuts near{};                        ///< of the new cuts, or counted for the earlier ones
 
     bool is_counted() const { return common_weight > 0; }
     /// Returns the weight of all points, or their number if they are counted.

@@ -5,6 +5,7 @@
 #include "bisection/limited_bisection.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
+#include "options/allowed_axes.hpp"
 #include "options/call_kind.hpp"
 
 #include <rrcb/quality.hpp>
@@ -95,10 +96,10 @@ class Reader {
     }
 
     bool may_cross(int axis, int usual, bool as_expected, Extent all, const Extent& above) const {
-        if (options_.axes.order.is_given() || options_.axes.order.is_grouped())
-            return axis == usual;
-        // Limited cuts may be across any axis.
-        if (are_cuts_limited(options_)) return true;
+        const AxisOrder& order = options_.axes.order;
+        if (order.is_given() || order.is_grouped()) return axis == usual;
+        if (are_cuts_limited(options_) || !order.is_longest())
+            return std::ranges::count(allowed_axes(order, estimate_.dimension), axis) > 0;
         join(all, above, estimate_.dimension);
         return as_expected || is_long(all.box(), axis, estimate_.dimension);
     }

@@ -39,11 +39,12 @@ std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axi
 /// the options allow it. Rank r holds part r if that is possible. Otherwise the ranks hold the
 /// parts in another order, as after a renumbering.
 ///
-/// A cut must be across an axis that a new cut might have:
+/// With AxisOrder::longest() a cut must be across an axis that a new cut might have:
 /// - that of the same cut in `estimate`, if all cuts above it are across those of `estimate` too,
 /// - or a long axis of the points that it divides. Slabs of a cube are therefore no bisection.
 ///
-/// Limited cuts may be across any axis, if places between the ranks allow them.
+/// Limited cuts, and those of fewest_ghosts(), may be across any allowed axis. For the latter the
+/// caller calls are_axes_good().
 std::optional<KeptTree> read_kept_tree(std::span<const Extent> extents, const Cuts& estimate,
                                        const Options& options);
 

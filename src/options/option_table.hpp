@@ -115,6 +115,19 @@ inline constexpr Word switch_words[] = {{"OFF", 0, "no"}, {"ON", 1, "yes"}};
 inline constexpr Word machine_words[] = {{"ON", 1, "yes"},
                                          {"OFF", 0, "no, the number of parts is halved"}};
 
+inline constexpr Word axis_rule_words[] = {
+    {"FEWEST", 0, "the axis with the least weight near the cut, as estimated"},
+    {"LONGEST", 1, "its longest axis"}};
+
+/// Returns 0 as well for orders that are no words.
+inline int axis_rule_of(const Options& options) {
+    return options.axes.order.is_longest() ? 1 : 0;
+}
+
+inline void set_axis_rule(Options& options, int value) {
+    options.axes.order = value == 0 ? AxisOrder::fewest_ghosts() : AxisOrder::longest();
+}
+
 inline int machines_of(const Options& options) {
     return options.tree.group_size == 0 ? 1 : 0;
 }
@@ -174,6 +187,8 @@ inline constexpr Option option_table[] = {
      Range<int>{field<&Options::tree, &TreeShape::dealt>, 0, std::numeric_limits<int>::max()}},
     {"axes.plain", "", "Whether points on a plane stay together",
      choice_of<&Options::axes, &Axes::plain>(switch_words)},
+    {"axes.order", "RRCB_AXES", "Axis that each box is cut across",
+     Choice{axis_rule_words, std::size(axis_rule_words), axis_rule_of, set_axis_rule}},
     {"one of axes.order, axes.min_width, axes.grid", "", "Axes and places of the cuts",
      Lists{values_of_tree, check_tree_options}},
     {"axes.min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",

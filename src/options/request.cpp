@@ -77,6 +77,8 @@ std::uint64_t bits_of(const Cuts& cuts) {
     add(cuts.shape.group_size, hash);
     add(cuts.shape.larger_below, hash);
     add(cuts.shape.dealt, hash);
+    add(cuts.near.reach, hash);
+    add(cuts.near.share, hash);
     for (const Cut& cut : cuts.tree) {
         add(cut.axis, hash);
         for (const double x : cut.at) add(x, hash);
@@ -90,7 +92,8 @@ std::vector<double> values_of_part_sizes(const Options& options) {
 
 std::vector<double> values_of_tree(const Options& options) {
     const AxisOrder& order = options.axes.order;
-    std::vector<double> values{1.0 * order.is_grouped(), 1.0 * order.is_given()};
+    std::vector<double> values{1.0 * order.is_grouped(), 1.0 * order.is_given(),
+                               1.0 * order.is_among()};
     values.insert(values.end(), order.axes().begin(), order.axes().end());
     for (const auto& limits : {min_width_of(options), grid_of(options)}) {
         values.push_back(-1);

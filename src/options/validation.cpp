@@ -99,6 +99,17 @@ void check_grouped(std::span<const int> axes, int dimension) {
         require(named[axis], "axes.order must name every axis of the points if it groups them");
 }
 
+void check_among(std::span<const int> axes, int dimension) {
+    std::array<bool, max_dimension> named{};
+    require(!axes.empty(), "axes.order must name an axis if cuts may cross some axes only");
+    for (const int axis : axes) {
+        require(axis >= 0 && axis < dimension && !named[axis],
+                "axes.order must name axes of the points, each once, if cuts may cross some axes "
+                "only");
+        named[axis] = true;
+    }
+}
+
 void check_given(std::span<const int> axes, int num_parts, int dimension) {
     require(axes.size() + 1 == static_cast<std::size_t>(num_parts),
             "axes.order must hold one axis per cut if they are given, one less than there are "
@@ -158,6 +169,7 @@ void check_tree_options(const Options& options, int dimension) {
             "tree.dealt must divide tree.group_size and num_parts; the last group must be full, or "
             "lack so many parts");
     const AxisOrder& order = options.axes.order;
+    if (order.is_among()) check_among(order.axes(), dimension);
     if (order.is_grouped()) check_grouped(order.axes(), dimension);
     if (order.is_given()) check_given(order.axes(), options.num_parts, dimension);
 }

@@ -3,6 +3,7 @@
 #include "bisection/bisection.hpp"
 #include "collective/failure.hpp"
 #include "cuts/cut_limits.hpp"
+#include "options/allowed_axes.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
@@ -47,7 +48,7 @@ std::size_t cut_points(std::span<MassPoint> points, double below, const PointTas
     const int dimension = task.result.cuts.dimension;
     const Box box = extent_of(points);
     const double weight = weight_of(points);
-    const int axis = longest_axis(box, dimension, longest_only);
+    const int axis = longest_axis(box, first_axes(dimension), longest_only);
     // First: a side of size 0 is empty even if the points have no weight.
     cut = plane(axis, below >= 1 ? infinity : -infinity);
     if (below >= 1) return points.size();

@@ -15,7 +15,8 @@ namespace rrcb {
 struct CellFinder {
     explicit CellFinder(const SupportMesh& mesh) : scale(mesh.scale) {
         for (std::size_t a = 0; a < max_dimension; ++a) {
-            lower[a] = mesh.box.lower[a] * mesh.scale[a];
+            lower[a] = mesh.frame.lower[a] * mesh.scale[a];
+            is_open = is_open || mesh.frame.lower[a] > mesh.box.lower[a];
             cells_per_length[a] = mesh.cells_per_length[a];
             num_cells[a] = static_cast<std::int32_t>(mesh.cells[a]);
             below_num_cells[a] = std::nextafter(mesh.cells[a], 0);
@@ -27,12 +28,14 @@ struct CellFinder {
     Vector cells_per_length{};
     std::array<std::int32_t, max_dimension> num_cells{};
     Vector below_num_cells{};  ///< greatest double below num_cells
+    bool is_open = false;      ///< points may be below the frame
 };
 
-/// Finds the cells of consecutive points. Repeating it is cheaper than keeping the cells in memory.
-template <class Layout>
-RRCB_ARITHMETIC_CLONES void find_cells(const CellFinder& mesh, const Layout& points,
-                                       LocalIndex first, LocalIndex length, std::int32_t* cells) {
+/// As find_cells(), for a mesh that is open as stated.
+template <bool is_open, class Layout>
+RRCB_ARITHMETIC_CLONES void find_cells_of(const CellFinder& mesh, const Layout& points,
+                                          LocalIndex first, LocalIndex length,
+                                          std::int32_t* cells) {
     // Copies: the compiler need not reload them after the writes below.
     const CellFinder to = mesh;
     const Layout x = points;
@@ -42,10 +45,22 @@ RRCB_ARITHMETIC_CLONES void find_cells(const CellFinder& mesh, const Layout& poi
             const double offset =
                 (x(first + i, a) * to.scale[a] - to.lower[a]) * to.cells_per_length[a];
             // The upper face of the box belongs to the last layer.
-            const double layer = offset < to.below_num_cells[a] ? offset : to.below_num_cells[a];
+            double layer = offset < to.below_num_cells[a] ? offset : to.below_num_cells[a];
+            if constexpr (is_open) layer = layer > 0 ? layer : 0;
             cell = cell * to.num_cells[a] + static_cast<std::int32_t>(layer);
         }
         cells[i] = cell;
+    }
+}
+
+/// Finds the cells of consecutive points. Repeating it is cheaper than keeping the cells in memory.
+template <class Layout>
+void find_cells(const CellFinder& mesh, const Layout& points, LocalIndex first, LocalIndex length,
+                std::int32_t* cells) {
+    if (mesh.is_open) {
+        find_cells_of<true>(mesh, points, first, length, cells);
+    } else {
+        find_cells_of<false>(mesh, points, first, length, cells);
     }
 }
 

@@ -24,7 +24,7 @@ SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis)
     require(cells_per_axis >= 1, "cells_per_axis must be at least 1");
     SupportMesh mesh;
     mesh.dimension = dimension;
-    mesh.box = box;
+    mesh.box = mesh.frame = box;
     for (int a = 0; a < dimension; ++a) {
         if (!(box.lower[a] < box.upper[a])) continue;
         mesh.scale[a] = scale_of_lengths(box.lower[a], box.upper[a]);
@@ -45,7 +45,7 @@ LocalIndex cell_of(const SupportMesh& mesh, const Vector& position) {
     LocalIndex cell = 0;
     LocalIndex stride = 1;
     for (int a = 0; a < mesh.dimension; ++a) {
-        const double offset = position[a] * mesh.scale[a] - mesh.box.lower[a] * mesh.scale[a];
+        const double offset = position[a] * mesh.scale[a] - mesh.frame.lower[a] * mesh.scale[a];
         const double layer =
             std::clamp(offset * mesh.cells_per_length[a], 0.0, mesh.cells[a] - 1.0);
         cell += stride * static_cast<LocalIndex>(layer);
@@ -61,7 +61,9 @@ Box cell_box(const SupportMesh& mesh, LocalIndex cell) {
         const LocalIndex layer = cell % cells;
         cell /= cells;
         const auto face = [&](LocalIndex k) {
-            return std::lerp(mesh.box.lower[a], mesh.box.upper[a],
+            if (k == 0) return mesh.box.lower[a];
+            if (k == cells) return mesh.box.upper[a];
+            return std::lerp(mesh.frame.lower[a], mesh.frame.upper[a],
                              static_cast<double>(k) / static_cast<double>(cells));
         };
         box.lower[a] = face(layer);

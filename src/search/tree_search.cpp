@@ -7,6 +7,7 @@
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/owned_cuts.hpp"
+#include "options/allowed_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +93,7 @@ bool TreeSearch::ends_at(const Descent& at, Content& content) {
 /// all goes below, unless a guide's cut is kept.
 Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double share) {
     if (!is_central())
-        return plane(tree_.cut_axes.empty() ? 0 : tree_.cut_axes[at.node],
+        return plane(tree_.cut_axes.empty() ? axes().front() : tree_.cut_axes[at.node],
                      share > 0 ? infinity : -infinity);
     const Cut& cut = guide_->cuts.tree[at.node];
     if (!(share > 0 && share < 1)) return plane(cut.axis, share > 0 ? infinity : -infinity);
@@ -195,11 +196,15 @@ CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double wei
     return search;
 }
 
+/// Returns the axes that free cuts may cross.
+std::span<const int> TreeSearch::axes() const {
+    return tree_.axes.empty() ? first_axes(dimension_) : tree_.axes;
+}
+
 /// Returns the search in the box of a node, or one that weighs a part.
 CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double weight) const {
-    const int number = tree_.cut_axes.empty() || at.is_part()
-                           ? longest_axis(box, dimension_, near_longest)
-                           : tree_.cut_axes[at.node];
+    const int number = tree_.cut_axes.empty() || at.is_part() ? longest_axis(box, axes(), nearly)
+                                                              : tree_.cut_axes[at.node];
     return search_across(number, {box.lower[number], std::nextafter(box.upper[number], infinity)},
                          weight);
 }

@@ -33,6 +33,7 @@ struct PartTree {
     TreeShape shape{};
     double weight = 0;                ///< of all points
     std::span<const int> cut_axes{};  ///< of all cuts in preorder; empty: free
+    std::span<const int> axes{};      ///< that cuts may cross if they are free; empty: all
     TargetRule rule{};                ///< of a spread search without the weight per size
     bool plain_cuts = false;
     bool centres_cuts = false;        ///< moves cuts to the middle between points of all ranks
@@ -199,6 +200,7 @@ class TreeSearch {
     void weigh_part(const Descent& at, const Content& content);
     std::vector<Bracket> intervals() const;
     CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
+    std::span<const int> axes() const;
     CutSearch first_search(const Descent& at, const Box& box, double weight) const;
     void start_from_guide(Node& node);
     Bracket bracket_of(const Descent& at, int depth, double weight, double below) const;

@@ -18,13 +18,13 @@ LONG_SHARE = 0.03
 # Words as `wc -w` counts them. Others may have 250; all but examples/mpm together TOTAL.
 TOTAL = 16000
 BUDGETS = {
-    "README.md": 820, "CHANGELOG.md": 300, "CONTRIBUTING.md": 480, "comparisons/README.md": 700,
+    "README.md": 820, "CHANGELOG.md": 320, "CONTRIBUTING.md": 480, "comparisons/README.md": 710,
     "comparisons/columns.md": 950, "docs/choosing.md": 1130, "docs/edge_cases.md": 350,
     "docs/errors.md": 830, "docs/first_program.md": 380, "docs/hosts.md": 640,
     "docs/install.md": 600, "docs/loop.md": 510, "docs/machines.md": 490,
-    "docs/parameters.md": 880, "docs/performance.md": 730, "docs/python.md": 400,
+    "docs/parameters.md": 905, "docs/performance.md": 730, "docs/python.md": 400,
     "docs/rebalancing.md": 400,
-    "docs/weights.md": 700, "docs/zoltan.md": 1040, "docs/design/how_it_works.md": 870,
+    "docs/weights.md": 700, "docs/zoltan.md": 1040, "docs/design/how_it_works.md": 900,
     "docs/design/many_ranks.md": 500, "docs/design/paper.md": 870,
     "docs/design/rebalancing.md": 410, "docs/design/statistical_domain.md": 730,
     "docs/design/testing.md": 540, "examples/mpm/README.md": 1000,

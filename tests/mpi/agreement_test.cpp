@@ -137,6 +137,8 @@ TEST_F(Agreement, on_options_out_of_range) {
             o.axes.order = AxisOrder::grouped({1, 2});
         },
         "axes.order must name every axis");
+    for (const std::vector<int>& axes : {std::vector<int>{}, {2}, {0, 0}})
+        with([&](Options& o) { o.axes.order = AxisOrder::among(axes); }, "axes.order must name");
     with([](Options& o) { o.num_parts = 3, o.axes.order = AxisOrder::given({0}); },
          "axes.order must hold one axis");
     with([](Options& o) { o.num_parts = 2, o.axes.order = AxisOrder::given({1}); },

@@ -114,6 +114,7 @@ std::vector<Options> options_for(int dimension, int num_parts) {
     if (dimension > 1) options.axes.order = AxisOrder::given(axes);
     Options by_many = options;
     by_many.tuning.central_parts = 2;
+    if (dimension == 2) by_many.axes.order = AxisOrder::among({1});
     return {options, by_many};
 }
 

@@ -1,6 +1,7 @@
 #include "clouds_of_all_ranks.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
@@ -60,6 +61,32 @@ TEST(GivenAxes, of_each_cut_are_kept_also_by_many_ranks_and_where_nothing_is_to_
         AxisOrder::given(std::vector<int>(static_cast<std::size_t>(options.num_parts) - 1, 1));
     const Balance result = balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD);
     for (const Cut& cut : result.cuts.tree) EXPECT_EQ(cut.axis, 1);
+}
+
+TEST(AllowedAxes, are_crossed_by_all_cuts) {
+    // The longest axis is none of them.
+    const auto mine = share_of_cloud(
+        8000, 3, [](std::size_t, int axis, double u) { return axis == 0 ? 5 * u : u; });
+    const Points points = interleaved_points(mine, 3);
+    Options options;
+    options.num_parts = 2 * num_ranks() + 1;
+    options.axes.order = AxisOrder::among({2});
+    for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact})
+        for (const int central : {2, 4096}) {
+            options.refine = refine;
+            options.tuning.central_parts = central;
+            const Balance layers = balance(points, options, {}, MPI_COMM_WORLD);
+            for (const Cut& cut : layers.cuts.tree) EXPECT_EQ(cut.axis, 2);
+        }
+    options.tuning = {};
+    options.refine = Refine::tolerance;
+    options.axes.min_width = {1e-3, 1e-3, 1e-3};
+    for (const Cut& cut : balance(points, options, {}, MPI_COMM_WORLD).cuts.tree)
+        EXPECT_EQ(cut.axis, 2);
+    options.axes.min_width = {1e-3, 1e-3, 0.9 / options.num_parts};
+    EXPECT_NO_THROW(balance(points, options, {}, MPI_COMM_WORLD));
+    options.axes.min_width = {1e-3, 1e-3, 0.6};
+    EXPECT_THROW(balance(points, options, {}, MPI_COMM_WORLD), Error);
 }
 
 TEST(PlainCuts, keep_points_on_a_plane_together) {

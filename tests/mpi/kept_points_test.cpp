@@ -84,6 +84,32 @@ TEST(PointsAtRest, of_any_dimension_and_weight_rest) {
     }
 }
 
+/// A layer of 10 x 0.2 under drops that make its box square.
+HeldPoints layer_with_drops(std::size_t count) {
+    HeldPoints all{2, test::uniform_cloud(count, 2, 12)};
+    for (std::size_t i = 0; i < count; ++i) {
+        double* x = &all.coordinates[2 * i];
+        x[0] *= 10;
+        x[1] *= i % 200 == 0 ? 10 : 0.2;
+    }
+    all.scatter();
+    return all;
+}
+
+TEST(PointsAtRest, in_a_layer_under_drops_rest_in_columns) {
+    expect_rest(layer_with_drops(8000), with(Refine::tolerance), 3);
+    HeldPoints all = layer_with_drops(8000);
+    for (int call = 0; call < 8; ++call) {
+        const Step step = balance_and_move(all, with(Refine::tolerance));
+        // Columns are at least five times as wide as high for up to 10 ranks.
+        for (const Cut& cut : step.balance.cuts.tree) EXPECT_EQ(cut.axis, 0);
+        // Small moves do not turn the cuts.
+        for (std::size_t i = 0; i < all.coordinates.size(); ++i)
+            all.coordinates[i] *=
+                1 + 1e-3 * static_cast<double>((i + 7 * static_cast<std::size_t>(call)) % 5);
+    }
+}
+
 TEST(PointsAtRest, in_parts_of_given_sizes_rest) {
     Options options = with(Refine::tolerance);
     for (int part = 0; part < num_ranks(); ++part) options.part_sizes.push_back(part % 3);

@@ -286,6 +286,7 @@ TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 2;
+    options.axes.order = AxisOrder::longest();
     const Balance tilted = balance(points, options, {}, MPI_COMM_WORLD);
     ASSERT_GT(tilted.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
     options.axes.plain = true;

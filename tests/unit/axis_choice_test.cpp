@@ -1,6 +1,13 @@
 #include "bisection/axis_choice.hpp"
 
+#include "bisection/bisection.hpp"
+#include "cuts/tree.hpp"
+#include "options/allowed_axes.hpp"
+
 #include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
 
 namespace rrcb {
 namespace {
@@ -19,23 +26,24 @@ Options options_of(int num_parts) {
 }
 
 TEST(LongestAxis, is_the_first_that_is_long_enough) {
-    EXPECT_EQ(longest_axis(box_of(2, 3), 2, 1), 1);
-    EXPECT_EQ(longest_axis(box_of(3, 3), 2, 1), 0);
-    EXPECT_EQ(longest_axis(box_of(2.8, 3), 2, 0.9), 0);
-    EXPECT_EQ(longest_axis(box_of(2.6, 3), 2, 0.9), 1);
-    EXPECT_EQ(longest_axis(box_of(1, 2, 3), 2, 1), 1) << "the third is none of the axes";
-    EXPECT_EQ(longest_axis(box_of(1, 2, 3), 3, 1), 2);
+    EXPECT_EQ(longest_axis(box_of(2, 3), first_axes(2), 1), 1);
+    EXPECT_EQ(longest_axis(box_of(3, 3), first_axes(2), 1), 0);
+    EXPECT_EQ(longest_axis(box_of(2.8, 3), first_axes(2), 0.9), 0);
+    EXPECT_EQ(longest_axis(box_of(2.6, 3), first_axes(2), 0.9), 1);
+    EXPECT_EQ(longest_axis(box_of(1, 2, 3), first_axes(2), 1), 1)
+        << "the third is none of the axes";
+    EXPECT_EQ(longest_axis(box_of(1, 2, 3), first_axes(3), 1), 2);
 }
 
 TEST(LongestAxis, does_not_overflow) {
     Box box = box_of(1e308, 1.7e308);
     box.lower = {-1e308, -1.7e308, 0};
-    EXPECT_EQ(longest_axis(box, 2, 1), 1);
+    EXPECT_EQ(longest_axis(box, first_axes(2), 1), 1);
 }
 
-TEST(AxisChoice, takes_nearly_equal_axes_as_equal) {
-    const Box box = box_of(2.8, 3);
-    EXPECT_EQ(AxisChoice(options_of(4), box, 2)(0, 0, box), 0);
+TEST(LongestAxis, takes_nearly_equal_axes_as_equal) {
+    EXPECT_EQ(longest_axis(box_of(2.8, 3), first_axes(2), nearly), 0);
+    EXPECT_EQ(longest_axis(box_of(2.8, 3), std::vector<int>{1, 0}, nearly), 1);
 }
 
 TEST(AxisChoice, crosses_the_axes_of_one_group_after_the_other) {
@@ -44,15 +52,15 @@ TEST(AxisChoice, crosses_the_axes_of_one_group_after_the_other) {
     options.axes.order = AxisOrder::grouped({1, 0});
     const AxisChoice choice(options, box_of(4, 2), 2);
     for (const auto& [depth, axis] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}})
-        EXPECT_EQ(choice(0, depth, box_of(1, 1)), axis);
+        EXPECT_EQ(choice(0, depth).front(), axis);
 }
 
 TEST(AxisChoice, crosses_the_axis_that_a_cut_was_given) {
     Options options = options_of(3);
     options.axes.order = AxisOrder::given({1, 0});
     const AxisChoice choice(options, box_of(4, 2), 2);
-    EXPECT_EQ(choice(0, 0, box_of(4, 2)), 1);
-    EXPECT_EQ(choice(1, 1, box_of(1, 2)), 0);
+    EXPECT_EQ(choice(0, 0).front(), 1);
+    EXPECT_EQ(choice(1, 1).front(), 0);
 }
 
 TEST(AxisChoice, leaves_out_axes_of_the_groups_that_the_points_do_not_have) {
@@ -60,7 +68,7 @@ TEST(AxisChoice, leaves_out_axes_of_the_groups_that_the_points_do_not_have) {
     options.axes.order = AxisOrder::grouped({2, 1, 0});
     const AxisChoice choice(options, box_of(4, 2, 100), 2);
     for (const auto& [depth, axis] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}})
-        EXPECT_EQ(choice(0, depth, box_of(1, 1)), axis);
+        EXPECT_EQ(choice(0, depth).front(), axis);
 }
 
 TEST(AxisChoice, has_an_axis_for_every_level_of_the_groups) {
@@ -70,12 +78,55 @@ TEST(AxisChoice, has_an_axis_for_every_level_of_the_groups) {
     const AxisChoice choice(options, box_of(8, 8, 1), 3);
     for (const auto& [depth, axis] :
          {std::pair{0, 0}, std::pair{1, 0}, std::pair{2, 1}, std::pair{3, 1}})
-        EXPECT_EQ(choice(0, depth, box_of(1, 1, 1)), axis);
+        EXPECT_EQ(choice(0, depth).front(), axis);
 }
 
 TEST(LongestAxis, of_a_place_is_the_first) {
-    EXPECT_EQ(longest_axis(box_of(0, 0, 0), 3, 1), 0);
-    EXPECT_EQ(longest_axis(box_of(0, 0, 5e-324), 3, 1), 0) << "half of it is nothing";
+    EXPECT_EQ(longest_axis(box_of(0, 0, 0), first_axes(3), 1), 0);
+    EXPECT_EQ(longest_axis(box_of(0, 0, 5e-324), first_axes(3), 1), 0) << "half of it is nothing";
+}
+
+/// Patches of a layer of 10 x 0.2, and two far points that make its box high.
+StatisticalDomain layer_with_strays() {
+    StatisticalDomain domain{2, {{{0, -2, 0}, {0, -2, 0}, 1e-3}, {{10, 12, 0}, {10, 12, 0}, 1e-3}}};
+    for (int i = 0; i < 20; ++i)
+        for (const double y : {5.0, 5.1})
+            domain.patches.push_back({{i / 2.0, y, 0}, {i / 2.0 + 0.5, y + 0.1, 0}, 1});
+    return domain;
+}
+
+std::vector<int> axes_by(const AxisOrder& order, StatisticalDomain domain, int num_parts) {
+    Options options;
+    options.num_parts = num_parts;
+    options.tree = TreeShape{};
+    options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1);
+    options.axes.order = order;
+    return axes_of(bisect(std::move(domain), options, false).cuts.tree);
+}
+
+TEST(AxisRule, crosses_the_axis_with_the_least_weight_near_the_cut) {
+    const StatisticalDomain layer = layer_with_strays();
+    EXPECT_EQ(axes_by({}, layer, 4), (std::vector<int>{0, 0, 0}));
+    EXPECT_EQ(axes_by(AxisOrder::longest(), layer, 4), (std::vector<int>{1, 0, 0}));
+    EXPECT_EQ(axes_by(AxisOrder::among({1}), layer, 4), (std::vector<int>{1, 1, 1}));
+    EXPECT_EQ(axes_by(AxisOrder::among({1, 0}), layer, 4), (std::vector<int>{0, 0, 0}));
+}
+
+TEST(AxisRule, crosses_the_longest_axis_unless_another_saves_a_tenth) {
+    const auto box = [](double x, double y) {
+        StatisticalDomain domain{2, {}};
+        for (int i = 0; i < 8; ++i)
+            for (int j = 0; j < 8; ++j)
+                domain.patches.push_back({{i * x, j * y, 0}, {(i + 1) * x, (j + 1) * y, 0}, 1});
+        return domain;
+    };
+    EXPECT_EQ(axes_by({}, box(1, 1), 4), (std::vector<int>{0, 1, 1}));
+    EXPECT_EQ(axes_by({}, box(1, 1.08), 2), (std::vector<int>{0}));
+    EXPECT_EQ(axes_by({}, box(1, 1.2), 2), (std::vector<int>{1}));
+    EXPECT_EQ(axes_by(AxisOrder::among({1, 0}), box(1.08, 1), 2), (std::vector<int>{1}));
+    // Without sides of patches the box counts.
+    StatisticalDomain corners{2, {{{0, 0, 0}, {0, 0, 0}, 1}, {{1, 2, 0}, {1, 2, 0}, 1}}};
+    EXPECT_EQ(axes_by({}, corners, 2), (std::vector<int>{1}));
 }
 
 }  // namespace

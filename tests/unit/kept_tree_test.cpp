@@ -36,6 +36,7 @@ Options options_for(std::size_t num_parts) {
     options.num_parts = static_cast<int>(num_parts);
     options.part_sizes.assign(num_parts, 1);
     options.refine = Refine::tolerance;
+    options.axes.order = AxisOrder::longest();
     return options;
 }
 

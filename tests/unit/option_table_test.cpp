@@ -202,6 +202,9 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) { o.axes.order = AxisOrder::grouped({1}); }},
         {"one of axes.order, axes.min_width, axes.grid",
+         [](Options& o) { o.axes.order = AxisOrder::among({1}); }},
+        {"axes.order", [](Options& o) { o.axes.order = AxisOrder::longest(); }},
+        {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) { o.axes.min_width = {1}; }},
         {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) {

@@ -8,11 +8,12 @@ namespace rrcb {
 ///
 /// An axis of zero extent has a single layer of cells. Cell numbers run fastest along axis 0.
 struct SupportMesh {
-    int dimension = 0;                              ///< of the points
-    Box box;                                        ///< of the points, covered by the cells
+    int dimension = 0;  ///< of the points
+    Box box;            ///< of the points, covered by the cells
+    Box frame;          ///< `box`, or less: divided evenly; the outermost layers reach on to `box`
     std::array<int, max_dimension> cells{1, 1, 1};  ///< per axis
     Vector scale{1, 1, 1};      ///< power of two that keeps squares of coordinates in range
-    Vector cells_per_length{};  ///< of scaled length; 0 on an axis of zero extent
+    Vector cells_per_length{};  ///< of scaled length of the frame; 0 on an axis of zero extent
 };
 
 /// Lays a mesh over a box. Not collective.

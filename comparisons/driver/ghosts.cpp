@@ -1,0 +1,172 @@
+// Ghosts of the parts of several methods, made by one process, as CSV on standard output.
+//
+//   rrcb_ghosts clouds [--quick]        clouds of 20,000 points, several seeds
+//   rrcb_ghosts flow SCENE [--quick]    points of a simulation, from earlier cuts and from scratch
+//
+// A point is a ghost within the radius of GhostCounter; of clouds, three times that.
+#include "cloud.hpp"
+#include "failure.hpp"
+#include "ghosts_mpi.hpp"
+#include "partitioner_mpi.hpp"
+#include "row.hpp"
+#include "scene_choice_mpi.hpp"
+#include "scene_mpi.hpp"
+
+#include <rrcb/quality.hpp>
+#include <rrcb/rrcb.hpp>
+
+#include <exception>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace comparisons;
+using rrcb::Part;
+
+void print(const Row& row) {
+    static bool is_first = true;
+    if (std::exchange(is_first, false)) std::cout << row.header() << '\n';
+    std::cout << row.text() << std::endl;
+}
+
+std::vector<Part> by_zoltan(const std::string& method, const Workload& workload, int num_parts) {
+    ZoltanParameters parameters = zoltan_parameters(read_method(method), Lists::parts);
+    parameters.emplace_back("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+    parameters.emplace_back("IMBALANCE_TOL", "1.01");
+    ZoltanPartitioner zoltan(parameters, workload, MPI_COMM_SELF);
+    if (zoltan.partition() != ZOLTAN_OK) throw Failure("Zoltan failed");
+    return zoltan.parts();
+}
+
+std::vector<Part> by(const std::string& method, const Workload& workload, int num_parts) {
+    const Method read = read_method(method);
+    if (!read.options) return by_zoltan(method, workload, num_parts);
+    auto options = std::get<rrcb::Options>(*read.options);
+    options.num_parts = num_parts;
+    return rrcb::balance(workload.points(), options, {}, MPI_COMM_SELF).parts;
+}
+
+double imbalance_of(const std::vector<Part>& parts, int num_parts) {
+    std::vector<double> sizes(static_cast<std::size_t>(num_parts));
+    for (const Part part : parts) ++sizes[static_cast<std::size_t>(part)];
+    return rrcb::imbalance(sizes);
+}
+
+void compare(const Cloud& cloud) {
+    const Workload workload{
+        cloud.name, "", cloud.dimension, cloud_points(cloud, 0, cloud.num_points), false, {}};
+    const double radius = 3 * GhostCounter(workload, {}, MPI_COMM_SELF).radius();
+    const GhostCounter counter(workload, {radius}, MPI_COMM_SELF);
+    for (const int num_parts : {4, 16, 64})
+        for (const char* method : {"zoltan-rcb", "zoltan-rib", "zoltan-hsfc", "rrcb-arrays",
+                                   "rrcb-arrays[axes=longest]"}) {
+            const std::vector<Part> parts = by(method, workload, num_parts);
+            const Ghosts ghosts = counter.count(parts, num_parts);
+            print(Row()
+                      .add("cloud", cloud.name)
+                      .add("dim", cloud.dimension)
+                      .add("parts", num_parts)
+                      .add("seed", static_cast<double>(cloud.seed))
+                      .add("method", method)
+                      .add("imbalance", imbalance_of(parts, num_parts))
+                      .add("ghosts", static_cast<double>(ghosts.sum))
+                      .add("ghosts_max", static_cast<double>(ghosts.most))
+                      .add("neighbours_max", ghosts.most_neighbours));
+        }
+}
+
+void compare_clouds(bool quick) {
+    for (const char* name : {"uniform", "slab", "slope", "run_out", "polygon", "wave", "clusters",
+                             "shell", "spiral", "diagonal", "cusps", "drops", "pile"})
+        for (const int dimension : {2, 3})
+            for (std::uint64_t seed = 1; seed <= (quick ? 1 : 5); ++seed)
+                compare({name, quick ? 1000 : 20'000, dimension, seed});
+}
+
+/// Parts of one rule along a flow.
+struct Follower {
+    rrcb::Options options;
+    rrcb::Balance balance{};
+    double moved = 0;  ///< parts of all points
+
+    /// Takes the points where they are now; points keep their order.
+    void go_on(const rrcb::Points& points, bool keeps_axes) {
+        if (balance.cuts.num_parts != options.num_parts) {
+            balance = rrcb::balance(points, options, {}, MPI_COMM_SELF);
+            return;
+        }
+        rrcb::Cuts previous = std::exchange(balance.cuts, {});
+        const std::vector<Part> before = std::move(balance.parts);
+        if (keeps_axes) previous.near = {};
+        balance = rrcb::balance(points, options, previous, MPI_COMM_SELF);
+        std::size_t changed = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) changed += before[i] != balance.parts[i];
+        moved += static_cast<double>(changed) / static_cast<double>(before.size());
+    }
+};
+
+void follow(const std::string& name, int num_parts, bool quick) {
+    const mpm::Scene scene = choose_scene(name, quick, MPI_COMM_SELF);
+    const int num_steps = quick ? 100 : steps_to_end(scene, MPI_COMM_SELF);
+    const int every = std::max(1, num_steps / 200);
+    mpm::Simulation simulation(scene, MPI_COMM_SELF);
+    Follower turns{};
+    turns.options.num_parts = num_parts;
+    Follower keeps = turns;
+    Follower longest = turns;
+    longest.options.axes.order = rrcb::AxisOrder::longest();
+    for (int step = 0; step <= num_steps; ++step) {
+        if (step > 0) simulation.step();
+        if (step % every != 0) continue;
+        const Workload now = snapshot(name, simulation);
+        turns.go_on(now.points(), false);
+        keeps.go_on(now.points(), true);
+        longest.go_on(now.points(), true);
+        if (step / every % 20 != 0) continue;
+        const GhostCounter counter(now, {}, MPI_COMM_SELF);
+        const auto ghosts = [&](const std::vector<Part>& parts) {
+            return static_cast<double>(counter.count(parts, num_parts).sum);
+        };
+        print(Row()
+                  .add("scene", name)
+                  .add("parts", num_parts)
+                  .add("step", step)
+                  .add("ghosts", ghosts(turns.balance.parts))
+                  .add("ghosts_of_first_axes", ghosts(keeps.balance.parts))
+                  .add("ghosts_of_longest", ghosts(longest.balance.parts))
+                  .add("ghosts_from_scratch",
+                       ghosts(rrcb::balance(now.points(), turns.options, {}, MPI_COMM_SELF).parts))
+                  .add("moved", turns.moved)
+                  .add("moved_of_first_axes", keeps.moved)
+                  .add("moved_of_longest", longest.moved));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    float version = 0;
+    Zoltan_Initialize(argc, argv, &version);
+    int exit_code = 0;
+    const std::vector<std::string_view> words(argv + 1, argv + argc);
+    const bool quick = !words.empty() && words.back() == "--quick";
+    try {
+        if (words.size() >= 1 && words[0] == "clouds") {
+            compare_clouds(quick);
+        } else if (words.size() >= 2 && words[0] == "flow") {
+            for (const int num_parts : {4, 16}) follow(std::string(words[1]), num_parts, quick);
+        } else {
+            throw Failure("clouds, or flow and a scene, is needed; see the source");
+        }
+    } catch (const std::exception& error) {
+        std::cerr << "rrcb_ghosts: " << error.what() << '\n';
+        exit_code = 1;
+    }
+    MPI_Finalize();
+    return exit_code;
+}

@@ -1,0 +1,86 @@
+"""Compares the ghosts of methods: on 13 clouds, and along flows from earlier cuts."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from document import markdown_table
+from driver import OUT, PROGRAMS, ROOT, build, on_ranks
+from results import read_all
+
+CASE = ["cloud", "dim", "parts"]
+BASE, OURS = "zoltan-rcb", "rrcb-arrays"
+COUNTS = ["ghosts", "ghosts_max", "neighbours_max"]
+FLOWS = ("dam_break", ROOT / "comparisons/studies/granular_flow.yaml")
+
+
+def ratios(rows: pd.DataFrame) -> pd.DataFrame:
+    """Counts of each cloud, dimension, number of parts, seed and method over those of Zoltan's RCB."""
+    counts = rows.set_index([*CASE, "seed", "method"])[COUNTS]
+    return counts / counts.xs(BASE, level="method").reindex(counts.droplevel("method").index).to_numpy()
+
+
+def mean(numbers: pd.Series) -> float:
+    return float(np.exp(np.log(numbers).mean()))
+
+
+def table(found: pd.DataFrame) -> list[list[str]]:
+    """By cloud and dimension, geometric means of parts and seeds; then those of all clouds."""
+    methods = [m for m in found.index.unique("method") if m != BASE]
+    ghosts = found["ghosts"].groupby(["cloud", "dim", "method"], sort=False).agg(mean).unstack("method")
+    lines = [["cloud", *methods]]
+    for (cloud, dim), row in ghosts.iterrows():
+        lines.append([f"{cloud} {dim}-D", *(f"{row[m]:.2f}" for m in methods)])
+    for count in COUNTS:
+        of_all = found[count].groupby("method").agg(mean)
+        lines.append([f"all, {count}", *(f"{of_all[m]:.2f}" for m in methods)])
+    worst = found["ghosts"].groupby([*CASE, "method"]).agg(mean).groupby("method").max()
+    lines.append(["worst cloud and number of parts", *(f"{worst[m]:.2f}" for m in methods)])
+    return lines
+
+
+def flow_table(rows: pd.DataFrame) -> list[list[str]]:
+    """The worst tenth of each flow, and what moved in all, over that of cuts that keep their axes."""
+    lines = [["flow", "parts", "ghosts / from scratch", "of first axes", "moved / of first axes"]]
+    for (scene, parts), run in rows.groupby(["scene", "parts"], sort=False):
+        last = run.iloc[-1]
+        lines.append([
+            Path(scene).stem, str(parts), f"{(run['ghosts'] / run['ghosts_from_scratch']).max():.2f}",
+            f"{(run['ghosts_of_first_axes'] / run['ghosts_from_scratch']).max():.2f}",
+            f"{last['moved'] / last['moved_of_first_axes']:.2f}",
+        ])  # fmt: skip
+    return lines
+
+
+def count(program: Path, file: Path, *words: str) -> pd.DataFrame:
+    print("rrcb_ghosts", *words, file=sys.stderr, flush=True)
+    with file.open("w") as rows:
+        on_ranks(1, program, *words, stdout=rows, check=True)
+    return read_all(file)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=OUT / "ghosts", help="folder of the results")
+    parser.add_argument("--quick", action="store_true", help="few points, one seed, one short flow")
+    parser.add_argument("--driver", type=Path, help="a program beside rrcb_ghosts, which is not built then")
+    given = parser.parse_args()
+    given.out.mkdir(parents=True, exist_ok=True)
+    if not given.driver:
+        build("rrcb_ghosts")
+    program = (given.driver.parent if given.driver else PROGRAMS) / "rrcb_ghosts"
+    quick = ["--quick"] * given.quick
+    print("Ghosts over those of zoltan-rcb\n")
+    print(markdown_table(table(ratios(count(program, given.out / "clouds.csv", "clouds", *quick)))))
+    flows = [count(program, given.out / f"flow_{k}.csv", "flow", str(flow), *quick)
+             for k, flow in enumerate(FLOWS[: 1 if quick else None])]  # fmt: skip
+    print("\nFrom earlier cuts\n")
+    print(markdown_table(flow_table(pd.concat(flows))))
+
+
+if __name__ == "__main__":
+    main()

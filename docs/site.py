@@ -13,8 +13,8 @@ import reference
 ROOT = Path(__file__).resolve().parents[1]
 MENU = {
     "Start": ["docs/install", "docs/first_program", "docs/python", "docs/zoltan"],
-    "Guide": ["docs/loop", "docs/rebalancing", "docs/weights", "docs/choosing", "docs/machines",
-              "docs/performance", "docs/hosts", "docs/errors", "docs/edge_cases", "docs/teuchos",
+    "Guide": ["docs/loop", "docs/queries", "docs/rebalancing", "docs/weights", "docs/choosing", "docs/machines",
+              "docs/performance", "docs/hosts", "docs/errors", "docs/hard_cases", "docs/teuchos",
               "SUPPORT"],
     "Reference": ["docs/parameters", "reference/cpp", "reference/c", "reference/fortran",
                   "CHANGELOG"],

@@ -4,6 +4,7 @@ pages(root) returns the text of each page, in Markdown, by its name; it raises V
 declaration without a comment. A page has a heading for each function, class and type, with its
 comment and its declaration.
 """
+import functools
 import os
 import re
 from pathlib import Path
@@ -284,6 +285,7 @@ def links_from(folder, items):
     return found
 
 
+@functools.cache
 def links_of_types(root, folder):
     """The address of each function and type of C++, from a page in `folder`; not of members."""
     found = {}

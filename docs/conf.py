@@ -7,7 +7,10 @@ html_title = "RRCB"
 html_show_sphinx = False
 html_show_copyright = False
 html_copy_source = False
-html_static_path = ["site.css"]
+html_static_path = ["site.css", "site.js"]
 html_css_files = ["site.css"]
+html_js_files = ["site.js"]
+# A placeholder until the project has an address; no other file has one.
+html_baseurl = "https://rrcb.invalid/"
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]

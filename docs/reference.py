@@ -4,9 +4,13 @@ pages(root) returns the text of each page, in Markdown, by its name; it raises V
 declaration without a comment. A page has a heading for each function, class and type, with its
 comment and its declaration.
 """
+import functools
 import os
 import re
 from pathlib import Path
+
+import reference_members
+import reference_python
 
 CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts",
        "groups", "remap", "quality", "controller", "cost", "restart", "stages", "error", "version", "eigen",
@@ -17,6 +21,13 @@ C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/groups", "c/cont
      "c/quality", "zoltan/rrcb_zoltan", "zoltan/optional_functions")
 FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "groups.f90",
            "controllers.F90", "functions.f90")
+# What a header is for, in the lists of headers.
+TASKS = {"points": "describe points", "views": "describe views", "options": "choose", "balance": "divide",
+         "cuts": "look up", "plan": "plan a move", "transfer": "move columns", "balancer": "divide, look up, move",
+         "balancers": "divide, look up, move", "ghosts": "find neighbours and answer queries",
+         "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure",
+         "controller": "decide when to rebalance", "controllers": "decide when to rebalance",
+         "cost": "learn weights", "restart": "save and load", "error": "handle errors", "paper": "compare"}
 
 
 def comment_text(lines):
@@ -179,9 +190,12 @@ def page(title, language, items, links):
         indent = len(code) - len(code.lstrip())
         code = "\n".join(line[indent:] if not line[:indent].strip() else line
                          for line in code.splitlines()).replace("RRCB_API ", "")
+        code, members = reference_members.split(code)
         if code:
             parts.append(f"```{language}\n{code}\n```")
         parts.append(as_markdown(linked(comment, links)))
+        parts.append("\n".join((f"- `{member}`: " if member else "") + as_markdown(linked(text, links))
+                               for member, text in members))
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -244,12 +258,18 @@ def faulty_comments(root):
             yield from faults(file, function, comment, [each for each in given if each not in ("self", "error")])
 
 
+def mark_of(name):
+    """The mark of a heading, as Sphinx makes it."""
+    return re.sub(r"[^\w -]", "", name.lower())
+
+
 def overview(title, text, names, all_items):
     lines = [f"# {title}", "", text, ""]
     for name in names:
         found = [item[0] for item in all_items[name] if item[0] and "::" not in item[0]]
-        listed = ", ".join(f"`{each}`" for each in dict.fromkeys(found))
-        lines.append(f"- [{name}]({name}.md): {listed}")
+        listed = ", ".join(f"[`{each}`]({name}.md#{mark_of(each)})" for each in dict.fromkeys(found))
+        task = TASKS.get(re.sub(r".*/|\.\w+$", "", name))
+        lines.append(f"- {task + ', ' if task else ''}[{name}]({name}.md): {listed}")
     links = "\n".join(f"{name}.md" for name in names)
     return "\n".join(lines) + f"\n\n```{{toctree}}\n:hidden:\n\n{links}\n```\n"
 
@@ -261,8 +281,20 @@ def links_from(folder, items):
         if title.endswith("pp"):
             for name, _, _ in of_page:
                 place = os.path.relpath(f"{title}.md", folder)
-                mark = re.sub(r"[^\w -]", "", name.lower())
-                found.setdefault(name.split("::")[-1] if name else "", f"{place}#{mark}")
+                found.setdefault(name.split("::")[-1] if name else "", f"{place}#{mark_of(name)}")
+    return found
+
+
+@functools.cache
+def links_of_types(root, folder):
+    """The address of each function and type of C++, from a page in `folder`; not of members."""
+    found = {}
+    for name in CPP:
+        text = (Path(root) / "include" / "rrcb" / f"{name}.hpp").read_text()
+        place = os.path.relpath(f"reference/rrcb/{name}.hpp.md", folder)
+        for title, _, _ in items_of(text.splitlines(), name):
+            if title and "::" not in title:
+                found.setdefault(title, f"{place}#{mark_of(title)}")
     return found
 
 
@@ -289,4 +321,5 @@ def pages(root):
             ("c", "C", "Include `rrcb/rrcb.h`."), ("fortran", "Fortran", "The module is `rrcb`.")):
         titles = [title for title in items if languages[title] == language]
         result[f"reference/{language}.md"] = overview(heading, text, titles, items)
+    result["reference/python.md"] = reference_python.page(root)
     return result

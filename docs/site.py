@@ -5,6 +5,7 @@ Fails if a header of the interface has no place in the reference.
 """
 import re
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -13,14 +14,15 @@ import reference
 ROOT = Path(__file__).resolve().parents[1]
 MENU = {
     "Start": ["docs/install", "docs/first_program", "docs/python", "docs/zoltan"],
-    "Guide": ["docs/loop", "docs/rebalancing", "docs/weights", "docs/choosing", "docs/machines",
-              "docs/performance", "docs/hosts", "docs/errors", "docs/edge_cases", "docs/teuchos",
+    "Guide": ["docs/loop", "docs/queries", "docs/rebalancing", "docs/weights", "docs/choosing",
+              "docs/errors", "docs/hard_cases", "docs/teuchos",
               "SUPPORT"],
     "Reference": ["docs/parameters", "reference/cpp", "reference/c", "reference/fortran",
-                  "CHANGELOG"],
+                  "reference/python", "reference/names", "CHANGELOG"],
     "Comparisons": ["comparisons/README", "comparisons/columns", "docs/design/paper"],
     "Design": ["docs/design/how_it_works", "docs/design/statistical_domain",
-               "docs/design/many_ranks", "docs/design/rebalancing", "docs/design/testing",
+               "docs/design/many_ranks", "docs/design/rebalancing", "docs/performance",
+               "docs/machines", "docs/hosts", "docs/design/testing",
                "docs/design/xsdk", "CONTRIBUTING", "SECURITY"],
     "Examples": ["examples/lammps/README", "examples/mpm/README",
                  "examples/mpm/docs/method", "examples/mpm/docs/energy",
@@ -52,6 +54,24 @@ def without_sources(text):
     return re.sub(r"(?<!!)\[([^\]]+)\]\((?!\w+:|#|[^)]*\.md[#)])[^)]+\)", r"\1", text)
 
 
+def linked_names(text, links):
+    """Names of functions and types in prose lead to the reference; code, headings and links stay."""
+    def link(found):
+        name = found[1].removesuffix("()").removeprefix("rrcb::")
+        return f"[{found[0]}]({links[name]})" if name in links else found[0]
+    parts = re.split(r"(```.*?```|^#.*?$|^    .*?$|!?\[[^\]]*\]\([^)]*\))", text, flags=re.S | re.M)
+    return "".join(part if k % 2 else re.sub(r"(?<!`)`([\w:]+(?:\(\))?)`(?!`)", link, part)
+                   for k, part in enumerate(parts))
+
+
+def table_of_names():
+    """The names of each function in the four languages, as install.names compares them."""
+    script = ROOT / "tests" / "install" / "names.py"
+    table = subprocess.run([sys.executable, script, ROOT, "--table"], check=True, text=True,
+                           capture_output=True)
+    return f"# Names in all languages\n\n{table.stdout}"
+
+
 def gather(folder):
     for name in ["README", *(page for pages in MENU.values() for page in pages)]:
         source = ROOT / f"{name}.md"
@@ -60,17 +80,20 @@ def gather(folder):
         target = folder / f"{name}.md"
         target.parent.mkdir(parents=True, exist_ok=True)
         text = without_sources(source.read_text())
+        if name != "CHANGELOG":
+            text = linked_names(text, reference.links_of_types(ROOT, Path(name).parent))
         target.write_text(text + menu() if name == "README" else text)
         for picture in pictures_of(text):
             place = target.parent / picture
             place.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source.parent / picture, place)
-    for name, text in reference.pages(ROOT).items():
+    for name, text in {**reference.pages(ROOT), "reference/names.md": table_of_names()}.items():
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text)
     shutil.copy(ROOT / "docs" / "conf.py", folder)
-    shutil.copy(ROOT / "docs" / "site.css", folder)
+    for name in ("site.css", "site.js"):
+        shutil.copy(ROOT / "docs" / name, folder)
 
 
 def without_place():

@@ -15,11 +15,12 @@ endfunction()
 
 set(compiled "")
 foreach(program IN ITEMS examples/quick_start/main.cpp examples/loop/main.cpp
+                        examples/neighbours/main.cpp
                         tests/mpi/groups_test.cpp)
   read_flat(${ROOT}/${program} source)
   string(APPEND compiled "${source}")
 endforeach()
-foreach(document IN ITEMS README.md docs/loop.md)
+foreach(document IN ITEMS README.md docs/loop.md docs/queries.md)
   read_flat(${ROOT}/${document} text)
   string(REGEX MATCHALL "```cpp\n[^`]+```" blocks "${text}")
   list(LENGTH blocks num_blocks)

@@ -84,6 +84,23 @@ def missing_words(folder):
                 if not re.search(rf'[,{{"]{word}"?:', index))
 
 
+def raw_comments(pages, folder):
+    """Pages of the reference on which comments of members are code."""
+    for path in pages:
+        if "reference" in path.relative_to(folder).parts and re.search(
+                r"///&lt;|/\*\*&lt;", re.sub(r"<[^>]*>", "", path.read_text())):
+            yield f"{path.name}: comments of members are not text"
+
+
+def missing_python(pages, folder):
+    text = (ROOT / "python/rrcb/__init__.py").read_text()
+    names = re.findall(r'^    "(\w+)",$', text, re.M)
+    page = pages.get(folder / "reference/python.html")
+    titles = {title.strip("¶#") for _, title in page.headings} if page else set()
+    yield from (f"{name} has no heading in the reference of Python" for name in names
+                if name not in titles)
+
+
 def broken(folder, page, link, pages):
     target, _, mark = unquote(link).partition("#")
     target = target.partition("?")[0]
@@ -104,7 +121,8 @@ def main():
     problems += [f"{path.name}: headings are out of order" for path in pages
                  if path.name not in ("genindex.html", "search.html")
                  and misplaced_headings(pages[path])]
-    problems += [*missing_names(pages, folder), *missing_words(folder)]
+    problems += [*missing_names(pages, folder), *missing_words(folder), *raw_comments(pages, folder),
+                 *missing_python(pages, folder)]
     print("\n".join(problems) or f"{len(pages)} pages, {len(inside)} links within the site, "
           f"{len(found) - len(inside)} to others")
     return 1 if problems or not inside else 0

@@ -18,7 +18,8 @@ struct ReportDetails {
         1;  ///< of the statistical domain, see quality.hpp; NaN if there
             ///< is none: from earlier cuts, or if many ranks make the parts
     /// Lower bound of the imbalance of any partition: by the heaviest point, or by the number of
-    /// points if all weigh the same, as 1.6 for 20 points in 16 parts.
+    /// points if all weigh the same, as 1.6 for 20 points in 16 parts. It is not raised by
+    /// coincident points that stay together: if some do, `coincident_cuts` is above 0.
     double least_imbalance = 1;
     int coincident_cuts = 0;        ///< that would divide points which no allowed cut separates;
                                     ///< counted by the refinement

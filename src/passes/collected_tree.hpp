@@ -50,7 +50,7 @@ struct PointsInLot {
 /// Along the axis number k of its order of positions, entry 2 k is minus the smallest coordinate
 /// above the cut and entry 2 k + 1 the largest below. Only points exactly at the cut along the axes
 /// before count; without any the entry is -infinity.
-using Gap = std::array<double, 2 * max_dimension>;
+using Gap = std::array<double, std::size_t{2} * max_dimension>;
 
 /// Collected points of one rank on their way down a tree of cuts.
 ///

@@ -20,7 +20,7 @@ struct HistogramLayout {
                                                      ///< their edges
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
-    static constexpr std::size_t num_extents = 2 * max_dimension;
+    static constexpr std::size_t num_extents = std::size_t{2} * max_dimension;
     std::size_t length() const { return num_extents + 2 * num_slots(); }
 };
 

@@ -10,8 +10,8 @@ namespace rrcb {
 
 void centre(Cut& cut, int num_axes, std::span<const double> gap) {
     for (int k = 0; k < num_axes; ++k) {
-        const double above = -gap[2 * k];
-        const double below = gap[2 * k + 1];
+        const double above = -gap[std::size_t{2} * k];
+        const double below = gap[std::size_t{2} * k + 1];
         if (below == above) continue;
         const bool is_empty = below == -infinity && above == infinity;
         if (is_empty) return;

@@ -10,7 +10,7 @@ namespace rrcb {
 namespace {
 
 std::size_t counts_of(const Descent& at) {
-    return 2 * bins_a_side * static_cast<std::size_t>(at.num_parts);
+    return static_cast<std::size_t>(at.num_parts) * 2 * bins_a_side;
 }
 
 std::size_t counts_below(const Descent& at) {

@@ -70,7 +70,7 @@ double place_in_bin(const Slab& slab, double cut, bool above, int bin, double sh
 template <class Count>
 std::span<Count> bin_in(std::span<Count> counts, const Descent& at, const Slab& slab, bool above,
                         int bin) {
-    const int k = bin + (above ? bins_a_side : 0);
+    const std::size_t k = bin + (above ? bins_a_side : 0);
     return counts.subspan(slab.first_count + k * at.num_parts, at.num_parts);
 }
 

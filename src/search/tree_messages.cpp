@@ -29,7 +29,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
         if (std::ranges::max(node.gap) == -infinity) return;
         payload.push_back(mark_of_gap);
         payload.insert(payload.end(), node.gap.begin(),
-                       node.gap.begin() + 2 * node.search.num_axes);
+                       node.gap.begin() + std::ptrdiff_t{2} * node.search.num_axes);
         return;
     }
     if (!has_points(node)) return;

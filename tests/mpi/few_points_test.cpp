@@ -81,6 +81,25 @@ TEST(FewPoints, have_the_least_imbalance_of_whole_points) {
     }
 }
 
+TEST(FewPoints, in_one_place_raise_the_imbalance_but_not_its_bound) {
+    // 10 of 20 points at the origin.
+    std::vector<double> mine;
+    for (int i = rank(); i < 20; i += num_ranks()) mine.push_back(i < 10 ? 0 : i);
+    for (const Refine refine : {Refine::tolerance, Refine::exact})
+        for (const Coincident coincident : {Coincident::together, Coincident::divide}) {
+            Options options;
+            options.num_parts = 16;
+            options.refine = refine;
+            options.coincident = coincident;
+            const Report report =
+                balance(interleaved_points(mine, 1), options, MPI_COMM_WORLD).report;
+            const bool stay = coincident == Coincident::together;
+            EXPECT_EQ(report.details.least_imbalance, 1.6);
+            EXPECT_EQ(report.imbalance, stay ? 8 : 1.6);
+            EXPECT_GT(report.details.coincident_cuts, 0);
+        }
+}
+
 /// Expects that the parts with points are the first ones with a size, and have at least so many.
 void expect_filled(const Balance& result, const Options& options, int count) {
     const std::vector<int> counts = counts_of(result);

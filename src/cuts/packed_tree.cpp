@@ -70,13 +70,21 @@ void PackedTree::pack(const Cuts& cuts, const EntryOf& entry_of) {
 void PackedTree::pack(const Packing& packing, const Box& box) {
     cuts_ = packing.cuts.tree;
     dimension_ = packing.cuts.dimension;
-    resize(1);
+    if (!packing.prunes) reserve(cuts_.size() + 1);
+    append_node();
     add(packing, root_of(packing.cuts), box, 0, 0);
     find_top();
 }
 
-void PackedTree::resize(std::int32_t num_nodes) {
-    planes_.resize(num_nodes, nowhere);
+void PackedTree::append_node() {
+    planes_.push_back(nowhere);
+    axes_.push_back(0);
+    lowers_.push_back(0);
+    items_.push_back(0);
+}
+
+void PackedTree::drop_nodes(std::int32_t num_nodes) {
+    planes_.resize(num_nodes);
     axes_.resize(num_nodes);
     lowers_.resize(num_nodes);
     items_.resize(num_nodes);
@@ -106,11 +114,12 @@ void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::in
     lowers_[node] = lower;
     items_[node] = static_cast<std::int32_t>(cut - cuts_.data());
     if (!is_plane(*cut, dimension_)) is_plain_ = false;
-    resize(lower + 2);
+    append_node();
+    append_node();
     add(packing, at.lower(), box_below(box, *cut), lower, depth + 1);
     add(packing, at.upper(), box_above(box, *cut), lower + 1, depth + 1);
     if (!is_left_out(lower) || !is_left_out(lower + 1)) return;
-    resize(lower);
+    drop_nodes(lower);
     entries_.resize(entries_.size() - 2);
     add_end(node, left_out);
 }

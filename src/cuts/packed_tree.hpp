@@ -105,7 +105,8 @@ class PackedTree {
     void pack(const Packing& packing, const Box& box);
     void add(const Packing& packing, Descent at, const Box& box, std::int32_t node, int depth);
     void add_end(std::int32_t node, Part entry);
-    void resize(std::int32_t num_nodes);
+    void append_node();
+    void drop_nodes(std::int32_t num_nodes);  ///< from this number on
     bool is_left_out(std::int32_t node) const { return is_end(node) && entry_at(node) == left_out; }
     void find_top();
 

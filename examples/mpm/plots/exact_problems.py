@@ -13,6 +13,9 @@ from vtk_files import frames_of, history_of, points_of
 G = 9.81
 
 
+Tree = dict[str, object]  # of lists, as scene files have them
+
+
 @dataclass(frozen=True)
 class Problem:
     name: str
@@ -20,53 +23,41 @@ class Problem:
     measure: str  # what the error is of
     cells: tuple[float, ...]  # sizes, m
     points: int  # along a cell
-    text: Callable[[float], str]  # of the scene but for its method and output
+    tree: Callable[[float], Tree]  # of the scene but for its method and output
 
     def scene(self, cell: float, function: str, courant_number: float, end: str) -> str:
-        return (
-            f"scene:\n  dimension: 2\n{self.text(cell)}"
-            f"  method:\n    shape_function: {function}\n    courant_number: {courant_number}\n"
-            f"{end}"
-        )
+        method = {"shape_function": function, "courant_number": courant_number}
+        return written({"scene": {"dimension": 2, **self.tree(cell), "method": method}}) + end
 
 
-def domain(lower: tuple[float, float], upper: tuple[float, float], cell: float) -> str:
+def written(tree: Tree, indent: str = "") -> str:
+    """A tree of lists as YAML."""
+    text = ""
+    for name, value in tree.items():
+        is_list = isinstance(value, dict)
+        text += f"{indent}{name}:" + ("\n" if is_list else f" {value}\n")
+        text += written(value, indent + "  ") if is_list else ""
+    return text
+
+
+def solid(upper: tuple[float, float], cell: float, material: tuple[float, float, float],
+          lower: tuple[float, float] = (0, 0)) -> Tree:
+    """Cells, and an elastic material of a density, a modulus and Poisson's ratio."""
     cells = [round((high - low) / cell) for low, high in zip(lower, upper)]
-    return (
-        f"  domain:\n    lower: [{lower[0]}, {lower[1]}]\n    cells: {cells}\n    cell_size: {cell}\n"
-    )
+    keys = ("density", "youngs_modulus", "poissons_ratio")
+    return {
+        "domain": {"lower": list(lower), "cells": cells, "cell_size": cell},
+        "materials": {"solid": {"model": "elastic", **dict(zip(keys, material))}},
+    }
 
 
-def elastic(density: float, modulus: float, ratio: float) -> str:
-    return (
-        "  materials:\n    solid:\n      model: elastic\n"
-        f"      density: {density}\n      youngs_modulus: {modulus}\n      poissons_ratio: {ratio}\n"
-    )
+def body(points: int, velocity: Tree | None = None, **shape: object) -> Tree:
+    return {"material": "solid", "points_per_cell": [points, points], "shapes": {"all": shape},
+            **({"velocity": velocity} if velocity else {})}  # fmt: skip
 
 
-def body(name: str, points: int, shape: str, velocity: str = "") -> str:
-    return (
-        f"    {name}:\n      material: solid\n      points_per_cell: [{points}, {points}]\n"
-        f"      shapes:\n        all:\n{shape}{velocity}"
-    )
-
-
-def box(lower: tuple[float, float], upper: tuple[float, float]) -> str:
-    return (
-        f"          shape: box\n          lower: [{lower[0]}, {lower[1]}]\n"
-        f"          upper: [{upper[0]}, {upper[1]}]\n"
-    )
-
-
-def ball(centre: tuple[float, float], radius: float) -> str:
-    return (
-        f"          shape: ball\n          centre: [{centre[0]}, {centre[1]}]\n"
-        f"          radius: {radius}\n"
-    )
-
-
-def gravity(acceleration: float) -> str:
-    return f"  effects:\n    gravity:\n      acceleration: [0, {-acceleration}]\n"
+def gravity(acceleration: float) -> Tree:
+    return {"gravity": {"acceleration": [0, -acceleration]}}
 
 
 def end_of(folder: Path) -> dict[str, np.ndarray]:
@@ -77,17 +68,13 @@ def end_of(folder: Path) -> dict[str, np.ndarray]:
 BAR, BAR_MODULUS, BAR_SPEED = 25.0, 100.0, 0.01
 
 
-def bar_text(cell: float) -> str:
-    velocity = (
-        f"      velocity:\n        sine_amplitude: [{BAR_SPEED}, 0]\n"
-        f"        sine_wave_number: [{np.pi / (2 * BAR)}, 0]\n"
-    )
-    return (
-        "  end_time: 10\n" + domain((0, 0), (BAR + 4 * cell, cell), cell)
-        + "  walls:\n    left: roller\n    bottom: roller\n    top: roller\n"
-        + elastic(1, BAR_MODULUS, 0)
-        + "  bodies:\n" + body("bar", 2, box((0, 0), (BAR, cell)), velocity)
-    )  # fmt: skip
+def bar(cell: float) -> Tree:
+    wave = {"sine_amplitude": [BAR_SPEED, 0], "sine_wave_number": [np.pi / (2 * BAR), 0]}
+    return {
+        "end_time": 10, **solid((BAR + 4 * cell, cell), cell, (1, BAR_MODULUS, 0)),
+        "walls": {"left": "roller", "bottom": "roller", "top": "roller"},
+        "bodies": {"bar": body(2, wave, shape="box", lower=[0, 0], upper=[BAR, cell])},
+    }  # fmt: skip
 
 
 def bar_error(folder: Path) -> float:
@@ -123,13 +110,14 @@ def timoshenko_rate() -> float:
     return low * np.sqrt(BEAM_MODULUS / (12 * BEAM_DENSITY)) / BEAM**2
 
 
-def beam_text(cell: float) -> str:
-    end_time = 1.5 * 2 * np.pi / timoshenko_rate()
-    return (
-        f"  end_time: {end_time}\n" + domain((0, -1), (BEAM + 1, 2), cell)
-        + "  walls:\n    left: fixed\n" + elastic(BEAM_DENSITY, BEAM_MODULUS, 0)
-        + "  bodies:\n" + body("beam", 2, box((0, 0), (BEAM, 1))) + gravity(0.01)
-    )  # fmt: skip
+def beam(cell: float) -> Tree:
+    return {
+        "end_time": 1.5 * 2 * np.pi / timoshenko_rate(),
+        **solid((BEAM + 1, 2), cell, (BEAM_DENSITY, BEAM_MODULUS, 0), lower=(0, -1)),
+        "walls": {"left": "fixed"},
+        "bodies": {"beam": body(2, shape="box", lower=[0, 0], upper=[BEAM, 1])},
+        "effects": gravity(0.01),
+    }
 
 
 def fitted_rate(time: np.ndarray, value: np.ndarray, low: float, high: float) -> float:
@@ -157,15 +145,15 @@ def beam_error(folder: Path) -> float:
 LAYER, LAYER_DENSITY, WATER = 0.1, 1800.0, 1000.0
 
 
-def layer_text(cell: float) -> str:
-    return (
-        "  end_time: 0.1\n" + domain((0, 0), (2 * cell, LAYER + 2 * cell), cell)
-        + "  walls:\n    left: roller\n    right: roller\n    bottom: fixed\n"
-        + elastic(LAYER_DENSITY, 1e6, 0)
-        + "  bodies:\n" + body("layer", 2, box((0, 0), (2 * cell, LAYER))) + gravity(G)
-        + f"    buoyancy:\n      water_density: {WATER}\n"
-        + "    damping:\n      rate: 740\n      until: 1\n"
-    )  # fmt: skip
+def layer(cell: float) -> Tree:
+    return {
+        "end_time": 0.1,
+        **solid((2 * cell, LAYER + 2 * cell), cell, (LAYER_DENSITY, 1e6, 0)),
+        "walls": {"left": "roller", "right": "roller", "bottom": "fixed"},
+        "bodies": {"layer": body(2, shape="box", lower=[0, 0], upper=[2 * cell, LAYER])},
+        "effects": {**gravity(G), "buoyancy": {"water_density": WATER},
+                    "damping": {"rate": 740, "until": 1}},
+    }  # fmt: skip
 
 
 def layer_error(folder: Path) -> float:
@@ -179,14 +167,14 @@ def layer_error(folder: Path) -> float:
 DISK_MODULUS, DISK_RATIO, DISK_DENSITY, DISK_WEIGHT = 1e6, 0.3, 1e3, 6.0
 
 
-def disk_text(cell: float) -> str:
-    return (
-        "  end_time: 0.6\n" + domain((0, 0), (1.25, 2.25), cell)
-        + "  walls:\n    left: roller\n    bottom: frictional\n    bottom_friction: 0\n"
-        + elastic(DISK_DENSITY, DISK_MODULUS, DISK_RATIO)
-        + "  bodies:\n" + body("half", 4, ball((0, 1), 1)) + gravity(DISK_WEIGHT)
-        + "    damping:\n      rate: 25\n      until: 1\n"
-    )  # fmt: skip
+def disk(cell: float) -> Tree:
+    return {
+        "end_time": 0.6,
+        **solid((1.25, 2.25), cell, (DISK_DENSITY, DISK_MODULUS, DISK_RATIO)),
+        "walls": {"left": "roller", "bottom": "frictional", "bottom_friction": 0},
+        "bodies": {"half": body(4, shape="ball", centre=[0, 1], radius=1)},
+        "effects": {**gravity(DISK_WEIGHT), "damping": {"rate": 25, "until": 1}},
+    }
 
 
 def disk_error(folder: Path) -> float:
@@ -206,16 +194,12 @@ def disk_error(folder: Path) -> float:
 
 
 # Two disks meet and part (Sulsky, Chen and Schreyer 1994).
-def disks_text(cell: float) -> str:
-    def moving(name: str, at: float, speed: float) -> str:
-        return body(
-            name, 4, ball((at, at), 0.2), f"      velocity:\n        constant: [{speed}, {speed}]\n"
-        )
+def disks(cell: float) -> Tree:
+    def moving(at: float, speed: float) -> Tree:
+        return body(4, {"constant": [speed, speed]}, shape="ball", centre=[at, at], radius=0.2)
 
-    return (
-        "  end_time: 3.0\n" + domain((0, 0), (1, 1), cell) + elastic(1000, 1000, 0.3)
-        + "  bodies:\n" + moving("lower", 0.2, 0.1) + moving("upper", 0.8, -0.1)
-    )  # fmt: skip
+    bodies = {"lower": moving(0.2, 0.1), "upper": moving(0.8, -0.1)}
+    return {"end_time": 3.0, **solid((1, 1), cell, (1000, 1000, 0.3)), "bodies": bodies}
 
 
 def disks_error(folder: Path) -> float:
@@ -225,9 +209,9 @@ def disks_error(folder: Path) -> float:
 
 
 PROBLEMS = (
-    Problem("wave", bar_error, "way of the centre", (2.5, 1.25, 0.625), 2, bar_text),
-    Problem("cantilever", beam_error, "period", (0.5, 0.25, 0.125), 2, beam_text),
-    Problem("layer", layer_error, "stress", (0.0125, 0.00625, 0.003125), 2, layer_text),
-    Problem("hertz", disk_error, "stress at the contact", (0.125, 0.0625, 0.03125), 4, disk_text),
-    Problem("disks", disks_error, "energy", (0.1, 0.05, 0.025), 4, disks_text),
+    Problem("wave", bar_error, "way of the centre", (2.5, 1.25, 0.625), 2, bar),
+    Problem("cantilever", beam_error, "period", (0.5, 0.25, 0.125), 2, beam),
+    Problem("layer", layer_error, "stress", (0.0125, 0.00625, 0.003125), 2, layer),
+    Problem("hertz", disk_error, "stress at the contact", (0.125, 0.0625, 0.03125), 4, disk),
+    Problem("disks", disks_error, "energy", (0.1, 0.05, 0.025), 4, disks),
 )

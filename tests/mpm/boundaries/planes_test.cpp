@@ -149,6 +149,14 @@ TEST(Plane, on_a_side_of_the_domain_slows_a_body_as_that_wall) {
         }
 }
 
+TEST(Plane, without_friction_has_no_column_for_it) {
+    for (const double coefficient : {0.0, 0.2}) {
+        const Simulation simulation(incline(coefficient, 0.5), MPI_COMM_WORLD);
+        EXPECT_EQ(simulation.particles().has_column("plane_1_anchor_x"), coefficient > 0);
+        EXPECT_EQ(simulation.particles().has_column("plane_1_damping"), coefficient > 0);
+    }
+}
+
 /// A cube on a plane that faces up and along x and z.
 Scene cube_in_space(double coefficient) {
     return {.name = "cube",

@@ -110,7 +110,7 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
     return static_cast<int>(std::max(1.0, std::floor(cells * above_rounding)));
 }
 
-<< Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
+Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
     Summary summary;
     summary.box = points.box;
     summary.num_points = static_cast<std::int64_t>(points.extent.count);

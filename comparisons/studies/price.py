@@ -158,14 +158,15 @@ def _draw_panel(axes: Axes, rows: pd.DataFrame, name: str) -> None:
                 "label": cloud if dimension == 2 else None}  # fmt: skip
         numbers, lows, highs = zip(*((v.number, *v.reach) for v in values))
         plot.draw_line(axes, range(len(values)), numbers, lows, highs, **look)
-    levels: dict[float, list[str]] = {}
+    labels: dict[int, list[str]] = {}  # of levels that are too near for a line of text each
     for method in RIVALS if name != "rounds" else ():
         values = [_value(row, name).number for _, row in rows[rows["method"] == method].iterrows()]
         if values:
-            levels.setdefault(round(float(np.exp(np.mean(np.log(values)))), 6), []).append(RIVALS[method])
-    for level, names in levels.items():
-        axes.axhline(level, color="#999999", linewidth=0.8, zorder=0)
-        axes.text(0, level, ", ".join(names), fontsize=7, color="#666666", va="bottom")
+            level = float(np.mean(np.log10(values)))
+            axes.axhline(10**level, color="#999999", linewidth=0.8, zorder=0)
+            labels.setdefault(round(10 * level), []).append(RIVALS[method])
+    for level, names in labels.items():
+        axes.text(0, 10 ** (level / 10), ", ".join(names), fontsize=7, color="#666666", va="bottom")
     axes.set_yscale("log" if name != "rounds" else "linear")
     axes.grid(True, axis="y")
 

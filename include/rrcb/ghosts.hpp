@@ -2,6 +2,7 @@
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/transfer.hpp>
+#include <rrcb/views.hpp>
 
 #include <mpi.h>
 
@@ -9,7 +10,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <ranges>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace rrcb {
@@ -146,6 +149,9 @@ RRCB_API void apply_shifts(const GhostPlan& plan, std::span<float> positions);
 
 namespace detail {
 
+/// Moves positions in the arrays that a view describes.
+RRCB_API void apply_shifts(const GhostPlan& plan, const Points& positions);
+
 RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                    const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
 
@@ -203,6 +209,22 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 }
 
 }  // namespace detail
+
+/// Moves positions that are members of structs in the same way. Not collective.
+///
+///     rrcb::apply_shifts(near, ghosts, &Particle::position);
+///
+/// @param plan    of the ghosts
+/// @param ghosts  as fetched, one struct each
+/// @param members as for member_points(): an array, or one number for each axis
+/// Throws Error if they do not fit the plan.
+template <std::ranges::contiguous_range Structs, class... Members>
+requires(sizeof...(Members) > 0) void apply_shifts(const GhostPlan& plan, Structs& ghosts,
+                                                   Members... members) {
+    static_assert(!std::is_const_v<std::remove_reference_t<decltype(*std::ranges::data(ghosts))>>,
+                  "the ghosts are moved and cannot be const");
+    detail::apply_shifts(plan, member_points(ghosts, members...));
+}
 
 /// Returns columns of the ghosts of this rank. Collective.
 ///

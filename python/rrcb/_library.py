@@ -217,7 +217,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "ghosts_reply": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_accumulate": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "ghosts_verify": (c_void_p, POINTER(Points), POINTER(VerifyOptions), POINTER(Verification)),
-    "ghosts_apply_shifts": (c_void_p, c_int, c_size_t, Address),
+    "ghosts_apply_shifts": (c_void_p, POINTER(Points)),
     "groups_create": (c_void_p, POINTER(Points), Address, c_int, HANDLE),
     "groups_points": (c_void_p, POINTER(Points)),
     "groups_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),

@@ -214,16 +214,16 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 ///
 ///     rrcb::apply_shifts(near, ghosts, &Particle::position);
 ///
-/// @param plan    of the ghosts
-/// @param ghosts  as fetched, one struct each
-/// @param members as for member_points(): an array, or one number for each axis
+/// @param plan   of the ghosts
+/// @param ghosts as fetched, one struct each
+/// @param first  member, an array, or the number of the first axis
+/// @param others members for the other axes
 /// Throws Error if they do not fit the plan.
-template <std::ranges::contiguous_range Structs, class... Members>
-requires(sizeof...(Members) > 0) void apply_shifts(const GhostPlan& plan, Structs& ghosts,
-                                                   Members... members) {
+template <std::ranges::contiguous_range Structs, class Member, class... Others>
+void apply_shifts(const GhostPlan& plan, Structs& ghosts, Member first, Others... others) {
     static_assert(!std::is_const_v<std::remove_reference_t<decltype(*std::ranges::data(ghosts))>>,
                   "the ghosts are moved and cannot be const");
-    detail::apply_shifts(plan, member_points(ghosts, members...));
+    detail::apply_shifts(plan, member_points(ghosts, first, others...));
 }
 
 /// Returns columns of the ghosts of this rank. Collective.

@@ -1,4 +1,4 @@
-"""Points that go to one part together."""
+"""Groups of points that go to one part together."""
 
 from __future__ import annotations
 
@@ -10,45 +10,43 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare, together
-from ._arrays import Array, Columns, Points, numbers_in
+from ._arrays import Array, Columns, Points, as_array, numbers_in
+from ._balance import Balance, Distribution
 
-PLACES = ("centre", "first point")
-NO_GROUP = 2**64 - 1
+PLACES = ("centre", "first_point")
 
 
 class Groups:
-    """Groups of points with one key, as one point each; made by groups()."""
+    """Points with equal keys, as one point each; made by groups().
 
-    x: Array  #: position of each group of this rank, (count, d)
-    weights: Array  #: sum of the weights of its points, over all ranks
-    count: int  #: groups of this rank
-    num_points: int  #: points of this rank
+        molecules = rrcb.groups(x, keys, comm=comm)
+        balance = rrcb.balance(molecules.x, molecules.weights, comm)
+        here = molecules.distribution(balance).distribute({"x": x, "key": keys})
+    """
 
-    def __init__(
-        self, comm: MPI.Intracomm, balancer: c.Handle, points: Points, keys: Array, place: int
-    ) -> None:
-        self._own = c.OwnedHandle("groups_create", "groups_destroy", balancer, points, keys, place)
-        self.comm, self.num_points = comm, points.count
+    x: Array  #: positions of the groups of this rank, (m, d)
+    weights: Array  #: of these groups: sums over their points
+
+    def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, num_points: int) -> None:
+        self.comm = comm
+        self._own = own
+        self._num_points = num_points
         shown = c.Points()
-        c.call("groups_points", self._own, shown)
-        self.count = int(shown.count)
-        self.x = np.empty((self.count, points.dimension))
-        self.weights = np.empty(self.count)
-        if self.count:
-            ctypes.memmove(self.x.ctypes.data, shown.axes[0], self.x.nbytes)
-            ctypes.memmove(self.weights.ctypes.data, shown.weights, self.weights.nbytes)
+        c.call("groups_points", own, shown)
+        self.x = copied(shown.axes[0], (shown.count, shown.dimension))
+        self.weights = copied(shown.weights, (shown.count,))
 
     def __repr__(self) -> str:
-        return f"<rrcb.Groups: {self.count} of {self.num_points} points>"
+        return f"<rrcb.Groups: {len(self.x)} of {self._num_points} points>"
 
     def fetch(self, data: Any) -> Any:
-        """Returns for each point of this rank the row of its group, such as its part. Collective.
+        """Returns data of the group of each point, of the kind of `data`. Collective.
 
         `data` has a row for each group of this rank, as for Balance.distribute().
         """
         columns = prepare(
             self.comm,
-            lambda: Columns(data, self.count, "groups", self.num_points),
+            lambda: Columns(data, len(self.x), "groups", self._num_points),
             Columns.signature,
         )
         c.call("groups_fetch", self._own, *columns.as_bytes(), None, None)
@@ -62,41 +60,88 @@ class Groups:
 
         def local() -> Array:
             rows = np.ascontiguousarray(numbers_in(values, "values"))
-            if rows.ndim == 0 or len(rows) != self.num_points:
+            if rows.ndim == 0 or len(rows) != self._num_points:
                 raise c.Error(
-                    f"values must have a row for each of {self.num_points} points, not {rows.shape}"
+                    f"values must have a row for each of {self._num_points} points, not {rows.shape}"
                 )
             return rows
 
         rows = prepare(self.comm, local, lambda given: f"rows of the shape {given.shape[1:]}")
-        result = np.zeros((self.count, *rows.shape[1:]))
-        components = int(np.prod(rows.shape[1:]))
-        c.call("groups_sums", self._own, components, rows, result)
+        result = np.zeros((len(self.x), *rows.shape[1:]))
+        c.call("groups_sums", self._own, int(np.prod(rows.shape[1:])), rows, result)
         return result
+
+    def distribution(self, balance: Balance) -> Distribution:
+        """Returns the parts of the points, from a balance of the groups. Collective."""
+        return Distribution(self.comm, balance._own, self.fetch(balance.parts))
 
 
 def groups(
-    x: Any, keys: Any, weights: Any = None, comm: MPI.Comm | None = None, place: str = PLACES[0]
+    x: Any,
+    keys: Any,
+    weights: Any = None,
+    comm: MPI.Comm | None = None,
+    place: str = "centre",
 ) -> Groups:
     """Finds the groups of all points with equal keys. Collective over `comm`.
 
-    `keys` has a number from 0 for each point; NO_GROUP for a point that needs no group. Balance
-    `x` of the result by its `weights`, and fetch the parts of the points. A group is at the
-    "centre" of its weight, or at its "first point". Raises Error on every rank alike.
+    `x` and `weights` are as for balance(). `keys` has an integer for each point, -1 for one that
+    is a group of its own, or a row of keys for join_keys(). `place` of a group is its "centre" of
+    weight or its "first_point". Raises Error on every rank alike.
     """
     chosen = communicator(comm)
-    own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    given = keys if np.ndim(keys) < 2 else join_keys(keys, chosen)
+    balancer = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
 
     def local() -> tuple[Points, Array, int]:
         points = Points(x, weights)
-        given = np.ascontiguousarray(keys, dtype=np.uint64)
-        if given.shape != (points.count,):
-            raise c.Error(f"keys must have the shape ({points.count},), not {given.shape}")
         if place not in PLACES:
             raise c.Error(f"place must be one of {', '.join(PLACES)}, not {place!r}")
-        return points, given, PLACES.index(place)
+        return points, keys_of(given, (points.count,)), PLACES.index(place)
 
-    def collective(points: Any = None, given: Any = None, number: int = 0) -> Groups:
-        return Groups(chosen, own, points, given, number)
+    def collective(points: Any = None, numbers: Any = None, number: int = 0) -> Groups:
+        own = c.OwnedHandle("groups_create", "groups_destroy", balancer, points, numbers, number)
+        return Groups(chosen, own, points.count)
 
     return together(chosen, local, collective)
+
+
+def join_keys(keys: Any, comm: MPI.Comm | None = None) -> Array:
+    """Returns one key for each point of overlapping groups. Collective over `comm`.
+
+    `keys` are (n, k) integers, -1 for those that a point lacks; k is the same on every rank. Points
+    that share a key, directly or through others, get the least key of all of them.
+    """
+    chosen = communicator(comm)
+
+    def local() -> Array:
+        if np.ndim(keys) != 2:
+            raise c.Error(f"keys must have the shape (n, k), not {np.shape(keys)}")
+        return keys_of(keys, np.shape(keys))
+
+    def signature(made: Array) -> str:
+        return f"keys of the shape (n, {made.shape[1]})"
+
+    given = prepare(chosen, local, signature)
+    balancer = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    joined = np.empty(len(given), dtype=np.uint64)
+    c.call("join_keys", balancer, *given.shape, given, joined)
+    return joined
+
+
+def keys_of(keys: Any, shape: tuple[int, ...]) -> Array:
+    """Returns keys as the library takes them."""
+    values = as_array(keys)
+    if values.size and values.dtype.kind not in "iu":
+        raise c.Error(f"keys must be integers, not {values.dtype}")
+    if values.shape != shape:
+        raise c.Error(f"keys must have the shape {shape}, not {values.shape}")
+    return np.ascontiguousarray(values, dtype=np.uint64)
+
+
+def copied(address: int, shape: tuple[int, ...]) -> Array:
+    """Returns a copy of doubles of the library."""
+    values = np.empty(shape)
+    if values.size:
+        ctypes.memmove(values.ctypes.data, address, values.nbytes)
+    return values

@@ -84,8 +84,5 @@ def page(root):
     parts = ["# Python", "The package is `rrcb`. Without `comm` calls are over `MPI.COMM_WORLD`, and "
              "collective over `comm` if they say so."]
     for name in sorted(names, key=str.lower):
-        if name in found:
-            parts += entry(name, *found[name])
-        else:
-            parts += [f"## {name}", "Key of a point that is a group of its own."]
+        parts += entry(name, *found[name])
     return "\n\n".join(parts) + "\n"

@@ -24,6 +24,7 @@ def halves(points: np.ndarray, box: np.ndarray, parts: int) -> list[tuple[np.nda
 
 
 def main() -> None:
+    plot.use_style()
     points = np.random.default_rng(5).beta(1.3, 1.9, (700, 2)) * [1.6, 1]
     ranks = halves(points, np.array([[0, 0], [1.6, 1]]), 8)
     figure, grid = plot.panels(1, 1, 7.2, 4.6)
@@ -34,8 +35,8 @@ def main() -> None:
         beyond = np.maximum(np.maximum(box[0] - inside, inside - box[1]), 0)
         near = (np.hypot(*beyond.T) <= RADIUS) & (rank != mine)
         colour = plot.PART_COLOURS[rank]
-        axes.plot(*inside[~near].T, ".", color=colour, markersize=5 if rank == mine else 4)
-        axes.plot(*inside[near].T, "o", color=colour, markersize=5, markeredgecolor="black")
+        axes.plot(*inside[~near].T, ".", color=colour, markersize=6 if rank == mine else 5)
+        axes.plot(*inside[near].T, "o", color=colour, markersize=6, markeredgecolor="black")
         axes.add_patch(Rectangle(each[0], *(each[1] - each[0]), fill=False, edgecolor="black"))
         axes.text(*(each.mean(axis=0)), f"rank {rank}", ha="center", va="center",
                   bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5})

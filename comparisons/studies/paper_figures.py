@@ -165,7 +165,7 @@ def next_offset(offset: float, mesh: int, multiplier: float) -> float:
 
 def draw_map(_: Path) -> Figure:
     """The map of the model with its steps, for a multiplier below, at and above √3; mesh 4."""
-    figure, grid = plot.panels(1, 3, 10.5, 4.6, sharey=True)
+    figure, grid = plot.panels(1, 3, 9, 3.8, sharey=True)
     for axes, (multiplier, name) in zip(grid[0], ((1.5, "1.5"), (sqrt(3), "√3"), (2, "2"))):
         _draw_steps(axes, 4, multiplier, -0.016)
         axes.set_title(f"k = {name}")
@@ -191,4 +191,4 @@ def _draw_steps(axes: Axes, mesh: int, multiplier: float, start: float) -> None:
         offset = following
     x, y = 100 * np.array(path).T
     colour = plot.method_style("rrcb-sampled").colour
-    axes.plot(x, y, color=colour, linewidth=1, marker=".", label="twelve calls")
+    axes.plot(x, y, color=colour, linewidth=1, marker="o", markersize=4, label="twelve calls")

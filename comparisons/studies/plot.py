@@ -219,9 +219,10 @@ _SIDES = [
 
 
 def label_marks(axes: Axes, marks: Iterable[tuple[float, float, str, str]]) -> None:
-    """Writes x, y, text and colour beside each mark, clear of other marks and texts."""
+    """Writes x, y, text and colour beside each mark, clear of other marks and texts; from the top, so
+    that texts on one side are in the order of their marks."""
     axes.figure.canvas.draw()
-    marks = list(marks)
+    marks = sorted(marks, key=lambda mark: mark[1], reverse=True)
     places = [axes.transData.transform(mark[:2]) for mark in marks]
     taken = [Bbox.from_bounds(x - 7, y - 7, 14, 14) for x, y in places]
     for (x, y, text, colour), place in zip(marks, places):

@@ -2,6 +2,7 @@
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/transfer.hpp>
+#include <rrcb/views.hpp>
 
 #include <mpi.h>
 
@@ -9,7 +10,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <ranges>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace rrcb {
@@ -145,6 +148,9 @@ RRCB_API void apply_shifts(const GhostPlan& plan, std::span<float> positions);
 
 namespace detail {
 
+/// Moves positions in the arrays that a view describes.
+RRCB_API void apply_shifts(const GhostPlan& plan, const Points& positions);
+
 RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                    const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
 
@@ -202,6 +208,22 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 }
 
 }  // namespace detail
+
+/// Moves positions that are members of structs in the same way. Not collective.
+///
+///     rrcb::apply_shifts(near, ghosts, &Particle::position);
+///
+/// @param plan   of the ghosts
+/// @param ghosts as fetched, one struct each
+/// @param first  member, an array, or the number of the first axis
+/// @param others members for the other axes
+/// Throws Error if they do not fit the plan.
+template <std::ranges::contiguous_range Structs, class Member, class... Others>
+void apply_shifts(const GhostPlan& plan, Structs& ghosts, Member first, Others... others) {
+    static_assert(!std::is_const_v<std::remove_reference_t<decltype(*std::ranges::data(ghosts))>>,
+                  "the ghosts are moved and cannot be const");
+    detail::apply_shifts(plan, member_points(ghosts, first, others...));
+}
 
 /// Returns columns of the ghosts of this rank. Collective.
 ///

@@ -13,7 +13,7 @@ from ._balance import Balance, Distribution, Plan, Report, assign_all, balance, 
 from ._controller import Controller, CostModel
 from ._cuts import Cuts
 from ._ghosts import Ghosts, Verification
-from ._groups import NO_GROUP, Groups, groups, join_keys
+from ._groups import Groups, groups, join_keys
 from ._library import Error
 
 __all__ = [
@@ -25,7 +25,6 @@ __all__ = [
     "Error",
     "Ghosts",
     "Groups",
-    "NO_GROUP",
     "Plan",
     "Report",
     "Verification",

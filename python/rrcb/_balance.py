@@ -192,7 +192,8 @@ def balance(
     weights of the parts. `options` are those of docs/parameters.md, with a double underscore for
     a dot: refine="EXACT", num_parts=8, axes__min_width=(0.1, 0.1).
 
-    Raises Error on every rank alike.
+    `comm` is MPI.COMM_WORLD by default, and every rank of it calls. The library duplicates it at the
+    first call. Raises Error on every rank alike.
     """
     chosen = communicator(comm)
     own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())

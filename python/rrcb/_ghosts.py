@@ -11,7 +11,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare, together
-from ._arrays import FLOATS, NUMBERS, Array, Columns, Points, axes_of, numbers_in, pointer
+from ._arrays import NUMBERS, Array, Columns, Points, axes_of, numbers_in, pointer
 
 NEEDS = ("sender", "receiver", "either")
 
@@ -88,8 +88,7 @@ class Ghosts:
         if self._box is None or self.count == 0:
             return fetched
         images = np.ascontiguousarray(np.stack(axes_of(fetched), axis=1))
-        kind = FLOATS[images.dtype]
-        c.call("ghosts_apply_shifts", self._own, kind, images.size, images)
+        c.call("ghosts_apply_shifts", self._own, Points(images))
         return tuple(images.T) if isinstance(x, tuple) else images.reshape(fetched.shape)
 
     def reply(self, data: Any) -> Any:

@@ -14,7 +14,6 @@ from ._arrays import Array, Columns, Points, as_array, numbers_in
 from ._balance import Balance, Distribution
 
 PLACES = ("centre", "first_point")
-NO_GROUP = 2**64 - 1
 
 
 class Groups:
@@ -27,7 +26,6 @@ class Groups:
 
     x: Array  #: positions of the groups of this rank, (m, d)
     weights: Array  #: of these groups: sums over their points
-    count: int  #: groups of this rank
 
     def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, num_points: int) -> None:
         self.comm = comm
@@ -37,7 +35,6 @@ class Groups:
         c.call("groups_points", own, shown)
         self.x = copied(shown.axes[0], (shown.count, shown.dimension))
         self.weights = copied(shown.weights, (shown.count,))
-        self.count = int(shown.count)
 
     def __repr__(self) -> str:
         return f"<rrcb.Groups: {len(self.x)} of {self._num_points} points>"
@@ -70,9 +67,8 @@ class Groups:
             return rows
 
         rows = prepare(self.comm, local, lambda given: f"rows of the shape {given.shape[1:]}")
-        result = np.zeros((self.count, *rows.shape[1:]))
-        components = int(np.prod(rows.shape[1:]))
-        c.call("groups_sums", self._own, components, rows, result)
+        result = np.zeros((len(self.x), *rows.shape[1:]))
+        c.call("groups_sums", self._own, int(np.prod(rows.shape[1:])), rows, result)
         return result
 
     def distribution(self, balance: Balance) -> Distribution:

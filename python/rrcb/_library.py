@@ -20,6 +20,7 @@ from ._interface import (
     GhostPlan as GhostPlan,
     Plan as Plan,
     Points as Points,
+    RankRange as RankRange,
     Report as Report,
     Verification as Verification,
     VerifyOptions as VerifyOptions,

@@ -217,14 +217,8 @@ int rrcb_ghosts_verify(rrcb_ghosts* ghosts, const rrcb_points* points,
     });
 }
 
-int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, rrcb_type type, size_t length,
-                             void* positions) {
+int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, const rrcb_points* positions) {
     return guarded(ghosts, [&](const auto& own) {
-        rrcb::c::require_array(length, positions, "positions");
-        rrcb::c::check_coordinate(type);
-        if (type == RRCB_FLOAT)
-            rrcb::apply_shifts(own.plan, std::span(static_cast<float*>(positions), length));
-        else
-            rrcb::apply_shifts(own.plan, std::span(static_cast<double*>(positions), length));
+        rrcb::detail::apply_shifts(own.plan, rrcb::c::points_of(positions));
     });
 }

@@ -92,7 +92,8 @@ contains
   end subroutine
 
   !> Divides the points of all ranks into parts; starts from the cuts of the balancer, if it has any,
-  !> and keeps the new ones. Collective.
+  !> and keeps the new ones. Collective. With refine NONE, and after another num_parts or dimension,
+  !> call clear_cuts before.
   !> @param points of this rank
   !> @param parts  gets the new part of each
   subroutine balance(self, points, parts, error)

@@ -214,13 +214,11 @@ module rrcb_c_functions
       type(c_verify_options), intent(in) :: options
       type(c_verification), intent(inout) :: seen
     end function
-    integer(c_int) function c_ghosts_apply_shifts(handle, type, length, positions) &
+    integer(c_int) function c_ghosts_apply_shifts(handle, positions) &
       bind(c, name="rrcb_ghosts_apply_shifts")
       import
       type(c_ptr), value :: handle
-      integer(c_int), value :: type
-      integer(c_size_t), value :: length
-      type(*), intent(inout) :: positions(*)
+      type(rrcb_points), intent(in) :: positions
     end function
     integer(c_int) function c_groups_create(balancer, points, keys, place, handle) &
       bind(c, name="rrcb_groups_create")

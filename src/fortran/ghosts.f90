@@ -19,8 +19,8 @@ module rrcb_ghost_lists
     procedure :: reply
     procedure :: accumulate
     procedure :: verify
-    generic :: apply_shifts => shift_doubles, shift_reals
-    procedure, private :: shift_doubles, shift_reals
+    generic :: apply_shifts => shift_doubles, shift_reals, shift_points
+    procedure, private :: shift_doubles, shift_reals, shift_points
   end type
 
 contains
@@ -206,17 +206,25 @@ contains
   !> Moves fetched positions to those of the images: positions(dimension, ghosts). Not collective.
   subroutine shift_doubles(self, positions, error)
     class(rrcb_ghosts), intent(in) :: self
-    real(c_double), intent(inout), contiguous :: positions(:, :)
+    real(c_double), intent(inout), target, contiguous :: positions(:, :)
     integer, intent(out), optional :: error
-    call settle(c_ghosts_apply_shifts(self%handle, rrcb_double, size(positions, kind=c_size_t), positions), error)
+    call self%apply_shifts(rrcb_interleaved_points(positions), error)
   end subroutine
 
   !> Moves positions of real(4) in the same way.
   subroutine shift_reals(self, positions, error)
     class(rrcb_ghosts), intent(in) :: self
-    real(c_float), intent(inout), contiguous :: positions(:, :)
+    real(c_float), intent(inout), target, contiguous :: positions(:, :)
     integer, intent(out), optional :: error
-    call settle(c_ghosts_apply_shifts(self%handle, rrcb_float, size(positions, kind=c_size_t), positions), error)
+    call self%apply_shifts(rrcb_interleaved_points(positions), error)
+  end subroutine
+
+  !> Moves positions in columns or in derived types, whose arrays are changed, in the same way.
+  subroutine shift_points(self, positions, error)
+    class(rrcb_ghosts), intent(in) :: self
+    type(rrcb_points), intent(in) :: positions
+    integer, intent(out), optional :: error
+    call settle(c_ghosts_apply_shifts(self%handle, positions), error)
   end subroutine
 
 end module rrcb_ghost_lists

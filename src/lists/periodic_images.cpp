@@ -113,7 +113,32 @@ void apply_shifts_to(std::span<T> positions, const GhostPlan& plan) {
     }
 }
 
+/// Moves one axis of the positions that a view describes.
+template <class T>
+void apply_shifts_along(std::span<const T> axis, int number, std::size_t stride,
+                        const GhostPlan& plan) {
+    require(axis.size() > (plan.shifts.size() - 1) * stride,
+            "coordinate arrays must reach to the last ghost");
+    // The caller's arrays are not const; a view of points is.
+    auto* x = const_cast<T*>(axis.data());
+    for (const Shift& shift : plan.shifts) {
+        *x = image_outside(*x, plan.periodic, number, shift[number]);
+        x += &shift == &plan.shifts.back() ? 0 : stride;
+    }
+}
+
 }  // namespace
+
+void detail::apply_shifts(const GhostPlan& plan, const Points& positions) {
+    if (plan.shifts.empty()) return;
+    require(positions.count == plan.shifts.size(), "positions must have an entry for each ghost");
+    for (int a = 0; a < positions.dimension; ++a) {
+        if (positions.has_floats())
+            apply_shifts_along(positions.float_axes[a], a, positions.stride, plan);
+        else
+            apply_shifts_along(positions.axes[a], a, positions.stride, plan);
+    }
+}
 
 void apply_shifts(const GhostPlan& plan, std::span<double> positions) {
     apply_shifts_to(positions, plan);

@@ -77,7 +77,6 @@ NOT_PYTHON = {
     "ranks_of_part": "remap() and ghosts() apply it", "gather_cuts": "every rank has all cuts",
     "release_buffers": "buffers are freed with the communicator",
     "parts_touching": "ghosts() finds points",
-    "join_keys": "not yet",
 }
 CLASSES = {"Controller": "controller", "CostModel": "cost_model", "Groups": "groups"}
 HANDLES = ["controller", "cost_model", "ghosts", "groups"]

@@ -216,6 +216,39 @@ std::vector<T> at_the_ends_of(const Box& box) {
     return mine;
 }
 
+TEST(PeriodicGhosts, move_as_members_of_structs) {
+    struct Particle {
+        float mass;
+        std::array<float, 2> position;
+        float x, y;
+    };
+    const Box box{{0, 0, 0}, {1, 1, 0}};
+    const std::vector<double> cloud =
+        test::uniform_cloud(100, 2, 3 + static_cast<unsigned>(rank()));
+    const Balance made = balance(interleaved_points(cloud, 2), {}, {}, MPI_COMM_WORLD);
+    const std::vector<double> here =
+        transfer(plan(made, MPI_COMM_WORLD), column(cloud, 2), MPI_COMM_WORLD);
+    const GhostPlan near = ghosts(made.cuts, interleaved_points(here, 2),
+                                  {.radius = 0.1, .periodic = box}, MPI_COMM_WORLD);
+    std::vector<Particle> particles;
+    std::vector<float> floats(here.begin(), here.end());
+    for (std::size_t i = 0; i < floats.size(); i += 2)
+        particles.push_back({1, {floats[i], floats[i + 1]}, floats[i], floats[i + 1]});
+    std::vector<float> images = fetch(near, column(floats, 2), MPI_COMM_WORLD);
+    std::vector<Particle> copies = fetch(near, particles, MPI_COMM_WORLD);
+    apply_shifts(near, images);
+    apply_shifts(near, copies, &Particle::position);
+    apply_shifts(near, copies, &Particle::x, &Particle::y);
+    for (std::size_t k = 0; k < copies.size(); ++k) {
+        EXPECT_EQ(copies[k].position, (std::array{images[2 * k], images[2 * k + 1]}));
+        EXPECT_EQ(copies[k].x, images[2 * k]);
+        EXPECT_EQ(copies[k].y, images[2 * k + 1]);
+        EXPECT_EQ(copies[k].mass, 1);
+    }
+    copies.emplace_back();
+    EXPECT_THROW(apply_shifts(near, copies, &Particle::position), Error);
+}
+
 /// Expects each pair within 0.03 over the faces of the box, and no image in it.
 template <class T>
 void expect_images_outside(const Box& box) {

@@ -185,7 +185,9 @@ TEST(TiltedBox, gives_all_pairs_in_c) {
     std::vector<double> images(2 * lists.num_ghosts);
     const rrcb_column fetched{RRCB_DOUBLE, 2, here.data(), images.data()};
     ASSERT_EQ(rrcb_ghosts_fetch(near, 1, &fetched, nullptr, nullptr), RRCB_OK);
-    ASSERT_EQ(rrcb_ghosts_apply_shifts(near, RRCB_DOUBLE, images.size(), images.data()), RRCB_OK);
+    const rrcb_points at =
+        rrcb_interleaved_points(RRCB_DOUBLE, 2, lists.num_ghosts, images.data(), nullptr);
+    ASSERT_EQ(rrcb_ghosts_apply_shifts(near, &at), RRCB_OK);
     expect_all_pairs(here, images);
     rrcb_ghosts_destroy(near);
 }
@@ -212,7 +214,9 @@ TEST(PeriodicFaces, have_no_images_of_floats_inside_the_box_in_c) {
     std::vector<float> images(lists.num_ghosts);
     const rrcb_column fetched{RRCB_FLOAT, 1, here.data(), images.data()};
     ASSERT_EQ(rrcb_ghosts_fetch(near, 1, &fetched, nullptr, nullptr), RRCB_OK);
-    ASSERT_EQ(rrcb_ghosts_apply_shifts(near, RRCB_FLOAT, images.size(), images.data()), RRCB_OK);
+    const rrcb_points at =
+        rrcb_interleaved_points(RRCB_FLOAT, 1, images.size(), images.data(), nullptr);
+    ASSERT_EQ(rrcb_ghosts_apply_shifts(near, &at), RRCB_OK);
     for (std::size_t k = 0; k < images.size(); ++k)
         EXPECT_FALSE(lists.shifts[3 * k] != 0 && images[k] >= 0 && images[k] < 1) << images[k];
     rrcb_ghosts_destroy(near);

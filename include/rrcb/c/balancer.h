@@ -77,7 +77,8 @@ RRCB_API int rrcb_set(rrcb_balancer* balancer, const char* option, const char* v
 RRCB_API int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes);
 
 /** Divides the points of all ranks into parts, as rrcb::balance; starts from the cuts of the
- * balancer, if it has any, and keeps the new ones. Collective.
+ * balancer, if it has any, and keeps the new ones. Collective. With the option refine NONE, and
+ * after another num_parts or dimension, call rrcb_clear_cuts before.
  *
  * @param balancer with the options; gets the cuts and the report
  * @param points   of this rank; without points arrays may be null, but the dimension is set

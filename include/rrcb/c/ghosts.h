@@ -140,11 +140,9 @@ RRCB_API int rrcb_ghosts_verify(rrcb_ghosts* ghosts, const rrcb_points* points,
 /** Moves fetched positions to those of the images, as rrcb::apply_shifts. Not collective.
  *
  * @param ghosts    that the positions were fetched for
- * @param type      RRCB_DOUBLE or RRCB_FLOAT
- * @param length    of `positions`: dimension * num_ghosts
- * @param positions interleaved */
-RRCB_API int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, rrcb_type type, size_t length,
-                                      void* positions);
+ * @param positions num_ghosts of them, interleaved, in columns or in structs; the arrays are
+ * changed */
+RRCB_API int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, const rrcb_points* positions);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,7 @@ namespace rrcb {
 
 namespace detail {
 struct Restart;
-}
+}  // namespace detail
 
 /// Decides when a rebalance pays, from the time of the steps and of the rebalances.
 ///

@@ -8,7 +8,9 @@
 
 namespace rrcb {
 
+namespace detail {
 struct Restart;
+}  // namespace detail
 
 /// Decides when a rebalance pays, from the time of the steps and of the rebalances.
 ///
@@ -80,7 +82,7 @@ class Controller {
 
   private:
     friend class CostModel;
-    friend struct Restart;
+    friend struct detail::Restart;
     struct State;
     explicit Controller(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;

@@ -82,7 +82,7 @@ class CostModel {
     RRCB_API std::string report() const;
 
   private:
-    friend struct Restart;
+    friend struct detail::Restart;
     struct State;
     explicit CostModel(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;

@@ -13,6 +13,20 @@
 
 namespace rrcb {
 
+namespace detail {
+
+/// Saves and loads what has private members.
+struct Restart {
+    RRCB_API static std::vector<std::byte> save(const Controller& controller);
+    RRCB_API static std::vector<std::byte> save(const CostModel& model);
+    RRCB_API static Controller load_controller(std::span<const std::byte> bytes, MPI_Comm comm);
+    RRCB_API static CostModel load_model(std::span<const std::byte> bytes, MPI_Comm comm);
+    RRCB_API static CostModel load_model(std::span<const std::byte> bytes, Controller& controller);
+};
+RRCB_API Cuts load_cuts(std::span<const std::byte> bytes);
+
+}  // namespace detail
+
 /// Returns cuts as bytes, which a program may store and load() on any machine. Not collective.
 ///
 /// Throws Error if they are no tree, or only some cuts: call gather_cuts() before.
@@ -23,20 +37,15 @@ RRCB_API std::vector<std::byte> save(const Cuts& cuts);
 ///
 /// At most 1 kB for cycles of 500 steps on 8 ranks: 24 bytes more for each rank, 80 for twice the
 /// steps. Throws Error on every rank alike if there is no memory, or as step().
-RRCB_API std::vector<std::byte> save(const Controller& controller);
+inline std::vector<std::byte> save(const Controller& controller) {
+    return detail::Restart::save(controller);
+}
 
 /// Returns the state of a cost model as bytes, the same on every rank; save its controller too.
 /// Collective as save() of a controller. At most 1 kB for 5 columns on 8 ranks.
-RRCB_API std::vector<std::byte> save(const CostModel& model);
-
-namespace detail {
-
-RRCB_API Cuts load_cuts(std::span<const std::byte> bytes);
-RRCB_API Controller load_controller(std::span<const std::byte> bytes, MPI_Comm comm);
-RRCB_API CostModel load_model(std::span<const std::byte> bytes, MPI_Comm comm);
-RRCB_API CostModel load_model(std::span<const std::byte> bytes, Controller& controller);
-
-}  // namespace detail
+inline std::vector<std::byte> save(const CostModel& model) {
+    return detail::Restart::save(model);
+}
 
 /// Restores a saved state: Cuts, not collective, or a Controller or CostModel, collective.
 ///
@@ -52,8 +61,9 @@ RRCB_API CostModel load_model(std::span<const std::byte> bytes, Controller& cont
 /// or from a newer version.
 template <class State>
 [[nodiscard]] State load(std::span<const std::byte> bytes, MPI_Comm comm) {
-    if constexpr (std::is_same_v<State, Controller>) return detail::load_controller(bytes, comm);
-    if constexpr (std::is_same_v<State, CostModel>) return detail::load_model(bytes, comm);
+    if constexpr (std::is_same_v<State, Controller>)
+        return detail::Restart::load_controller(bytes, comm);
+    if constexpr (std::is_same_v<State, CostModel>) return detail::Restart::load_model(bytes, comm);
     if constexpr (std::is_same_v<State, Cuts>) return detail::load_cuts(bytes);
 }
 
@@ -73,7 +83,7 @@ requires std::is_same_v<State, Cuts>
 template <class State>
 requires std::is_same_v<State, CostModel>
 [[nodiscard]] State load(std::span<const std::byte> bytes, Controller& controller) {
-    return detail::load_model(bytes, controller);
+    return detail::Restart::load_model(bytes, controller);
 }
 
 }  // namespace rrcb

@@ -1,5 +1,3 @@
-#include "controller/restart_mpi.hpp"
-
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/meeting_mpi.hpp"
@@ -47,7 +45,7 @@ void Controller::State::resume() {
     is_restored_ = true;
 }
 
-std::vector<std::byte> Restart::save(const Controller& controller) {
+std::vector<std::byte> detail::Restart::save(const Controller& controller) {
     Controller::State& state = Controller::State::of(controller);
     Participant self = state.enter(CallName::save);
     return save_together(
@@ -60,7 +58,7 @@ std::vector<std::byte> Restart::save(const Controller& controller) {
         self);
 }
 
-Controller Restart::load_controller(std::span<const std::byte> bytes, MPI_Comm comm) {
+Controller detail::Restart::load_controller(std::span<const std::byte> bytes, MPI_Comm comm) {
     auto state = Controller::State::make(comm, CallName::load);
     Participant self = state->enter(CallName::load);
     self.attempt([&] {
@@ -74,14 +72,6 @@ Controller Restart::load_controller(std::span<const std::byte> bytes, MPI_Comm c
     });
     agree(self, {{"the saved state", hash_of_bytes(bytes)}});
     return Controller(std::move(state));
-}
-
-std::vector<std::byte> save(const Controller& controller) {
-    return Restart::save(controller);
-}
-
-Controller detail::load_controller(std::span<const std::byte> bytes, MPI_Comm comm) {
-    return Restart::load_controller(bytes, comm);
 }
 
 }  // namespace rrcb

@@ -2,7 +2,6 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/saved_state_mpi.hpp"
 #include "controller/controller_state_mpi.hpp"
-#include "controller/restart_mpi.hpp"
 #include "cost/cost_rule.hpp"
 #include "options/rejection.hpp"
 
@@ -196,7 +195,7 @@ std::string CostModel::report() const {
     });
 }
 
-std::vector<std::byte> Restart::save(const CostModel& model) {
+std::vector<std::byte> detail::Restart::save(const CostModel& model) {
     CostModel::State& state = CostModel::State::of(model);
     Participant self = state.reducer.enter(CallName::save);
     return save_together(
@@ -209,27 +208,15 @@ std::vector<std::byte> Restart::save(const CostModel& model) {
         self);
 }
 
-CostModel Restart::load_model(std::span<const std::byte> bytes, Controller& controller) {
+CostModel detail::Restart::load_model(std::span<const std::byte> bytes, Controller& controller) {
     return CostModel(CostModel::State::make(controller, CallName::load, 0, &bytes));
 }
 
-CostModel Restart::load_model(std::span<const std::byte> bytes, MPI_Comm comm) {
+CostModel detail::Restart::load_model(std::span<const std::byte> bytes, MPI_Comm comm) {
     Controller own(Controller::State::make(comm, CallName::load));
     CostModel model = load_model(bytes, own);
     model.state_->own = std::move(own);
     return model;
-}
-
-std::vector<std::byte> save(const CostModel& model) {
-    return Restart::save(model);
-}
-
-CostModel detail::load_model(std::span<const std::byte> bytes, Controller& controller) {
-    return Restart::load_model(bytes, controller);
-}
-
-CostModel detail::load_model(std::span<const std::byte> bytes, MPI_Comm comm) {
-    return Restart::load_model(bytes, comm);
 }
 
 }  // namespace rrcb

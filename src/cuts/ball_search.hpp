@@ -100,7 +100,8 @@ class PartReaches {
     /// Returns true if a part needs the centre of a ball, or the ball touches a box of its points.
     bool reaches(Part end, const Ball& ball) const {
         const double* great = &numbers_[end * width()];
-        return reaches_from(great, ball) || reaches_from(great + 1 + 2 * dimension_, ball);
+        return reaches_from(great, ball) ||
+               reaches_from(great + 1 + std::size_t{2} * dimension_, ball);
     }
 
   private:

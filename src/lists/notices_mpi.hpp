@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,29 +23,6 @@ inline int home_of(std::uint64_t key, int num_ranks) {
 template <class Record>
 using Arrived = std::pair<int, Record>;
 
-/// Sends each record to its rank; returns those received, by rank. Collective.
-template <class Record>
-std::vector<Arrived<Record>> exchange(std::span<const int> ranks, std::span<const Record> records,
-                                      std::initializer_list<Shared> arguments, Participant& self) {
-    Exchange exchange(sizeof(Record), mpi::size_of(self.comm));
-    self.attempt([&] {
-        exchange.fill(ranks, [&](std::size_t k, std::byte* place) {
-            std::memcpy(place, &records[k], sizeof(Record));
-        });
-    });
-    const std::size_t num_arrivals = exchange.announce(self);
-    std::vector<Arrived<Record>> arrived;
-    self.attempt([&] { arrived.reserve(num_arrivals); });
-    agree(self, arguments);
-    exchange.run(self);
-    exchange.for_each([&](int source, const std::byte* place) {
-        Record record;
-        std::memcpy(&record, place, sizeof record);
-        arrived.emplace_back(source, record);
-    });
-    return arrived;
-}
-
 /// Records for other ranks.
 template <class Record>
 struct Outgoing {
@@ -58,9 +34,26 @@ struct Outgoing {
         records.push_back(record);
     }
 
+    /// Sends each record to its rank; returns those received, by rank. Collective.
     std::vector<Arrived<Record>> send(Participant& self,
                                       std::initializer_list<Shared> arguments = {}) const {
-        return exchange(std::span(ranks), std::span(records), arguments, self);
+        Exchange exchange(sizeof(Record), mpi::size_of(self.comm));
+        self.attempt([&] {
+            exchange.fill(ranks, [&](std::size_t k, std::byte* place) {
+                std::memcpy(place, &records[k], sizeof(Record));
+            });
+        });
+        const std::size_t num_arrivals = exchange.announce(self);
+        std::vector<Arrived<Record>> arrived;
+        self.attempt([&] { arrived.reserve(num_arrivals); });
+        agree(self, arguments);
+        exchange.run(self);
+        exchange.for_each([&](int source, const std::byte* place) {
+            Record record;
+            std::memcpy(&record, place, sizeof record);
+            arrived.emplace_back(source, record);
+        });
+        return arrived;
     }
 };
 

@@ -25,7 +25,7 @@ std::vector<const char*> ignored_parameters(const Parameters& parameters) {
         add_if(parameters.reuse_cuts != not_set && parameters.reuse_cuts != 0, "RCB_REUSE");
         add_if(parameters.options.refine == Refine::exact, "RRCB_REFINE");
     } else {
-        add_if(parameters.cut_rule != Parameters{}.cut_rule, "RRCB_CUT_RULE");
+        add_if(parameters.cut_rule != Parameters{}.cut_rule, cut_rule_parameter.parameter);
     }
     return names;
 }

@@ -51,12 +51,12 @@ struct GhostOptions {
     double radius = std::numeric_limits<double>::quiet_NaN();
     /// One radius for each point instead; for contacts of spheres the diameters. Unless `needs`
     /// says otherwise: of two points on different ranks, nearer than the greater of their radii,
-    /// the one with that radius is a ghost on the other's rank, the other not always. To meet each
-    /// pair once, skip a ghost of a smaller radius than the point's, or of an equal one and a
-    /// smaller number.
+    /// the one with the greater radius is a ghost on the other's rank, the other not always. To
+    /// meet each pair once, skip a ghost of a smaller radius than the point's, or of an equal one
+    /// and a smaller number.
     std::optional<std::span<const double>> radii{};
-    /// Box that contains the points, [lower, upper) along each axis on which it repeats, on which
-    /// its two ends are finite; on the others they are infinite. A point on an upper face, as
+    /// Repeated box with all points, [lower, upper) along each axis with finite ends. Along the
+    /// other axes, with infinite ends, it does not repeat. A point on an upper face, as
     /// wrapping may round it, is taken for one just below it. A rank may need several images of one
     /// point, also of its own. Each is a ghost with its entry in GhostPlan::shifts: the image of x
     /// is at x + shift * (upper - lower), each operation rounded to a double. Wrap positions first.
@@ -64,7 +64,7 @@ struct GhostOptions {
     /// Ranks of each part, as after a remap(), if not ranks_of_part().
     std::optional<std::span<const RankRange>> ranks_of_parts{};
     /// Whose radii count. With the radii of receivers, a part gets the points within its greatest
-    /// radius of the box of its points with more than half of that radius, and those within the
+    /// radius of the box of its points with more than half of it, and the points within the
     /// greatest other radius of the box of its other points. Cost: a pass of counts, two
     /// reductions, one of up to 14 doubles a part, and two passes over the points.
     Needs needs = Needs::sender;
@@ -117,8 +117,8 @@ struct Verification {
     std::vector<Fault> strangers;  ///< own points received as ghosts, new ids
 };
 
-/// Compares ghosts with all pairs of a random sample of the points, and ids with those of the other
-/// ranks. Collective.
+/// Compares ghosts with all pairs of a random sample of the points, and ids between the ranks.
+/// Collective.
 ///
 ///     const rrcb::Verification seen = rrcb::verify(near, points, {.sample = 1000}, comm);
 ///
@@ -273,9 +273,9 @@ template <class GhostColumns>
 /// @param comm          of the plan
 /// @param limits        as for transfer()
 /// @param report        as for transfer()
-/// @return each point's value plus those of its ghosts by ascending rank: the same arguments give
+/// @return each point's value plus its ghosts' values by ascending rank: the same arguments give
 /// the same bits; integers must hold their sums
-/// Throws Error as transfer(). Cost: that of fetch(); memory for the values that arrive.
+/// Throws Error as transfer(). Cost: as fetch(); memory for the values that arrive.
 template <class GhostColumns, class Columns>
 [[nodiscard]] auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns,
                               const Columns& columns, MPI_Comm comm,

@@ -19,26 +19,26 @@ struct Remap {
     GlobalCount kept_after = 0;   ///< points that stay under the new numbers, never fewer
 };
 
-/// Numbers the parts of a new partition so that many points stay on their rank. Collective.
+/// Numbers the parts of a new partition: many points then stay on their rank. Collective.
 ///
-/// The largest overlap of a rank and a part gets its number first, which keeps at least half of the
-/// points that any numbers can keep, without groups. Numbers that gain nothing are left unchanged.
+/// The largest overlap of a rank and a part gets its number first. Without groups this keeps at
+/// least half of the most points. Numbers without a gain are left unchanged.
 /// @param parts          the new part of each point of this rank
 /// @param ranks_of_parts one entry per part, ascending, the same on every rank; of several ranks of
 /// a part the first one counts
 /// @param comm           of the ranks with points
 /// @param shape          of the cuts: parts of a group stay in one, which keeps fewer points
-/// Throws Error on every rank if one names a part that does not exist, ranks that differ or do not
-/// exist, or has no memory. Cost: one pass to rank 0, which decides, and one broadcast; with more
+/// Throws Error on every rank if one names no existing part, ranks that differ or do not exist, or
+/// has no memory. Cost: one pass to rank 0, which decides, and one broadcast; with more
 /// parts and ranks than Tuning::central_parts, passes through all ranks.
 [[nodiscard]] RRCB_API Remap remap(std::span<const Part> parts,
                                    std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
                                    const TreeShape& shape = {});
 
-/// Numbers the parts so that many points keep the number of their part. Collective.
+/// Numbers the parts: many points then keep the number of their part. Collective.
 ///
 /// @param parts          as above
-/// @param previous       the earlier part of each point; parts that no longer exist are ignored
+/// @param previous       the earlier part of each point; numbers beyond the parts are ignored
 /// @param ranks_of_parts as above
 /// @param comm           as above
 /// @param shape          as above

@@ -52,8 +52,8 @@ auto columns(const Columns&... each) {
 
 /// Bounds of one call, the same on every rank.
 struct TransferLimits {
-    /// Most memory for messages on each rank, besides the columns themselves: half for those that
-    /// leave, half for those that come. Each half must hold one point with all its columns.
+    /// Most memory for messages on each rank, besides the columns themselves: half for leaving
+    /// points, half for arriving ones. Each half must hold one point with all its columns.
     std::size_t bytes = std::size_t{64} << 20;
 };
 
@@ -142,8 +142,8 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 /// @param comm    of the plan, or a congruent one
 /// @param limits  memory for messages, the same on every rank
 /// @param report  may be null
-/// @return a tuple of vectors for columns(), otherwise a vector: the points that stay, in their
-/// order, then those that come, in the order of the import lists; the same in separate calls
+/// @return a tuple of vectors for columns(), otherwise a vector: the staying points in their
+/// order, then the arriving ones in the order of the import lists; the same in separate calls
 /// Throws Error on every rank alike if one has columns or limits that do not fit the plan or the
 /// other ranks, or no memory; on one rank only if a message fails. Cost: as plan(); several
 /// messages for a pair beyond `limits.bytes`.

@@ -10,7 +10,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the weight that round-off may misplace. It must not decide the side of a gap between
+/// Returns the weight of possible round-off. It must not decide the side of a gap between
 /// clusters.
 double negligible(double weight) {
     return 1e-12 * weight;
@@ -26,8 +26,8 @@ struct Interval : Slice {
 struct Crossing {
     double left = -infinity;       ///< weight below `left` is less than the target
     double right = infinity;       ///< weight below `right` is not
-    double below = 0;              ///< weight of the intervals that end at or before `left`
-    std::vector<Interval> active;  ///< jumps at `left`, and intervals that span it
+    double below = 0;              ///< weight of the intervals ending at or before `left`
+    std::vector<Interval> active;  ///< jumps at `left`, and intervals across it
 };
 
 /// Returns a breakpoint near the median: the median of a few, evenly picked.
@@ -123,7 +123,7 @@ Crossing find_crossing(const Subset& subset, const Profile::Range& range, double
         breakpoints.push_back(interval.lower);
         if (!interval.is_jump()) breakpoints.push_back(interval.upper);
     }
-    // The weight below `left` is less than the target, that below `right` is not. The other
+    // The weight below `left` is less than the target, unlike the weight below `right`. The other
     // breakpoints are between; `below` and the active intervals determine the weight below each. A
     // round removes at least one of them, usually half.
     const auto drop_outside = [&] {
@@ -135,7 +135,7 @@ Crossing find_crossing(const Subset& subset, const Profile::Range& range, double
     return crossing;
 }
 
-/// Returns a cut above a jump: in the middle of the gap that follows, or infinity if nothing does.
+/// Returns a cut above a jump: in the middle of the next gap, or infinity if nothing does.
 double after_jump(const Subset& subset, double jump) {
     double next = infinity;
     subset.for_each([&](const Patch& patch, std::size_t) {
@@ -145,7 +145,7 @@ double after_jump(const Subset& subset, double jump) {
     return next == infinity ? next : std::max(std::nextafter(jump, infinity), jump / 2 + next / 2);
 }
 
-/// Returns the middle of the gap that begins at `value`, or `value` if weight begins at once.
+/// Returns the middle of the gap behind `value`, or `value` if weight begins at once.
 double middle_of_gap(const Subset& subset, double value) {
     double next = infinity;
     subset.for_each([&](const Patch& patch, std::size_t) {

@@ -23,7 +23,7 @@ struct Overlap {
     GlobalCount count = 0;
 };
 
-/// Origins whose points are kept, and the ranks that search for the numbers of the parts.
+/// Origins whose points are kept, and the searching ranks.
 struct NumberRule {
     int num_parts = 1;
     int num_ranks = 1;
@@ -51,27 +51,26 @@ struct NumberRule {
         return is_spread && by_rank ? origin : searcher_of(origin);
     }
 
-    /// Returns the parts that a rank searches for; numbers_at() returns the numbers of its origins.
+    /// Return the parts of a searching rank, and the numbers of its origins.
     PartRange parts_of(int rank) const;
     PartRange numbers_at(int rank) const {
         return is_spread && by_rank ? numbers_of(rank) : parts_of(rank);
     }
 };
 
-/// Search for numbers of the parts so that many points are kept: one rank's share of the search,
-/// without the messages.
+/// Search for numbers of the parts with many kept points: one rank's share, without the messages.
 ///
-/// The numbers are those of the greedy method: the largest overlap of all gets its number first,
-/// which keeps at least half of the most that can be kept. Rounds of offers find them (D. Gale and
-/// L. S. Shapley: College admissions and the stability of marriage, 1962). A part makes an offer to
-/// the origin of its largest overlap, last of all to that of its present number. An origin accepts
-/// the largest offers, as many as it has numbers. A refused part goes on to its next origin, and
-/// asks the later ones which offers they would refuse. Overlaps have a total order, so any
-/// distribution of the parts over the searching ranks gives the same numbers. Parts without a
+/// It finds the numbers of the greedy method: the largest overlap of all gets its number first,
+/// which keeps at least half of the most points. Rounds of offers find them (D. Gale and L. S.
+/// Shapley: College admissions and the stability of marriage, 1962). A part makes an offer to the
+/// origin of its largest overlap, last of all to the origin of its present number. An origin
+/// accepts the largest offers, as many as it has numbers. A refused part goes on to its next
+/// origin, and asks the later ones which offers they would refuse. Overlaps have a total order, so
+/// any distribution of the parts over the searching ranks gives the same numbers. Parts without a
 /// number after the rounds are paired with unused numbers, both counted over the ranks.
 ///
-/// Memory and messages grow with the overlaps of the rank's parts. Not collective. Functions that
-/// add to a butterfly or read from it throw std::bad_alloc.
+/// Memory and messages grow with the overlaps of the rank's parts. Not collective. All functions
+/// with a butterfly throw std::bad_alloc.
 class NumberSearch {
   public:
     /// Throws std::bad_alloc.
@@ -99,12 +98,12 @@ class NumberSearch {
     using Counts = std::array<std::int64_t, 2>;
     Counts left() const;
 
-    /// Adds both, counted on from `before`, those of lower ranks; append() joins a part and a
+    /// Adds both, counted on from `before`, the counts of lower ranks; append() joins a part and a
     /// number with the same count. Each record is its own answer.
     void meet(const Counts& before, Butterfly& left) const;
     void take(const Counts& before, const Butterfly& left);
 
-    /// Counts the points of this rank's parts: all, and those kept by the old and the new numbers.
+    /// Counts the points of this rank's parts: all, kept by the old numbers, kept by the new ones.
     std::array<GlobalCount, 3> count_points() const;
 
     /// Gives all parts their old numbers.

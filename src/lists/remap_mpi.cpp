@@ -58,7 +58,7 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
     return overlaps;
 }
 
-/// Limits the search to the overlaps that keep their number and the largest others: 16 for each
+/// Limits the search to overlaps with their present number and the largest others: 16 for each
 /// part per rank plus 65,536 on all ranks. The others lose their origin.
 void limit_overlaps(const NumberRule& rule, std::vector<Overlap>& overlaps) {
     const auto parts_per_rank = static_cast<std::size_t>((rule.num_parts - 1) / rule.num_ranks + 1);
@@ -74,14 +74,14 @@ void limit_overlaps(const NumberRule& rule, std::vector<Overlap>& overlaps) {
     std::ranges::sort(overlaps, {}, [](const Overlap& o) { return std::tuple(o.part, o.origin); });
 }
 
-/// Sends the overlaps to the ranks that search for their parts.
+/// Sends the overlaps to the searching ranks of their parts.
 void hand_in(std::span<const Part> parts, const PreviousParts& previous, RemapBuffers& buffers,
              Participant& self) {
     auto& search = buffers.search;
     self.attempt([&] {
         std::vector<Overlap> overlaps =
             count_overlaps(parts, previous, search.rule(), mpi::rank_of(self.comm));
-        // The ranks ask for the numbers of parts that they search for, unless they get all.
+        // Searching ranks ask for the numbers of their parts, unless they get all.
         if (buffers.numbers.empty())
             for (Part part = search.parts().first; part < search.parts().end; ++part)
                 overlaps.push_back({no_origin, part, 0});
@@ -141,7 +141,7 @@ Remap make_summary(std::span<const GlobalCount, 3> sums) {
     return summary;
 }
 
-/// Broadcasts the numbers that rank 0 found, or a failure known to it. Collective.
+/// Broadcasts the numbers found by rank 0, or a failure known to it. Collective.
 NewNumbers share_decision(RemapBuffers& buffers, Participant& self) {
     auto& [search, told, offers, left, messages, numbers, decision] = buffers;
     if (mpi::rank_of(self.comm) == root) {
@@ -160,7 +160,7 @@ NewNumbers share_decision(RemapBuffers& buffers, Participant& self) {
     return result;
 }
 
-/// Sends the numbers that all ranks found to all ranks, or to those with points of the parts.
+/// Sends the numbers found by all ranks to all, or to the ranks with points of the parts.
 /// Collective: one reduction, and another or a pass if any number changes.
 NewNumbers return_numbers(RemapBuffers& buffers, Participant& self) {
     auto& search = buffers.search;
@@ -180,7 +180,7 @@ NewNumbers return_numbers(RemapBuffers& buffers, Participant& self) {
     } else if (!result.remap.identity) {
         self.attempt([&] {
             told.owned().for_each([&, index = std::size_t{0}](const Record& record) mutable {
-                // The searching rank of a part asks for it, so the records are those of all parts.
+                // The searching rank of a part asks for it, so all parts have records.
                 told.answer(record.key, std::array{static_cast<double>(search.numbers()[index++])});
             });
         });

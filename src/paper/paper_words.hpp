@@ -36,16 +36,32 @@ inline constexpr Range<double> sigma_range{
 inline constexpr Range<double> fraction_range{
     {[](const Options&) { return 1.0; }, nullptr}, 0, 1, true};
 
-/// All of them except RRCB_SEED, of 64 bits, and RRCB_DUMP, a path. No options hold their values.
-inline constexpr Option plug_in_table[] = {
-    {"", "RRCB_DOMAIN", "Plug-in only: the method", unstored_choice<-1>(words_of_method)},
-    {"", "RRCB_CUT_RULE", "Plug-in only, SAMPLED and POINTS: position of cuts", cut_rule_words},
-    {"", "RRCB_SIGMA_MULTIPLIER",
-     "Plug-in only, SAMPLED: half-width of a cell's sampling box in standard deviations",
-     sigma_range},
-    {"", "RRCB_SAMPLE_FRACTION", "Plug-in only, SAMPLED: points drawn per real point",
-     fraction_range},
-    {"", "RRCB_DUMP_WHEN", "Plug-in only: when to write to RRCB_DUMP",
-     unstored_choice<0>(words_of_dump_when)}};
+// No options hold the values of these.
+inline constexpr Option domain_parameter{"", "RRCB_DOMAIN", "Plug-in only: the method",
+                                         unstored_choice<-1>(words_of_method)};
+inline constexpr Option cut_rule_parameter{
+    "", "RRCB_CUT_RULE", "Plug-in only, SAMPLED and POINTS: position of cuts", cut_rule_words};
+inline constexpr Option sigma_parameter{
+    "", "RRCB_SIGMA_MULTIPLIER",
+    "Plug-in only, SAMPLED: half-width of a cell's sampling box in standard deviations",
+    sigma_range};
+inline constexpr Option fraction_parameter{"", "RRCB_SAMPLE_FRACTION",
+                                           "Plug-in only, SAMPLED: points drawn per real point",
+                                           fraction_range};
+inline constexpr Option dump_when_parameter{"", "RRCB_DUMP_WHEN",
+                                            "Plug-in only: when to write to RRCB_DUMP",
+                                            unstored_choice<0>(words_of_dump_when)};
+inline constexpr Option plug_in_table[] = {domain_parameter, cut_rule_parameter, sigma_parameter,
+                                           fraction_parameter, dump_when_parameter};
+
+/// A parameter that no Option describes: a number of 64 bits, or a path.
+struct OtherParameter {
+    const char* parameter;
+    const char* documentation;
+};
+inline constexpr OtherParameter seed_parameter{
+    "RRCB_SEED", "Plug-in only, SAMPLED: seed of the points: a whole number, 0 or more."};
+inline constexpr OtherParameter dump_parameter{
+    "RRCB_DUMP", "Plug-in only: folder to write the input of calls to: a string; empty: none."};
 
 }  // namespace rrcb

@@ -99,10 +99,9 @@ struct Getter {
 void add_parameters_of_plug_in(ParameterList& list) {
     for (const Option& option : plug_in_table) visit_kind(option, Adder{list, option});
     // Teuchos has no unsigned 64-bit number.
-    add_number(list, "RRCB_SEED", 1LL, {0LL, std::numeric_limits<long long>::max()},
-               "Plug-in only, SAMPLED: seed of the points: a whole number, 0 or more.");
-    list.set("RRCB_DUMP", std::string(),
-             "Plug-in only: folder to write the input of calls to: a string; empty: none.");
+    add_number(list, seed_parameter.parameter, 1LL, {0LL, std::numeric_limits<long long>::max()},
+               seed_parameter.documentation);
+    list.set(dump_parameter.parameter, std::string(), dump_parameter.documentation);
 }
 
 std::string text_of(const ParameterEntry& entry) {

@@ -26,7 +26,7 @@ std::vector<const char*> ignored_parameters(const Parameters& parameters) {
         add_if(parameters.options.refine == Refine::exact, "RRCB_REFINE");
         add_if(parameters.options.min_points != 0, "RRCB_MIN_POINTS");
     } else {
-        add_if(parameters.cut_rule != Parameters{}.cut_rule, "RRCB_CUT_RULE");
+        add_if(parameters.cut_rule != Parameters{}.cut_rule, cut_rule_parameter.parameter);
     }
     return names;
 }

@@ -116,7 +116,8 @@ Setting set_own(Parameters& parameters, std::string_view name, const char* value
     const std::string cleaned = clean(value);
     const std::string_view upper = without_trailing_blanks(cleaned);
     if (upper != "DEFAULT") {
-        const std::string_view text = name == dump_folder_name ? std::string_view(value) : upper;
+        const bool keeps_case = name == dump_parameter.parameter;
+        const std::string_view text = keeps_case ? std::string_view(value) : upper;
         const bool is_read = option != nullptr ? read_option(*option, upper, parameters.options)
                                                : row->read(parameters, text);
         return is_read ? Setting::accepted : Setting::refused;

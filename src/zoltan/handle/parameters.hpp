@@ -1,6 +1,7 @@
 #pragma once
 
 #include "paper/paper_text.hpp"
+#include "paper/paper_words.hpp"
 
 #include <rrcb/options.hpp>
 #include <rrcb/paper.hpp>
@@ -168,9 +169,6 @@ constexpr ParameterRow flag(const char* name) {
     return must_agree<field, read_integer<>, is_on<field>>(name);
 }
 
-/// Name of the one parameter whose value keeps its case.
-inline constexpr const char* dump_folder_name = "RRCB_DUMP";
-
 /// All parameters except LB_METHOD and the parameters of Options, the compared ones in the order in
 /// which differences are reported.
 inline constexpr ParameterRow parameter_table[] = {
@@ -186,11 +184,11 @@ inline constexpr ParameterRow parameter_table[] = {
     must_agree<&Parameters::set_directions, read_integer<>>("RCB_SET_DIRECTIONS"),
     flag<&Parameters::rectilinear_blocks>("RCB_RECTILINEAR_BLOCKS"),
     flag<&Parameters::reduce_dimensions>("REDUCE_DIMENSIONS"),
-    must_agree<&Parameters::paper_domain, read_domain>("RRCB_DOMAIN"),
-    must_agree<&Parameters::cut_rule, read_cut_rule>("RRCB_CUT_RULE"),
-    must_agree<&Parameters::sigma_multiplier, read_sigma_multiplier>("RRCB_SIGMA_MULTIPLIER"),
-    must_agree<&Parameters::sample_fraction, read_sample_fraction>("RRCB_SAMPLE_FRACTION"),
-    must_agree<&Parameters::seed, read_seed>("RRCB_SEED"),
+    must_agree<&Parameters::paper_domain, read_domain>(domain_parameter.parameter),
+    must_agree<&Parameters::cut_rule, read_cut_rule>(cut_rule_parameter.parameter),
+    must_agree<&Parameters::sigma_multiplier, read_sigma_multiplier>(sigma_parameter.parameter),
+    must_agree<&Parameters::sample_fraction, read_sample_fraction>(fraction_parameter.parameter),
+    must_agree<&Parameters::seed, read_seed>(seed_parameter.parameter),
     may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTS"),
     may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTITIONS"),
     may_differ<&Parameters::num_local_parts, read_integer<0>>("NUM_LOCAL_PARTS"),
@@ -199,8 +197,8 @@ inline constexpr ParameterRow parameter_table[] = {
     may_differ<&Parameters::output_level, read_integer<>>("RCB_OUTPUT_LEVEL"),
     may_differ<&Parameters::final_output, read_integer<>>("FINAL_OUTPUT"),
     may_differ<&Parameters::debug_level, read_integer<0>>("DEBUG_LEVEL"),
-    may_differ<&Parameters::dump_folder, read_folder>(dump_folder_name),
-    may_differ<&Parameters::dump_always, read_dump_when>("RRCB_DUMP_WHEN"),
+    may_differ<&Parameters::dump_folder, read_folder>(dump_parameter.parameter),
+    may_differ<&Parameters::dump_always, read_dump_when>(dump_when_parameter.parameter),
 };
 
 enum class Setting {

@@ -11,8 +11,8 @@ namespace rrcb {
 bool may_save_ghosts(const Options& options, const NearCuts& chosen, double share_now);
 
 /// Returns the share of reference for later calls, if the axes are kept: that of the chosen axes,
-/// or less since. It falls by four times the `excess` of the imbalance that cuts were moved for, because
-/// other axes may have become better meanwhile.
+/// or less since. It falls by four times the `excess` of the imbalance that cuts were moved for,
+/// because other axes may have become better meanwhile.
 double reference(const NearCuts& chosen, double share_now, double excess);
 
 /// Returns the better balance: that from scratch if its balance is worth moving points, or if

@@ -287,7 +287,8 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     report_near(call);
     const double near_now = call.decision.verdict.near.share;
     const bool may_save = may_save_ghosts(call.options, previous.near, near_now);
-    call.result.cuts.near.share = reference(previous.near, near_now, may_save, !is_kept);
+    const double excess = is_kept ? 0 : call.decision.verdict.measured_imbalance - 1;
+    call.result.cuts.near.share = reference(previous.near, near_now, excess);
     if (!may_save && !may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
         return std::move(call.result);
     return better(std::move(call.result), balance_from_scratch(points, given, false, self, {}),

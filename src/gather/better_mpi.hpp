@@ -10,10 +10,10 @@ namespace rrcb {
 /// chosen, that others may save ghosts.
 bool may_save_ghosts(const Options& options, const NearCuts& chosen, double share_now);
 
-/// Returns the share to compare with in later calls, if the axes are kept: that of the chosen axes,
-/// or less since, or that of now if new cuts were compared in this call. It falls with every call
-/// that moves cuts, so that new cuts are compared after some of them at least.
-double reference(const NearCuts& chosen, double share_now, bool was_compared, bool were_moved);
+/// Returns the share of reference for later calls, if the axes are kept: that of the chosen axes,
+/// or less since. It falls by four times the `excess` of the imbalance that cuts were moved for,
+/// because other axes may have become better meanwhile.
+double reference(const NearCuts& chosen, double share_now, double excess);
 
 /// Returns the better balance: that from scratch if its balance is worth moving points, or if
 /// `compares_ghosts` and it has much fewer points near its cuts. Collective.

@@ -69,9 +69,9 @@ TEST(TurningAxes, follow_a_flow_and_move_few_points) {
     EXPECT_GT(balance.report.details.near_after, 0);
     EXPECT_EQ(balance.report.details.near_before, 0);
     std::size_t num_moved = 0;
-    for (int step = 1; step <= 50; ++step) {
+    for (int step = 1; step <= 100; ++step) {
         const std::vector<Part> before = parts_of(flow, balance.cuts);
-        flow.go_to(step / 50.0);
+        flow.go_to(step / 100.0);
         mine = flow.mine();
         const Points points = interleaved_points(mine, 2);
         balance = rrcb::balance(points, options, balance.cuts, MPI_COMM_WORLD);
@@ -79,7 +79,7 @@ TEST(TurningAxes, follow_a_flow_and_move_few_points) {
         for (std::size_t i = 0; i < num_points; ++i) num_moved += before[i] != after[i];
         EXPECT_GT(balance.report.details.near_before, 0);
         EXPECT_TRUE(balance.report.within_tolerance);
-        if (step % 5 != 0) continue;
+        if (step % 10 != 0) continue;
         const Cuts anew = rrcb::balance(points, options, {}, MPI_COMM_WORLD).cuts;
         EXPECT_LE(flow.num_ghosts(balance.cuts), 1.15 * flow.num_ghosts(anew)) << step;
     }

@@ -11,6 +11,7 @@ from pathlib import Path
 from support import measured, simulated, table
 
 import compare
+import numpy as np
 import pandas as pd
 import pictures
 import report
@@ -154,6 +155,10 @@ class PictureTest(FolderTest):
         self.assertEqual(titles, ["start, after a call: fullest rank 1.0000 × mean",
                                   "later, before a call: fullest rank 2.00 × mean",
                                   "later, after a call: fullest rank 1.0000 × mean"])  # fmt: skip
+
+    def test_ghosts_are_near_points_of_another_part(self) -> None:
+        line = pd.DataFrame({"x": range(10), "y": [0] * 10, "part": [0] * 5 + [1] * 5})
+        self.assertEqual(np.flatnonzero(pictures.are_near_others(line)).tolist(), [3, 4, 5, 6])
 
 
 class ReportTest(FolderTest):

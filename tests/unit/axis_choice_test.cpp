@@ -95,13 +95,26 @@ StatisticalDomain layer_with_strays() {
     return domain;
 }
 
-std::vector<int> axes_by(const AxisOrder& order, StatisticalDomain domain, int num_parts) {
+Cuts cuts_by(const AxisOrder& order, StatisticalDomain domain, int num_parts) {
     Options options;
     options.num_parts = num_parts;
     options.tree = TreeShape{};
     options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1);
     options.axes.order = order;
-    return axes_of(bisect(std::move(domain), options, false).cuts.tree);
+    return bisect(std::move(domain), options, false).cuts;
+}
+
+std::vector<int> axes_by(const AxisOrder& order, StatisticalDomain domain, int num_parts) {
+    return axes_of(cuts_by(order, std::move(domain), num_parts).tree);
+}
+
+/// 8 x 8 patches of x by y.
+StatisticalDomain even_box(double x, double y) {
+    StatisticalDomain domain{2, {}};
+    for (int i = 0; i < 8; ++i)
+        for (int j = 0; j < 8; ++j)
+            domain.patches.push_back({{i * x, j * y, 0}, {(i + 1) * x, (j + 1) * y, 0}, 1});
+    return domain;
 }
 
 TEST(AxisRule, crosses_the_axis_with_the_least_weight_near_the_cut) {
@@ -113,20 +126,25 @@ TEST(AxisRule, crosses_the_axis_with_the_least_weight_near_the_cut) {
 }
 
 TEST(AxisRule, crosses_the_longest_axis_unless_another_saves_a_tenth) {
-    const auto box = [](double x, double y) {
-        StatisticalDomain domain{2, {}};
-        for (int i = 0; i < 8; ++i)
-            for (int j = 0; j < 8; ++j)
-                domain.patches.push_back({{i * x, j * y, 0}, {(i + 1) * x, (j + 1) * y, 0}, 1});
-        return domain;
-    };
-    EXPECT_EQ(axes_by({}, box(1, 1), 4), (std::vector<int>{0, 1, 1}));
-    EXPECT_EQ(axes_by({}, box(1, 1.08), 2), (std::vector<int>{0}));
-    EXPECT_EQ(axes_by({}, box(1, 1.2), 2), (std::vector<int>{1}));
-    EXPECT_EQ(axes_by(AxisOrder::among({1, 0}), box(1.08, 1), 2), (std::vector<int>{1}));
+    EXPECT_EQ(axes_by({}, even_box(1, 1), 4), (std::vector<int>{0, 1, 1}));
+    EXPECT_EQ(axes_by({}, even_box(1, 1.08), 2), (std::vector<int>{0}));
+    EXPECT_EQ(axes_by({}, even_box(1, 1.2), 2), (std::vector<int>{1}));
+    EXPECT_EQ(axes_by(AxisOrder::among({1, 0}), even_box(1.08, 1), 2), (std::vector<int>{1}));
     // Without sides of patches the box counts.
     StatisticalDomain corners{2, {{{0, 0, 0}, {0, 0, 0}, 1}, {{1, 2, 0}, {1, 2, 0}, 1}}};
     EXPECT_EQ(axes_by({}, corners, 2), (std::vector<int>{1}));
+}
+
+TEST(KeptAxes, are_good_if_all_cuts_together_have_about_as_much_weight_near) {
+    const StatisticalDomain square = even_box(1, 1);
+    const NearCuts fresh = cuts_by({}, square, 4).near;
+    EXPECT_TRUE(are_axes_good(square, cuts_by({}, square, 4), fresh));
+    EXPECT_FALSE(are_axes_good(square, cuts_by(AxisOrder::among({0}), square, 4), fresh));
+    // Four quarters in another order: the first cut is the worse, the others are the better.
+    const StatisticalDomain high = even_box(1, 1.4);
+    const Cuts quarters = cuts_by(AxisOrder::given({0, 1, 1}), high, 4);
+    EXPECT_EQ(axes_by({}, high, 4), (std::vector<int>{1, 0, 0}));
+    EXPECT_TRUE(are_axes_good(high, quarters, cuts_by({}, high, 4).near));
 }
 
 }  // namespace

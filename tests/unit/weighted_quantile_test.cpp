@@ -151,6 +151,17 @@ TEST(WeightedQuantile, has_the_target_below_it_among_many_patches) {
     }
 }
 
+TEST(Profile, estimates_the_weight_near_a_cut) {
+    std::vector<Patch> patches;
+    for (int i = 0; i < 300; ++i) patches.push_back({{0.01 * i}, {0.01 * i + 0.01}, 1});
+    const StatisticalDomain domain = domain_of(patches);
+    const Profile profile(domain, 0);
+    EXPECT_NEAR(profile.weight_near(100, 0.2), 40, 1);
+    EXPECT_NEAR(profile.weight_near(5, 0.2), 25, 2) << "nothing is below 0";
+    EXPECT_EQ(profile.weight_near(100, 0), 0);
+    EXPECT_EQ(Profile(domain, 0, 301).weight_near(100, 0.2), 0) << "not known";
+}
+
 TEST(WeightedQuantile, that_is_plain_leaves_a_plane_of_patches_on_one_side) {
     const StatisticalDomain domain =
         domain_of({{{1, 0}, {1, 4}, 3}, {{1, 4}, {1, 8}, 3}, {{2, 0}, {3, 8}, 6}}, 2);

@@ -92,7 +92,7 @@ TEST(FewPoints, in_one_place_raise_the_imbalance_but_not_its_bound) {
             options.refine = refine;
             options.coincident = coincident;
             const Report report =
-                balance(interleaved_points(mine, 1), options, MPI_COMM_WORLD).report;
+                balance(interleaved_points(mine, 1), options, {}, MPI_COMM_WORLD).report;
             const bool stay = coincident == Coincident::together;
             EXPECT_EQ(report.details.least_imbalance, 1.6);
             EXPECT_EQ(report.imbalance, stay ? 8 : 1.6);

@@ -61,7 +61,7 @@ void expect_all_pairs(const std::vector<double>& here, std::vector<double> image
 
 TEST(TiltedBox, gives_all_pairs_without_the_tilt_and_with_a_greater_radius) {
     const std::vector<double> scattered = points_of(rank());
-    const Balance made = balance(interleaved_points(scattered, 2), {}, {}, {}, MPI_COMM_WORLD);
+    const Balance made = balance(interleaved_points(scattered, 2), {}, {}, MPI_COMM_WORLD);
     const std::vector<double> here =
         transfer(plan(made, MPI_COMM_WORLD), column(scattered, 2), MPI_COMM_WORLD);
     const GhostPlan near = ghosts(made.cuts, interleaved_points(here, 2),
@@ -194,7 +194,7 @@ TEST(TiltedBox, gives_all_pairs_in_c) {
 
 TEST(PeriodicFaces, have_no_images_of_floats_inside_the_box_in_c) {
     const std::vector<float> x{0, 1, std::nextafter(1.F, 0.F), static_cast<float>(rank()) / 20};
-    const Balance made = balance(interleaved_points(x, 1), {}, {}, {}, MPI_COMM_WORLD);
+    const Balance made = balance(interleaved_points(x, 1), {}, {}, MPI_COMM_WORLD);
     const std::vector<float> here = transfer(plan(made, MPI_COMM_WORLD), x, MPI_COMM_WORLD);
     Balancer balancer;
     std::vector<std::int32_t> parts(x.size());
@@ -256,7 +256,7 @@ TEST(HalfOpenBoxes, contain_the_points_of_a_lattice_by_plain_cuts) {
         Options options;
         options.axes.plain = plain;
         options.refine = Refine::exact;
-        const Balance made = balance(interleaved_points(x, 2), options, {}, {}, MPI_COMM_WORLD);
+        const Balance made = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD);
         const int outside =
             num_outside(x, made.parts, [&](Part part) { return box_of(made.cuts, part); });
         EXPECT_EQ(outside > 0, !plain && num_ranks() > 1);

@@ -102,7 +102,7 @@ TEST(TurningAxes, are_kept_by_points_at_rest_and_on_request) {
     mine = flow.mine();
     Cuts kept = balance.cuts;
     kept.near = {};
-    kept = balance(interleaved_points(mine, 2), options, kept, MPI_COMM_WORLD).cuts;
+    kept = rrcb::balance(interleaved_points(mine, 2), options, kept, MPI_COMM_WORLD).cuts;
     for (std::size_t k = 0; k < kept.tree.size(); ++k)
         EXPECT_EQ(kept.tree[k].axis, balance.cuts.tree[k].axis);
 }

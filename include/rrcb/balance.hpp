@@ -62,8 +62,7 @@ struct Balance {
 /// Collective. The same input on the same ranks gives the same bits.
 /// @param points   of this rank, also none; the same dimension on every rank
 /// @param options  the same on every rank
-/// @param previous cuts of an earlier call: few points change parts, unless others save many ghosts.
-/// Empty cuts, `{}`: from scratch
+/// @param previous cuts of an earlier call, which few points leave; empty cuts, `{}`: from scratch
 /// @param comm     duplicated by the first call; the duplicate is freed with it
 /// @return the cuts, the part of each point of this rank and a report
 /// Throws Error on every rank alike: for unusable coordinates, weights or arrays, options out of

@@ -61,7 +61,7 @@ struct Cuts {
     std::uint64_t group = 0;
     /// Hash of this rank's points of the balance, with which ghosts() recognizes them; 0: none.
     std::uint64_t points = 0;
-    /// With which rebalance() notices that other axes would save ghosts. Set it to {} to keep the
+    /// With which balance() notices that other axes would save ghosts. Set it to {} to keep the
     /// axes.
     NearCuts near{};
 };

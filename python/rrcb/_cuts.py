@@ -23,7 +23,12 @@ class Cuts:
     """
 
     def __init__(
-        self, dimension: int, num_parts: int, tree: Array, shape: tuple[int, int, int] = (1, 0, 0)
+        self,
+        dimension: int,
+        num_parts: int,
+        tree: Array,
+        shape: tuple[int, int, int] = (1, 0, 0),
+        near: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         self.dimension = dimension
         self.num_parts = num_parts
@@ -31,12 +36,13 @@ class Cuts:
         if self.tree.shape != (num_parts - 1,):
             raise c.Error(f"tree must have the shape ({num_parts - 1},), not {self.tree.shape}")
         self._shape = shape
+        self._near = near
         self._own: c.OwnedHandle | None = None
 
-    def __getstate__(self) -> tuple[int, int, Array, tuple[int, int, int]]:
-        return self.dimension, self.num_parts, self.tree, self._shape
+    def __getstate__(self) -> tuple[Any, ...]:
+        return self.dimension, self.num_parts, self.tree, self._shape, self._near
 
-    def __setstate__(self, state: tuple[int, int, Array, tuple[int, int, int]]) -> None:
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
         self.__init__(*state)  # type: ignore[misc]
 
     def __repr__(self) -> str:
@@ -115,7 +121,8 @@ class Cuts:
     def give(self, balancer: c.Handle) -> None:
         """Copies the cuts to a balancer."""
         tree = self.tree.ctypes.data if len(self.tree) else None
-        c.call("set_cuts", balancer, c.Cuts(self.dimension, self.num_parts, tree, *self._shape))
+        given = c.Cuts(self.dimension, self.num_parts, tree, *self._shape, *self._near)
+        c.call("set_cuts", balancer, given)
 
 
 def cuts_of(balancer: c.Handle) -> Cuts:
@@ -126,4 +133,5 @@ def cuts_of(balancer: c.Handle) -> Cuts:
     if len(tree):
         ctypes.memmove(tree.ctypes.data, shown.tree, tree.nbytes)
     shape = (shown.group_size, shown.larger_below, shown.dealt)
-    return Cuts(shown.dimension, shown.num_parts, tree, shape)
+    near = (shown.near_reach, shown.near_share)
+    return Cuts(shown.dimension, shown.num_parts, tree, shape, near)

@@ -66,7 +66,10 @@ class Groups:
                 )
             return rows
 
-        rows = prepare(self.comm, local, lambda given: f"rows of the shape {given.shape[1:]}")
+        def signature(given: Array) -> str:
+            return f"rows of the shape {given.shape[1:]}"
+
+        rows = prepare(self.comm, local, signature)
         result = np.zeros((len(self.x), *rows.shape[1:]))
         c.call("groups_sums", self._own, int(np.prod(rows.shape[1:])), rows, result)
         return result

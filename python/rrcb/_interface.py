@@ -39,6 +39,8 @@ class Cuts(Structure):
         ("group_size", c_int),
         ("larger_below", c_int),
         ("dealt", c_int),
+        ("near_reach", c_double),
+        ("near_share", c_double),
     ]
 
 

@@ -11,7 +11,7 @@ namespace {
 /// Writes or reads cuts.
 void store(SavedState& state, Cuts& cuts) {
     state.each(cuts.dimension, cuts.num_parts, cuts.shape.group_size, cuts.shape.larger_below,
-               cuts.shape.dealt);
+               cuts.shape.dealt, cuts.near.reach, cuts.near.share);
     std::size_t num_cuts = cuts.tree.size();
     state.count(num_cuts, state.num_left() / 3);
     cuts.tree.resize(num_cuts);

@@ -147,7 +147,8 @@ contains
     if (size(tree) > 0) tree = cuts%tree
     tree%axis = tree%axis - 1
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
-                   merge(1, 0, cuts%larger_below), cuts%dealt)
+                   merge(1, 0, cuts%larger_below), cuts%dealt, cuts%near_reach, &
+                   cuts%near_share)
     if (size(tree) > 0) given%tree = c_loc(tree)
     call settle(c_set_cuts(self%handle, given), error)
   end subroutine

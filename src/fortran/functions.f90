@@ -54,6 +54,8 @@ contains
     cuts%group_size = from%group_size
     cuts%larger_below = from%larger_below == 1
     cuts%dealt = from%dealt
+    cuts%near_reach = from%near_reach
+    cuts%near_share = from%near_share
     cuts%tree = tree
     cuts%tree%axis = cuts%tree%axis + 1
   end subroutine

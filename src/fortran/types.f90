@@ -50,6 +50,7 @@ module rrcb_types
   type, public :: rrcb_cuts
     integer :: dimension = 0, group_size = 1, dealt = 0
     logical :: larger_below = .false.
+    real(c_double) :: near_reach = 0, near_share = 0 !< points near the cuts, if known
     type(rrcb_cut), allocatable :: tree(:)
   end type
 

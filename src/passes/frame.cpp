@@ -14,7 +14,7 @@ constexpr std::size_t sample_size = 512;
 constexpr std::size_t left_out = sample_size / 64;  // at each end: more than strays are
 
 /// Ends of most of the points along an axis.
-struct Span {
+struct Layers {
     double lower;
     double upper;
 
@@ -26,7 +26,7 @@ struct Span {
     }
 };
 
-Span span_of(const Points& points, int axis) {
+Layers span_of(const Points& points, int axis) {
     std::array<double, sample_size> values;
     for (std::size_t k = 0; k < sample_size; ++k)
         values[k] = points.coordinate(sampled(k, points.count), axis);
@@ -38,13 +38,13 @@ Span span_of(const Points& points, int axis) {
 }
 
 /// Frames the layers of a mesh along an axis, if that makes them much narrower.
-void frame_axis(const Span& span, std::size_t axis, SupportMesh& mesh) {
+void frame_axis(const Layers& span, std::size_t axis, SupportMesh& mesh) {
     constexpr double much = 4;
     constexpr double margin = 0.25;  // of half the span: holds the rest of a ball
-    const Span whole{mesh.box.lower[axis], mesh.box.upper[axis]};
+    const Layers whole{mesh.box.lower[axis], mesh.box.upper[axis]};
     const int inner_layers = mesh.cells[axis] - 2;
     if (inner_layers < 2 || !(span.half() * much < whole.half())) return;
-    Span frame = span;
+    Layers frame = span;
     frame.widen(margin * span.half());
     frame.widen(2 * frame.half() / inner_layers);
     frame = {std::max(frame.lower, whole.lower), std::min(frame.upper, whole.upper)};

@@ -225,6 +225,8 @@ TEST_F(CInterface, makes_trees_of_the_shapes_of_cpp) {
         ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
         expect_same_cuts(cuts, expected.cuts);
         EXPECT_EQ(cuts.group_size, expected.cuts.shape.group_size);
+        EXPECT_EQ(cuts.near_reach, expected.cuts.near.reach);
+        EXPECT_EQ(cuts.near_share, expected.cuts.near.share);
         EXPECT_EQ(cuts.larger_below, expected.cuts.shape.larger_below ? 1 : 0);
         EXPECT_EQ(cuts.dealt, expected.cuts.shape.dealt);
     }

@@ -27,6 +27,8 @@ typedef struct rrcb_cuts {
     int group_size;       /**< of rrcb::TreeShape, 1 or more */
     int larger_below;     /**< 1: rrcb::TreeShape::larger_below */
     int dealt;            /**< of rrcb::TreeShape, 0 or more */
+    double near_reach;    /**< of rrcb::NearCuts; 0 if not known */
+    double near_share;    /**< of rrcb::NearCuts */
 } rrcb_cuts;
 
 /** Report of the last balance, as rrcb::Report; the same on every rank. */

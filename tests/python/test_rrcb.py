@@ -192,8 +192,8 @@ def test_balances_from_earlier_cuts():
 
 def test_reads_cuts_of_the_other_byte_order():
     cuts = rrcb.balance(cloud(2), comm=comm, num_parts=7).cuts
-    dimension, num_parts, tree, shape = cuts.__getstate__()
-    pickled = dimension, num_parts, tree.astype(tree.dtype.newbyteorder()), shape
+    dimension, num_parts, tree, *others = cuts.__getstate__()
+    pickled = dimension, num_parts, tree.astype(tree.dtype.newbyteorder()), *others
     read = rrcb.Cuts.__new__(rrcb.Cuts)
     read.__setstate__(pickle.loads(pickle.dumps(pickled)))
     assert np.array_equal(read.boxes(), cuts.boxes())

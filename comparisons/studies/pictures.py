@@ -1,4 +1,4 @@
-"""The pictures of comparisons/run: what accuracy costs, points by part, boxes that points leave, and
+"""The pictures of comparisons/run: points by part, boxes that points leave, and
 load unbalance over the steps. Their captions are the docstrings of what draws them."""
 
 from __future__ import annotations
@@ -7,10 +7,8 @@ import numpy as np
 import pandas as pd
 import plot
 from history import draw_history, draw_seconds
-from intervals import value_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from methods import parse
 from results import Results, cases
 
 BASE, METHOD = "zoltan-rcb", "rrcb"  # the second one's boxes points leave
@@ -32,67 +30,6 @@ def draw_all(results: Results) -> dict[str, str]:
 def _middle_case(results: Results) -> pd.DataFrame:
     by_case = list(cases(results.table).values())
     return by_case[len(by_case) // 2] if by_case else results.table
-
-
-# --- what accuracy costs ---
-
-
-def draw_price(results: Results) -> Figure | None:
-    """What accuracy costs: the time of a call over the imbalance it leaves, with 95 % intervals, of
-    every method on the same points. A mark of several names is one and the same partition."""
-    rows = _middle_case(results)
-    if rows.empty:
-        return None
-    figure, grid = plot.panels(1, 1, 8, 5)
-    axes = grid[0, 0]
-    marks = [_draw_mark(axes, names, row) for names, row in partitions(rows)]
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlim(50 * rows["excess"].min(), 300 * rows["excess"].max())
-    axes.set_ylim(rows["time_ms"].min() / 2, rows["time_ms"].max() * 2)
-    _shade_one_point(axes, rows)
-    axes.grid(True)
-    axes.set_xlabel("imbalance left: heaviest part above the mean [%]")
-    axes.set_ylabel("time of a call [ms]")
-    first = rows.iloc[0]
-    points = f"{first['points']:,} points, {first['ranks']} ranks"
-    axes.set_title(f"{first['workload']}, {first['layout']}: {points}")
-    plot.label_marks(axes, marks)
-    return figure
-
-
-def partitions(rows: pd.DataFrame) -> list[tuple[str, object]]:
-    """Each with its name; tolerances that leave the same parts are one, with the row of the default
-    setting if that is among them."""
-    groups: dict[object, list] = {}
-    for row in rows.itertuples():
-        name, parameters = parse(row.method)
-        has_tolerance = name == "rrcb" and parameters.keys() <= {"tol"}
-        groups.setdefault((row.imbalance, row.bytes) if has_tolerance else row.Index, []).append(row)
-    found = []
-    for group in groups.values():
-        shown = next((row for row in group if row.method == "rrcb"), group[0])
-        tolerances = ", ".join(parse(row.method)[1].get("tol", "1.01") for row in group)
-        found.append((f"rrcb, tolerance {tolerances}" if len(group) > 1 else shown.method, shown))
-    return found
-
-
-def _draw_mark(axes: Axes, name: str, row: object) -> tuple[float, float, str, str]:
-    style = plot.method_style(row.method)
-    low, high = value_of(row, "time_ms").reach
-    axes.errorbar([100 * row.excess], [row.time_ms], yerr=[[row.time_ms - low], [high - row.time_ms]],
-                  markersize=7, elinewidth=0.9, **style.mark)  # fmt: skip
-    return 100 * row.excess, row.time_ms, name.replace(",k=", ",\nk="), style.colour
-
-
-def _shade_one_point(axes: Axes, rows: pd.DataFrame) -> None:
-    """Where no part has more than one point above the mean."""
-    point = 100 * rows["point"].iloc[0]
-    if 100 * rows["excess"].min() <= 1.001 * point:
-        axes.axvspan(point / 100, point, color="#F0F0F0", zorder=0)
-        axes.set_xlim(left=point / 4)
-        axes.annotate("one point\nor less", (point, 0.01), (-4, 2), ha="right", va="bottom", fontsize=8,
-                      xycoords=axes.get_xaxis_transform(), textcoords="offset points")  # fmt: skip
 
 
 # --- points by part, with the boxes of the parts ---
@@ -229,7 +166,6 @@ def draw_rank_times(results: Results) -> Figure | None:
 
 
 PICTURES = {
-    "price.png": draw_price,
     "parts.png": draw_parts,
     "ghosts.png": draw_ghosts,
     "moving_boxes.png": draw_moving_boxes,

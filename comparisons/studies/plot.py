@@ -18,7 +18,6 @@ from matplotlib.axis import Axis  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib import ticker  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
-from matplotlib.transforms import Bbox  # noqa: E402
 
 # Of parts; any two differ from one another and from those of methods by 14 units of CIELAB or more.
 PART_COLOURS = (
@@ -35,11 +34,6 @@ class MethodStyle(NamedTuple):
     colour: str
     line: str | tuple
     marker: str
-
-    @property
-    def mark(self) -> dict:
-        """The look of a mark without a line."""
-        return {"color": self.colour, "linestyle": "", "marker": self.marker}
 
 
 # After M. Okabe and K. Ito: Color universal design (2008); the line style and the marker tell the
@@ -208,34 +202,3 @@ def rectangles(boxes: pd.DataFrame, **look) -> list[Rectangle]:
         Rectangle((b.lower_x, b.lower_y), b.upper_x - b.lower_x, b.upper_y - b.lower_y, **look)
         for b in boxes.itertuples()
     ]
-
-
-# Where a text may stand: its side of the mark, in points, and how it is aligned.
-_SIDES = [
-    (x * far, y * far, ("right", "center", "left")[x + 1], ("top", "center", "bottom")[y + 1])
-    for far in (8, 18, 30, 45)
-    for x, y in ((1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1))
-]
-
-
-def label_marks(axes: Axes, marks: Iterable[tuple[float, float, str, str]]) -> None:
-    """Writes x, y, text and colour beside each mark, clear of other marks and texts; from the top, so
-    that texts on one side are in the order of their marks."""
-    axes.figure.canvas.draw()
-    marks = sorted(marks, key=lambda mark: mark[1], reverse=True)
-    places = [axes.transData.transform(mark[:2]) for mark in marks]
-    taken = [Bbox.from_bounds(x - 7, y - 7, 14, 14) for x, y in places]
-    for (x, y, text, colour), place in zip(marks, places):
-        written = axes.annotate(text, (x, y), (0, 0), textcoords="offset points", color=colour,
-                                fontsize=8.5)  # fmt: skip
-        boxes = []
-        for dx, dy, horizontal, vertical in _SIDES:
-            written.set(position=(dx, dy), ha=horizontal, va=vertical)
-            box = written.get_window_extent()
-            outside = 10 * (not axes.bbox.x0 < box.x0 < box.x1 < axes.bbox.x1)
-            outside += 10 * (not axes.bbox.y0 < box.y0 < box.y1 < axes.bbox.y1)
-            boxes.append((outside + sum(box.overlaps(other) for other in taken), len(boxes), box))
-        _, best, box = min(boxes, key=lambda found: found[:2])
-        dx, dy, horizontal, vertical = _SIDES[best]
-        written.set(position=(dx, dy), ha=horizontal, va=vertical)
-        taken.append(box)

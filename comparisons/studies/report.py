@@ -39,7 +39,6 @@ def write_report(folder: Path) -> None:
     report = Report("RRCB compared with Zoltan's balancers", folder)
     if results.busy:
         report.text(f"The machine was busy: other processes used {results.busy} of its processor time.")
-    report.picture("price.png", captions.pop("price.png", ""))
     for text in [*failures(results), *sentences(results)]:
         report.text(text)
         print(f"\n{text}")

@@ -26,8 +26,8 @@ struct ReportDetails {
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
     int surplus_parts = 0;          ///< parts that stay empty: more than points, or by min_points
-    /// Share of the weight near the earlier cuts, Cuts::near: an estimate of ghosts. 0 if not known,
-    /// as without earlier cuts.
+    /// Share of the weight near the earlier cuts, Cuts::near: an estimate of ghosts. 0 if not
+    /// known, as without earlier cuts.
     double near_before = 0;
     double near_after = 0;  ///< of the new cuts
 };

@@ -95,8 +95,7 @@ double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts
     if (at.is_part() || domain.patches.empty()) return 0;
     const Cut& cut = cuts.tree[at.node];
     double weight = std::isfinite(cut.at[cut.axis]) ? weight_within(domain, cut, reach) : 0;
-    Halves halves = split_domain(domain, cut);
-    domain.patches = {};
+    Halves halves = split_domain(std::move(domain), cut);
     weight += weight_near(std::move(halves.lower), at.lower(), cuts, reach);
     return weight + weight_near(std::move(halves.upper), at.upper(), cuts, reach);
 }

@@ -6,21 +6,19 @@
 #include "passes/near_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace rrcb {
 
 namespace {
 
-/// Returns the number of points near cuts, of many on each rank. Collective.
-std::int64_t num_near(const Cuts& cuts, const Points& points, double reach,
-                      const Participant& self) {
+/// Returns the number of this rank's points near cuts, from a large sample.
+std::int64_t num_near(const Cuts& cuts, const Points& points, double reach) {
     const double share = near_share(cuts, points, reach, 1 << 14).by_count;
-    std::int64_t number = std::llround(share * static_cast<double>(points.count));
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_INT64_T, MPI_SUM, self.comm),
-               "MPI_Allreduce");
-    return number;
+    return std::llround(share * static_cast<double>(points.count));
 }
 
 /// Share of the weight near cuts, over that of reference, above which new cuts are made.
@@ -32,9 +30,12 @@ bool saves_ghosts(Balance& reused, const Balance& anew, const Points& points,
                   const Participant& self) {
     constexpr double fewer = 0.94;
     const double reach = anew.cuts.near.reach / 4;
-    const auto before = static_cast<double>(num_near(reused.cuts, points, reach, self));
-    const auto after = static_cast<double>(num_near(anew.cuts, points, reach, self));
-    if (after < fewer * before) return true;
+    std::array<std::int64_t, 2> near{num_near(reused.cuts, points, reach),
+                                     num_near(anew.cuts, points, reach)};
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, near.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
+               "MPI_Allreduce");
+    const auto [before, after] = near;
+    if (static_cast<double>(after) < fewer * static_cast<double>(before)) return true;
     reused.cuts.near.share = reused.report.details.near_before;
     return false;
 }

@@ -14,7 +14,7 @@ import reference_python
 
 CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts",
        "groups", "remap", "quality", "controller", "cost", "restart", "stages", "error", "version", "eigen",
-       "paper", "method/support_mesh", "method/moments", "method/statistical_domain",
+       "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
        "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters",
        "teuchos/time_monitor")
 C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/groups", "c/controller",

@@ -129,7 +129,8 @@ class RRCB_API PointPasses {
     ///
     /// @param cuts      whole
     /// @param intervals one per cut
-    /// @param has_parts the points have the parts by these cuts, all of them
+    /// @param has_parts the points have the parts by these cuts; those at a cut that divides
+    /// may be on either side
     /// @param collected whose memory is reused
     virtual void collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
                          Collected& collected) = 0;

@@ -153,13 +153,23 @@ void conclude(Candidate& candidate) {
         judgements[(judgements.size() - 1) / 2].worst_unbalance_percent;
 }
 
+/// Seed of the order of turns: other workloads have other orders, else what an order favours would
+/// be counted once for each of them.
+std::uint64_t order_seed(const Workload& workload, std::uint64_t seed, MPI_Comm comm) {
+    const std::string numbers =
+        ' ' + std::to_string(workload.dimension) + ' ' + std::to_string(size_of(comm));
+    return seed_for(workload.name + numbers, seed);
+}
+
 /// A first call that is not timed, then the repeats, each turn in an order of its own; between them
 /// the points drift.
 void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan, const Drift& drift,
                    Workload& workload, Progress& progress, MPI_Comm comm) {
+    const std::uint64_t seed = order_seed(workload, plan.seed, comm);
     for (int call = 0; call < plan.repeats + 1; ++call) {
-        const auto turn = static_cast<std::uint64_t>(call);
-        for (const std::size_t next : drawn_order(candidates.size(), plan.seed, turn)) {
+        // The first timed turn and the second are a pair.
+        const auto turn = static_cast<std::uint64_t>(call + 1);
+        for (const std::size_t next : drawn_order(candidates.size(), seed, turn)) {
             Candidate& candidate = candidates[next];
             progress.advance();
             if (!candidate.partitioner) continue;

@@ -98,8 +98,8 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
     constexpr int turn = 50;
     for (int done = 0; done < plan.num_steps; done += turn) {
         const auto number = static_cast<std::uint64_t>(done / turn);
-        for (const std::size_t next :
-             drawn_order(simulations.size(), static_cast<std::uint64_t>(round), number))
+        for (const std::size_t next : drawn_order(
+                 simulations.size(), seed_for("round " + std::to_string(round), plan.seed), number))
             if (simulations[next]) simulations[next]->advance(turn);
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -181,6 +181,7 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
                      : arguments.quick   ? quick_steps
                                          : steps_to_end(plan.scene, comm);
     plan.record_every = record_interval(plan.num_steps, num_runs, comm);
+    plan.seed = arguments.seed;
     return plan;
 }
 

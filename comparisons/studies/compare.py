@@ -26,12 +26,12 @@ comparisons/run [option ...]
                         zoltan-rcb, rrcb-sampled, rrcb and rrcb-exact unless told otherwise;
                         all: every method, rrcb-sampled and rrcb in four settings each
   --lists=PARTS         or EXPORT, ALL: what a call must return
-  --repeats=7           of each call, and rounds of the simulations, of those 6 at most; the
-                        tables hold medians and, from 6 on, their 95 % intervals
+  --repeats=6           of each call, best an even number, and rounds of the simulations, of
+                        those 6 at most; medians have 95 % intervals from 6 on
   --radius=R            cut-off that ghosts, the copies of points that parts need from
                         others, are counted by; twice the mean spacing
   --ranks-per-node=N    counts those between machines with so many ranks each
-  --seed=1              of the points of a cloud and of --layout=scattered
+  --seed=1              of the points of a cloud, of --layout=scattered and of the order of turns
   --steps=N             of the simulation; to its end, of the slope until it lies still
   --every=auto          rebalance the simulation when it pays; or N: steps between two
                         rebalances; or several by commas, all in the same rounds

@@ -21,9 +21,7 @@ enum class Only { all, calls, simulations };
 struct MeasurementPlan {
     Lists lists = Lists::parts;
     int repeats = 6;
-    double drift = 0;  ///< fraction of the extent by which the points move between two rounds of
-                       ///< calls; then the moved fraction is that of the last of these moves
-    std::uint64_t seed = 1;  ///< of a cloud, its layout, drift and the order of turns
+    std::uint64_t seed = 1;  ///< of a cloud, its layout and the order of turns
     GhostRule ghosts{};
 };
 

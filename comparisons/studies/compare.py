@@ -10,8 +10,7 @@ comparisons/run [option ...]
   --quick               a small run of everything, to see that it works
  points, one of
   --scene=slope         snapshots of a simulation: slope (the default), submarine_slide,
-                        torpedo_anchor, dam_break, elastic_structure, a scene file,
-                        or all: one after the other, and their balance side by side
+                        torpedo_anchor, dam_break, elastic_structure, or a scene file
   --cloud=NAME          generated: uniform, slope, clusters, lattice, run_out, polygon,
                         shell or spiral, with
       --points=N            how many over all ranks
@@ -48,14 +47,9 @@ import sys
 import time
 from pathlib import Path
 
-from driver import COMPARE, OUT, build, has_multijagged, on_ranks
+from driver import COMPARE, OUT, build, on_ranks
 
 MAX_RANKS = 256
-SCENES = "slope submarine_slide torpedo_anchor dam_break elastic_structure".split()
-METHODS_OF_SCENES = (
-    "zoltan-rcb,zoltan-rib,zoltan-hsfc,root-rcb,rrcb-sampled[mesh=4,k=2,fraction=0.125],rrcb,"
-    "rrcb-exact,rrcb-arrays"
-)
 MADE = ("history.csv", "simulation*.csv", "noise.csv")
 
 
@@ -67,17 +61,15 @@ def main() -> int:
     options, others = _read_options(words)
     build("rrcb_compare", multijagged="zoltan2-mj" in options.methods or options.methods == "all")
     others += ["--progress"] * sys.stderr.isatty()
-    if options.scene != "all":
-        name = Path(options.scene).stem
-        out = options.out or (OUT if name == "slope" else OUT / name)
-        if options.methods:
-            others.append(f"--methods={options.methods}")
-        elif not re.search(r"--(cost|cloud|file|replay)\b", " ".join(others)):
-            others.append("--cost=learned")
-        if options.scene != "slope":
-            others.append(f"--scene={options.scene}")
-        return _compare(options.ranks, out, others)
-    return _compare_scenes(options, others)
+    name = Path(options.scene).stem
+    out = options.out or (OUT if name == "slope" else OUT / name)
+    if options.methods:
+        others.append(f"--methods={options.methods}")
+    elif not re.search(r"--(cost|cloud|file|replay)\b", " ".join(others)):
+        others.append("--cost=learned")
+    if options.scene != "slope":
+        others.append(f"--scene={options.scene}")
+    return _compare(options.ranks, out, others)
 
 
 def _read_options(words: list[str]) -> tuple[argparse.Namespace, list[str]]:
@@ -118,18 +110,6 @@ def _compare(ranks: int, out: Path, words: list[str]) -> int:
 
         write_report(out)
     return status
-
-
-def _compare_scenes(options: argparse.Namespace, words: list[str]) -> int:
-    """Every scene that is shipped, each in a folder of its own; one setting of each method."""
-    methods = options.methods or METHODS_OF_SCENES + ",zoltan2-mj" * has_multijagged()
-    folder = options.out or OUT / "all"
-    words = [*words, f"--methods={methods}"]
-    codes = [_compare(options.ranks, folder / s, [*words, f"--scene={s}"]) for s in SCENES]
-    from scenes import report_scenes
-
-    report_scenes(folder, SCENES)
-    return max(codes)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,6 @@ import numpy as np
 import pandas as pd
 import pictures
 import report
-import scenes
 from results import Results
 
 # Noise slows a whole round down by up to five times, and no ratio by more than 2 %.
@@ -170,17 +169,6 @@ class ReportTest(FolderTest):
         self.assertFalse((self.folder / "parts.png").exists())
         self.assertEqual(len(pd.read_csv(self.folder / "simulation.csv")), 4)
         self.assertLess(max(map(len, output.getvalue().split("Simulations")[1].splitlines())), 100)
-
-    def test_sets_scenes_side_by_side(self) -> None:
-        slope = self.results(ROWS, [simulated("none", 0, 1), simulated("rrcb", 0, 1)])
-        self.assertEqual(len(slope.runs), 2)
-        (self.folder / "beam").mkdir()
-        failed = simulated("rrcb", 0, 1, error="it fell")
-        runs = pd.DataFrame([simulated("none", 0, 1, mean_imbalance=1.5, worst_imbalance=1.75), failed])
-        runs.to_csv(self.folder / "beam/simulation_runs.csv", index=False)
-        found = scenes.table({"slope": slope, "beam": Results(self.folder / "beam")})
-        self.assertEqual(found.values.tolist(), [["`none`", "1.0000 (1.000)", "1.5000 (1.750)"],
-                                                 ["`rrcb`", "1.0000 (1.000)", ""]])  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -76,11 +76,11 @@ class OptionTest(unittest.TestCase):
 class SentenceTest(FolderTest):
     def test_tell_costs_gains_and_when_they_matter(self) -> None:
         call, gain, matter = report.sentences(self.results(ROWS, ROUNDS))
-        self.assertIn("left an imbalance of 1.01000 and took 0.250 [0.200, 0.300] of the", call)
+        self.assertIn("left an imbalance of 1.01000 and had a speed-up of 4.00 [3.33, 5.00] over", call)
         self.assertIn("rrcb-exact took 2.00 times as long as rrcb and sent 2 times its bytes", call)
         self.assertNotIn("time of rrcb-arrays", call)  # whose exact setting is not there
-        self.assertIn("took 0.500 of the time without rebalancing", gain)
-        self.assertIn("1.000 [0.990, 1.010] of that under Zoltan's RCB (not told apart); medians of 6", gain)
+        self.assertIn("had a speed-up of 2.00 over none", gain)
+        self.assertIn("of 1.000 [0.990, 1.010] over zoltan-rcb (not told apart); medians of 6", gain)
         # A step takes 100 ms; r = 3: 200 (1 - 1 / sqrt 3) 300 / 100.
         self.assertIn("100 ms, 1 steps, under rrcb and 300 ms, 3 steps, under Zoltan's RCB", matter)
         self.assertIn("a rebalance pays every 254 steps or more often", matter)
@@ -88,7 +88,7 @@ class SentenceTest(FolderTest):
     def test_say_that_methods_are_not_told_apart(self) -> None:
         rows = [measured("zoltan-rcb", 8, 1), measured("rrcb", 6, 1, spread=0.5)]
         call, _ = report.sentences(self.results(rows))
-        self.assertIn("0.750 [0.375, 1.125] of the time of Zoltan's RCB (not told apart), which", call)
+        self.assertIn("1.33 [0.89, 2.67] over zoltan-rcb (not told apart), which", call)
 
     def test_name_what_failed(self) -> None:
         self.assertEqual(report.failures(self.results(ROWS)), [])

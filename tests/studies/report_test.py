@@ -37,14 +37,6 @@ ROWS = [
     measured("rrcb-exact", 4, 1, bytes=10),
     measured("rrcb-arrays", 7.6, 1.01, spread=0.1),
 ]
-BOXES = {
-    "start": "part,lower_x,lower_y,upper_x,upper_y\n0,0,0,1,2\n1,1,0,2,2\n",
-    "middle": "part,lower_x,lower_y,upper_x,upper_y\n0,0,0,4,2\n1,4,0,8,2\n",
-}
-POINTS = {
-    "start": "x,y,part\n0,0,0\n0,1,0\n1,1,1\n2,2,1\n",
-    "middle": "x,y,part\n2,0,0\n3,1,0\n4,1,1\n8,2,1\n",
-}
 
 
 class FolderTest(unittest.TestCase):
@@ -138,18 +130,6 @@ class TableTest(FolderTest):
 
 
 class PictureTest(FolderTest):
-    def test_points_that_leave_the_boxes_of_the_start_are_counted_there(self) -> None:
-        rows = [measured("rrcb", 1, 1, workload=f"slope-{moment}") for moment in BOXES]
-        (self.folder / "data").mkdir()
-        for moment, boxes in BOXES.items():
-            (self.folder / f"data/boxes_slope-{moment}_rrcb.csv").write_text(boxes)
-            (self.folder / f"data/points_slope-{moment}_rrcb.csv").write_text(POINTS[moment])
-        figure = pictures.draw_moving_boxes(self.results(rows))
-        titles = [axes.get_title() for axes in figure.axes]
-        self.assertEqual(titles, ["start, after a call: fullest rank 1.0000 × mean",
-                                  "later, before a call: fullest rank 2.00 × mean",
-                                  "later, after a call: fullest rank 1.0000 × mean"])  # fmt: skip
-
     def test_ghosts_are_near_points_of_another_part(self) -> None:
         line = pd.DataFrame({"x": range(10), "y": [0] * 10, "part": [0] * 5 + [1] * 5})
         self.assertEqual(np.flatnonzero(pictures.are_near_others(line)).tolist(), [3, 4, 5, 6])

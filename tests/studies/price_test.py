@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,6 +11,8 @@ from support import measured
 
 import pandas as pd
 import price
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # Of 1000 points on 4 ranks, sent by Zoltan's RCB 8 ms.
 METHODS = {  # time, imbalance, bytes, rounds
@@ -92,6 +95,24 @@ class PriceTest(unittest.TestCase):
         found = price.choice_table(rows, 4).iloc[0]
         self.assertEqual(found["costs no more than 1.1"], "1.003")
         self.assertEqual(found["bytes of exact / of 1.01"], "2")
+
+
+class DocumentTest(unittest.TestCase):
+    def test_choosing_has_the_counts_of_price_csv(self) -> None:
+        counts = pd.read_csv(ROOT / "comparisons/price.csv").set_index(["cloud", "dim", "ranks"])
+        exact = counts[counts["method"] == price.EXACT]
+        text = (ROOT / "docs/choosing.md").read_text()
+        methods = {name: price.TOLERANCES[name] for name in ("1.1", "1.01", "1.001", "exact")}
+        for name, method in (methods | {"Zoltan's RCB": price.ZOLTAN}).items():
+            (row,) = re.findall(rf"^\| {re.escape(name)} \|([^|]*)\|([^|]*)\|([^|]*)\|", text, re.M)
+            of = counts[counts["method"] == method].xs(16, level="ranks")
+            ratios = of["bytes"] / exact["bytes"].xs(16, level="ranks")
+            for cell, values in zip(row, (100 * (of["imbalance"] - 1), of["rounds"], ratios)):
+                for written, value in zip(cell.strip().split(", ") if cell.strip() else [], (values.median(), values.max())):
+                    digits = len(written.partition(".")[2])
+                    self.assertEqual(f"{value:.{digits}f}", written, (name, cell))
+        of = counts[counts["method"] == "rrcb"].xs(64, level="ranks")["bytes"] / exact["bytes"].xs(64, level="ranks")
+        self.assertIn(f"1.01 sends {of.median():.2f} of exact's bytes, at worst {of.max():.1f}.", text)
 
 
 if __name__ == "__main__":

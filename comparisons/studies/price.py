@@ -167,17 +167,25 @@ def _draw_panel(axes: Axes, rows: pd.DataFrame, name: str) -> None:
                 "label": cloud if dimension == 2 else None}  # fmt: skip
         numbers, lows, highs = zip(*((v.number, *v.reach) for v in values))
         plot.draw_line(axes, range(len(values)), numbers, lows, highs, **look)
-    labels: dict[int, list[str]] = {}  # of levels that are too near for a line of text each
-    for method in RIVALS if name != "rounds" else ():
-        values = [_value(row, name).number for _, row in rows[rows["method"] == method].iterrows()]
-        if values:
-            level = float(np.mean(np.log10(values)))
-            axes.axhline(10**level, color="#999999", linewidth=0.8, zorder=0)
-            labels.setdefault(round(10 * level), []).append(RIVALS[method])
-    for level, names in labels.items():
-        axes.text(0, 10 ** (level / 10), ", ".join(names), fontsize=7, color="#666666", va="bottom")
-    axes.set_yscale("log" if name != "rounds" else "linear")
+    if name != "rounds":
+        _draw_rivals(axes, rows, name)
+        axes.set_yscale("log")
     axes.grid(True, axis="y")
+
+
+def _draw_rivals(axes: Axes, rows: pd.DataFrame, name: str) -> None:
+    """A level for each; levels that are too near for a line of text each share one."""
+    levels = {}
+    for method, of in rows[rows["method"].isin(RIVALS)].groupby("method"):
+        levels[RIVALS[method]] = float(np.mean([np.log10(_value(row, name).number) for _, row in of.iterrows()]))
+    labels: list[tuple[float, list[str]]] = []
+    for rival, level in sorted(levels.items(), key=lambda item: item[1]):
+        axes.axhline(10**level, color="#999999", linewidth=0.8, zorder=0)
+        if not labels or level - labels[-1][0] > 0.25:
+            labels.append((level, []))
+        labels[-1][1].append(rival)
+    for level, names in labels:
+        axes.text(0, 10**level, ", ".join(names), fontsize=7, color="#666666", va="bottom")
 
 
 def _value(row: pd.Series, name: str) -> Value:

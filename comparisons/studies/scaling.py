@@ -59,7 +59,7 @@ def count(driver: Driver, points: int) -> None:
     for ranks in RANKS[:4] if driver.quick else RANKS:
         driver.run(f"ranks-{ranks}", ranks, methods, *layout, "--repeats=1",
                    f"--points={COUNTED_POINTS * ranks}")  # fmt: skip
-    driver.run("clock-2", 2, methods, *layout, "--repeats=7", f"--points={2 * points}")
+    driver.run("clock-2", 2, methods, *layout, "--repeats=6", f"--points={2 * points}")
 
 
 def search_virtually(driver: Driver) -> None:

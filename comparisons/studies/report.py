@@ -276,6 +276,9 @@ def paid_table(rounds: pd.DataFrame) -> pd.DataFrame:
         "uneven time %": uneven_work(rounds) - 1,
         "rebalances, of all %": balancing(rounds) / total,
         "deciding, of all %": (rounds["decide_path_s"] + rounds["decide_network_s"]) / total,
+    } | {
+        f"{name} of rank 0, of all %": rounds[f"{phase}_root_s"] / total
+        for phase, name in (("step", "steps"), ("balance", "rebalances"), ("decide", "deciding"))
     }
     methods = list(dict.fromkeys(rounds["method"]))
     texts = {name: [of_method(rounds, 100 * values, m).text(2) for m in methods] for name, values in columns.items()}

@@ -108,6 +108,12 @@ class SentenceTest(FolderTest):
         self.assertEqual(paid.loc["none", ["uneven points %", "uneven time %"]].tolist(), ["60.00", "58.00"])
         self.assertEqual(paid.loc["rrcb", ["uneven points %", "uneven time %"]].tolist(), ["0.00", "10.00"])
 
+    def test_a_step_pays_for_rank_0(self) -> None:
+        run = simulated("rrcb", 0, 20, step_root_s=6, balance_root_s=4, decide_root_s=1)
+        paid = report.paid_table(pd.DataFrame([run])).set_index("method")
+        names = [f"{phase} of rank 0, of all %" for phase in ("steps", "rebalances", "deciding")]
+        self.assertEqual(paid.loc["rrcb", names].tolist(), ["30.00", "20.00", "5.00"])
+
 
 class TableTest(FolderTest):
     def test_ratios_whose_interval_contains_one_are_not_told_apart(self) -> None:

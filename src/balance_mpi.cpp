@@ -16,6 +16,7 @@
 #include "options/rejection.hpp"
 #include "options/stage_scope.hpp"
 #include "passes/assignment.hpp"
+#include "passes/host_passes.hpp"
 #include "settlement_mpi.hpp"
 #include "verbose_mpi.hpp"
 
@@ -39,14 +40,13 @@ namespace {
 
 /// A call on one rank.
 struct Call {
-    Call(const Points& given, StageObserver* observer, Participant& self,
-         std::vector<Part>&& memory)
-        : points(given), ranks(ranks_of(self)) {
+    Call(PointPasses& given, StageObserver* observer, Participant& self)
+        : points(given), host(dynamic_cast<HostPasses*>(&given)), ranks(ranks_of(self)) {
         options.observer = observer;
-        result.parts = std::move(memory);
     }
 
-    Points points;  ///< without weights if all of them are the same
+    PointPasses& points;
+    HostPasses* host;  ///< null if only passes read the points
     Ranks ranks;
     Options options;  ///< complete; sizes are normalized, but none if many ranks make equal parts
     bool is_spread = false;  ///< many ranks make the parts
@@ -60,15 +60,18 @@ struct Call {
 /// Completes the options, and summarizes them and the points for the other ranks.
 void introduce(const Options& given, const PointSummary& summary, const Cuts* previous, Call& call,
                const Participant& self) {
-    const Points& points = call.points;
+    const int dimension = call.points.dimension();
     Options options = complete(given, call.ranks, previous);
-    check_options(options, points.dimension);
+    check_options(options, dimension);
     call.is_spread = is_spread(options, call.ranks.number);
     require(options.tree.dealt == 0 || !call.is_spread,
             "tree.dealt must be 0 if many ranks make the parts; raise tuning.central_parts");
-    if (previous) check_previous(*previous, options, points.dimension);
-    call.mine.summary = summarize(summary, !points.weights.empty(), mpi::rank_of(self.comm));
-    call.mine.summary.request = request_of(options, points.dimension, previous);
+    require(
+        call.host || !call.is_spread,
+        "many ranks make the parts, which takes points on the host; raise tuning.central_parts");
+    if (previous) check_previous(*previous, options, dimension);
+    call.mine.summary = summarize(summary, call.points.has_weights(), mpi::rank_of(self.comm));
+    call.mine.summary.request = request_of(options, dimension, previous);
     if (!options.part_sizes.empty() && options.tree.dealt != 0)
         for (Part end = 0; end < options.num_parts; ++end)
             options.part_sizes[end] =
@@ -76,7 +79,6 @@ void introduce(const Options& given, const PointSummary& summary, const Cuts* pr
     if (!call.is_spread || !options.part_sizes.empty())
         normalize(options.part_sizes, options.num_parts);
     call.options = std::move(options);
-    call.result.parts.resize(points.count);
 }
 
 /// Replaces the ends of the tree by parts, and counts by weights. Overwrites the sizes of the
@@ -87,7 +89,9 @@ void complete(Call& call) {
     if (call.decision.verdict.is_counted())
         for (double& weight : of_parts) weight *= call.decision.verdict.common_weight;
     if (cuts.shape.dealt == 0) return;
-    number_parts(cuts, call.result.parts);
+    std::vector<Part> numbers(static_cast<std::size_t>(cuts.num_parts));
+    for (Part end = 0; end < cuts.num_parts; ++end) numbers[end] = part_at(cuts, end);
+    call.points.renumber(numbers);
     std::vector<double>& of_ends = call.options.part_sizes;
     if (of_parts.empty()) return;
     std::ranges::copy(of_parts, of_ends.begin());
@@ -98,21 +102,22 @@ void complete(Call& call) {
 void estimate(Call& call, Participant& self) {
     {
         const StageScope stage(call.options.observer, Stage::gather, self.arithmetic);
-        merge_up(call.mine, call.points.dimension, MergeTree{mpi::size_of(self.comm)},
+        merge_up(call.mine, call.points.dimension(), MergeTree{mpi::size_of(self.comm)},
                  most_cells(call.options), self);
     }
     const Options& options = call.options;
     decide_together(call.mine, options, call.decision, self);
     call.result.report = report_of(call.decision.verdict, options.num_parts, options.part_sizes);
     call.result.cuts = std::move(call.decision.bisection.cuts);
-    if (call.decision.verdict.is_counted()) call.points.weights = {};
+    call.points.use_weights(!call.decision.verdict.is_counted());
 }
 
 /// Prepares a call from scratch. Not collective.
 void prepare(const Options& given, bool may_keep, Call& call, const Participant& self) {
     const StageScope stage(given.observer, Stage::moments, self.arithmetic);
-    const Points& points = call.points;
-    const PointSummary summary = summary_of(points);
+    PointPasses& points = call.points;
+    points.use_weights(true);
+    const PointSummary summary = points.summary(true);
     introduce(given, summary, nullptr, call, self);
     const Options& options = call.options;
     const bool reads_kept = !call.is_spread && reads_kept_tree(options, mpi::size_of(self.comm));
@@ -120,8 +125,9 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     call.settlement.prepare(options, call.is_spread, reads_kept, self);
     call.decision.bisects = !call.is_spread;
     if (call.is_spread) return;
-    if (reads_kept && may_keep) append_extent(summary.extent, points.dimension, call.mine.extents);
-    make_buffers(call.decision, options, points.dimension, reads_kept);
+    if (reads_kept && may_keep)
+        append_extent(extent_of(summary), points.dimension(), call.mine.extents);
+    make_buffers(call.decision, options, points.dimension(), reads_kept);
     add_records(points, summary.box, options, call.mine);
 }
 
@@ -130,7 +136,7 @@ void settle(Call& call, Participant& self) {
     Settlement& settlement = call.settlement;
     const Verdict& verdict = call.decision.verdict;
     if (call.is_spread) {
-        settlement.search(call.points, verdict, call.result, self);
+        settlement.search(*call.host, verdict, call.result, self);
     } else if (is_refined(call.options) && verdict.num_points > 0) {
         settlement.refine(call.points, call.box, call.decision, call.result, self);
     } else {
@@ -156,7 +162,8 @@ void keep(Call& call, Participant& self) {
     report.part_weights = std::move(kept.part_weights);
     report.details.coincident_cuts = static_cast<int>(
         std::ranges::count_if(kept.cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
-    std::ranges::fill(call.result.parts, kept.parts[mpi::rank_of(self.comm)]);
+    const Part part = kept.parts[mpi::rank_of(self.comm)];
+    self.attempt([&] { call.points.renumber(std::span(&part, 1)); });
     call.result.cuts = std::move(kept.cuts);
 }
 
@@ -168,9 +175,9 @@ void report_near(Call& call) {
     if (!call.decision.bisects) details.near_before = near.share;
 }
 
-Balance balance_from_scratch(const Points& points, const Options& given, bool may_keep,
-                             Participant& self, std::vector<Part>&& memory) {
-    Call call(points, given.observer, self, std::move(memory));
+Balance balance_from_scratch(PointPasses& points, const Options& given, bool may_keep,
+                             Participant& self) {
+    Call call(points, given.observer, self);
     self.attempt([&] { prepare(given, may_keep, call, self); });
     estimate(call, self);
     const Options& options = call.options;
@@ -181,15 +188,15 @@ Balance balance_from_scratch(const Points& points, const Options& given, bool ma
         is_kept = kept < not_kept && !is_worth_moving(kept, call.result.report.imbalance, options);
     }
     if (is_kept) keep(call, self);
-    if (call.is_spread) hold_cuts(call.points, options, call.result, self);
-    complete(call);
+    if (call.is_spread) hold_cuts(*call.host, options, call.result, self);
+    self.attempt([&] { complete(call); });
     report_near(call);
     return std::move(call.result);
 }
 
 /// Counts of the parts of earlier cuts.
 struct EarlierParts {
-    PartTotals totals{};                  ///< of this rank
+    KnownTotals totals{};                 ///< of this rank
     std::optional<SpreadReuse> spread{};  ///< if many ranks weigh the parts; else rank 0 does
 };
 
@@ -204,24 +211,22 @@ bool may_reuse(const Cuts& previous, const Call& call) {
 void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, EarlierParts& earlier,
                       const Participant& self) {
     const StageScope stage(given.observer, Stage::assignment, self.arithmetic);
-    const Points& points = call.points;
-    introduce(given, summary_of_weights(points), &previous, call, self);
+    PointPasses& points = call.points;
+    points.use_weights(true);
+    introduce(given, points.summary(!counts_earlier_parts(given)), &previous, call, self);
     if (!may_reuse(previous, call)) return;
     const Options& options = call.options;
     const Cuts& cuts = take_earlier(call.decision, options, call.is_spread, previous);
-    if (counts_earlier_parts(options)) {
-        earlier.totals = assign_and_count(cuts, points, call.result.parts);
-        if (!earlier.totals.all_finite) reject_coordinates(points);
-    } else {
-        check_points(points);
-    }
     if (call.is_spread) {
-        earlier.spread.emplace(cuts, earlier.totals, is_whole(previous), options, points,
-                               call.result.parts, self.comm);
-    } else {
-        call.settlement.prepare(options, false, are_cuts_limited(options), self);
-        add_totals(earlier.totals, near_share(cuts, points, cuts.near.reach, 1024), call.mine);
+        earlier.totals = call.host->assign_known(cuts);
+        earlier.spread.emplace(cuts, earlier.totals, is_whole(previous), options,
+                               call.host->points(), call.host->parts_here(), self.comm);
+        return;
     }
+    if (counts_earlier_parts(options))
+        static_cast<PartTotals&>(earlier.totals) = points.assign(cuts, true);
+    call.settlement.prepare(options, false, are_cuts_limited(options), self);
+    add_totals(earlier.totals, near_share(cuts, points, cuts.near.reach, 1024), call.mine);
 }
 
 /// Returns true if the earlier cuts are kept; the report then has their imbalance. Collective if
@@ -245,8 +250,8 @@ bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
 void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& self) {
     const Options& options = call.options;
     Decision& decision = call.decision;
-    const Box box = bounding_box(call.points);
-    decision.verdict.box = box_together(box, self);
+    self.attempt([&] { call.box = call.points.summary(true).box; });
+    decision.verdict.box = box_together(call.box, self);
     const Box& whole = decision.verdict.box;
     if (are_cuts_limited(options))
         self.attempt([&] {
@@ -257,32 +262,30 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
     if (!is_refined(options)) return call.settlement.assign(call.points, true, call.result, self);
     if (counts_earlier_parts(options))
         call.settlement.take_counts(
-            call.points.weights.empty() ? earlier.totals.counts : earlier.totals.weights,
+            decision.verdict.is_counted() ? earlier.totals.counts : earlier.totals.weights,
             decision.part_weights);
     bracket_earlier(call.result.cuts, whole, decision.bisection.brackets);
-    call.settlement.refine(call.points, box, decision, call.result, self);
+    call.settlement.refine(call.points, call.box, decision, call.result, self);
 }
 
-Balance balance_from_earlier(const Points& points, const Options& given, const Cuts& previous,
-                             bool may_keep, Participant& self, std::vector<Part>&& memory) {
-    Call call(points, given.observer, self, std::move(memory));
+Balance balance_from_earlier(PointPasses& points, const Options& given, const Cuts& previous,
+                             bool may_keep, Participant& self) {
+    Call call(points, given.observer, self);
     EarlierParts earlier;
     self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
     // Both ways begin with the same messages, so a rank that has failed does not wait alone.
     if (!self.failed() && !may_reuse(previous, call))
-        return balance_from_scratch(points, given, may_keep, self, std::move(call.result.parts));
+        return balance_from_scratch(points, given, may_keep, self);
     estimate(call, self);
     const bool is_kept = keeps_earlier(call, earlier, self);
     if (call.is_spread) {
-        if (!is_kept)
-            return balance_from_scratch(points, given, may_keep, self,
-                                        std::move(call.result.parts));
-        hold_cuts(call.points, call.options, call.result, self);
+        if (!is_kept) return balance_from_scratch(points, given, may_keep, self);
+        hold_cuts(*call.host, call.options, call.result, self);
         complete(call);
         return std::move(call.result);
     }
     if (!is_kept) settle_from_earlier(call, earlier, self);
-    complete(call);
+    self.attempt([&] { complete(call); });
     const Report& report = call.result.report;
     report_near(call);
     const double near_now = call.decision.verdict.near.share;
@@ -291,8 +294,11 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     call.result.cuts.near.share = reference(previous.near, near_now, excess);
     if (!may_save && !may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
         return std::move(call.result);
-    return better(std::move(call.result), balance_from_scratch(points, given, false, self, {}),
-                  points, call.options, may_save, self);
+    std::vector<Part> parts;
+    self.attempt([&] { parts = points.parts(); });
+    Balance anew = balance_from_scratch(points, given, false, self);
+    return better(std::move(call.result), parts, std::move(anew), points, call.options, may_save,
+                  self);
 }
 
 }  // namespace
@@ -302,13 +308,19 @@ Ranks ranks_of(Participant& self) {
     return {mpi::size_of(self.comm), machines.num_ranks, machines.dealt};
 }
 
-Balance balance_once(const Points& points, const Options& options, const Cuts* previous,
-                     bool may_keep, Participant& self, std::vector<Part> memory) {
-    Balance result =
-        previous
-            ? balance_from_earlier(points, options, *previous, may_keep, self, std::move(memory))
-            : balance_from_scratch(points, options, may_keep, self, std::move(memory));
+Balance balance_once(PointPasses& points, const Options& options, const Cuts* previous,
+                     bool may_keep, Participant& self) {
+    Balance result = previous ? balance_from_earlier(points, options, *previous, may_keep, self)
+                              : balance_from_scratch(points, options, may_keep, self);
     result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;
+    return result;
+}
+
+Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
+                Participant& self, std::vector<Part> memory) {
+    HostPasses host(points, std::move(memory));
+    Balance result = balance(host, options, previous, may_keep, self);
+    result.parts = host.take_parts();
     result.cuts.points = hash_of(points);
     return result;
 }
@@ -318,7 +330,9 @@ namespace {
 Balance balance_over(MPI_Comm comm, const Points& points, const Options& options,
                      const Cuts& previous, std::vector<Part> memory = {}) {
     Participant self = mpi::enter(comm, CallName::balance);
-    Balance result = balance_aloud(points, options, previous, self, std::move(memory));
+    Balance result = aloud(self, [&] {
+        return balance(points, options, given(previous), true, self, std::move(memory));
+    });
     self.throw_failed_message();
     return result;
 }
@@ -332,6 +346,15 @@ Balance balance(const Points& points, const Options& options, const Cuts& previo
 void balance_into(Balance& result, const Points& points, const Options& options,
                   const Cuts& previous, MPI_Comm comm) {
     result = balance_over(comm, points, options, previous, std::exchange(result.parts, {}));
+}
+
+Balance balance(PointPasses& points, const Options& options, const Cuts& previous, MPI_Comm comm) {
+    Participant self = mpi::enter(comm, CallName::balance);
+    Balance result =
+        aloud(self, [&] { return balance(points, options, given(previous), true, self); });
+    // The last passes may fail, which no other message carries.
+    agree(self);
+    return result;
 }
 
 }  // namespace rrcb

@@ -3,7 +3,7 @@
 #include "collective/participant.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/balance.hpp>
+#include <rrcb/passes.hpp>
 
 #include <vector>
 
@@ -20,8 +20,17 @@ Ranks ranks_of(Participant& self);
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self, std::vector<Part> memory = {});
 
+/// Does the same with passes, in which the parts stay.
+Balance balance(PointPasses& points, const Options& options, const Cuts* previous, bool may_keep,
+                Participant& self);
+
 /// Does the same without Options::min_points.
-Balance balance_once(const Points& points, const Options& options, const Cuts* previous,
-                     bool may_keep, Participant& self, std::vector<Part> memory);
+Balance balance_once(PointPasses& points, const Options& options, const Cuts* previous,
+                     bool may_keep, Participant& self);
+
+/// Returns null for empty cuts, from which no call starts.
+inline const Cuts* given(const Cuts& previous) {
+    return previous.dimension == 0 && previous.tree.empty() ? nullptr : &previous;
+}
 
 }  // namespace rrcb

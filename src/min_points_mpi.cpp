@@ -58,6 +58,15 @@ void prepare_next(int num_short, GlobalCount num_points, UsedParts& used, Option
     options.part_sizes = used.used_sizes();
 }
 
+/// Returns the number of points in each part over all ranks. Collective.
+std::vector<double> counts_of_parts(const PointPasses& points, int num_parts, Participant& self) {
+    std::vector<Part> parts;
+    self.attempt([&] { parts = points.parts(); });
+    Points counted;
+    counted.count = parts.size();
+    return part_weights(counted, parts, num_parts, self);
+}
+
 /// Relates the report on the used parts to all of them.
 void report_unused(const UsedParts& used, double tolerance, Report& report) {
     const std::vector<double> sizes = used.used_sizes();
@@ -71,22 +80,20 @@ void report_unused(const UsedParts& used, double tolerance, Report& report) {
 
 }  // namespace
 
-Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
-                Participant& self, std::vector<Part> memory) {
-    Balance result = balance_once(points, options, previous, may_keep, self, std::move(memory));
+Balance balance(PointPasses& points, const Options& options, const Cuts* previous, bool may_keep,
+                Participant& self) {
+    Balance result = balance_once(points, options, previous, may_keep, self);
     const GlobalCount num_points = result.report.details.num_points;
     if (options.min_points == 0 || num_points == 0) return result;
-    Points counted = points;
-    counted.weights = {};
     const int num_parts = result.cuts.num_parts;
     UsedParts used(options, num_parts);
     Options next = options;
     for (;;) {
-        const int num_short = used.num_short(part_weights(counted, result.parts, num_parts, self),
-                                             options.min_points);
+        const int num_short =
+            used.num_short(counts_of_parts(points, num_parts, self), options.min_points);
         if (num_short == 0) break;
         prepare_next(num_short, num_points, used, next);
-        result = balance_once(points, next, previous, may_keep, self, std::move(result.parts));
+        result = balance_once(points, next, previous, may_keep, self);
     }
     if (used.num_used < static_cast<int>(used.parts.size()))
         report_unused(used, options.imbalance_tolerance, result.report);

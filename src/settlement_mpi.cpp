@@ -44,15 +44,11 @@ void Settlement::prepare(const Options& options, bool is_spread, bool counts,
     if (is_refined(options)) refinement_.emplace(options, self, sums_);
 }
 
-void Settlement::assign(const Points& points, bool counts, Balance& result, Participant& self) {
+void Settlement::assign(PointPasses& points, bool counts, Balance& result, Participant& self) {
     const StageScope stage(options_->observer, Stage::assignment, self.arithmetic);
     self.attempt([&] {
-        if (!counts) {
-            assign_known(result.cuts, points, result.parts);
-            return;
-        }
-        const PartTotals totals = assign_and_count(result.cuts, points, result.parts);
-        std::ranges::copy(totals.weights, sums_.here().begin());
+        const PartTotals totals = points.assign(result.cuts, counts);
+        if (counts) std::ranges::copy(totals.weights, sums_.here().begin());
     });
     if (!counts) return agree(self);
     const double imbalance = sums_.add_up(options_->part_sizes, self);
@@ -64,7 +60,7 @@ void Settlement::take_counts(std::span<const double> here, std::span<const doubl
     sums_.set(here, sums);
 }
 
-void Settlement::refine(const Points& points, const Box& box, Decision& decision, Balance& result,
+void Settlement::refine(PointPasses& points, const Box& box, Decision& decision, Balance& result,
                         Participant& self) {
     const StageScope stage(options_->observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
@@ -79,7 +75,7 @@ void Settlement::refine(const Points& points, const Box& box, Decision& decision
                       !decision.bisects,
                       verdict.box,
                       report.details.num_points};
-    Refined refined = refinement_->refine(std::move(estimate), points, box, result.parts, self);
+    Refined refined = refinement_->refine(std::move(estimate), points, box, self);
     report_measured(refined.imbalance, options_->imbalance_tolerance, report);
     report.part_weights = sums_.take();
     report.details.rounds = refined.rounds;
@@ -87,7 +83,7 @@ void Settlement::refine(const Points& points, const Box& box, Decision& decision
     result.cuts = std::move(refined.cuts);
 }
 
-void Settlement::search(const Points& points, const Verdict& verdict, Balance& result,
+void Settlement::search(HostPasses& points, const Verdict& verdict, Balance& result,
                         Participant& self) {
     const StageScope stage(options_->observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
@@ -95,7 +91,7 @@ void Settlement::search(const Points& points, const Verdict& verdict, Balance& r
     tree.weight = verdict.weight();
     tree.rule.common_weight = verdict.is_counted() ? 1 : 0;
     tree.rule.heaviest = verdict.heaviest;
-    Refined refined = of_many_->refine(verdict.box, tree, points, result.parts, self);
+    Refined refined = of_many_->refine(verdict.box, tree, points, self);
     agree(self);
     result.cuts = std::move(refined.cuts);
     if (report.details.num_points > 0)
@@ -104,7 +100,7 @@ void Settlement::search(const Points& points, const Verdict& verdict, Balance& r
     report.details.coincident_cuts = refined.coincident_cuts;
 }
 
-void hold_cuts(const Points& points, const Options& options, Balance& result, Participant& self) {
+void hold_cuts(HostPasses& points, const Options& options, Balance& result, Participant& self) {
     Report& report = result.report;
     const bool gets_all = options.cuts == HeldCuts::whole;
     const bool divides =
@@ -112,12 +108,13 @@ void hold_cuts(const Points& points, const Options& options, Balance& result, Pa
     if (!gets_all && !divides) return;
     const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
     if (!gets_all) {
-        result.cuts = with_cuts_above(points, result.cuts, self);
+        result.cuts = with_cuts_above(points.points(), result.cuts, self);
         return;
     }
     if (!is_whole(result.cuts)) result.cuts = gather_cuts(result.cuts, self);
     if (report.details.num_points == 0) return;
-    report.part_weights = part_weights(points, result.parts, result.cuts.num_parts, self);
+    report.part_weights =
+        part_weights(points.points(), points.parts_here(), result.cuts.num_parts, self);
 }
 
 }  // namespace rrcb

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gather/decision_mpi.hpp"
+#include "passes/host_passes.hpp"
 #include "search/refinement_mpi.hpp"
 
 #include <rrcb/balance.hpp>
@@ -19,17 +20,17 @@ class Settlement {
     void prepare(const Options& options, bool is_spread, bool counts, const Participant& self);
 
     /// Assigns the points by unchanged cuts; if `counts`, counts the parts. Collective.
-    void assign(const Points& points, bool counts, Balance& result, Participant& self);
+    void assign(PointPasses& points, bool counts, Balance& result, Participant& self);
 
     /// Takes the counts of the parts on this rank and on all ranks.
     void take_counts(std::span<const double> here, std::span<const double> sums);
 
     /// Moves the cuts by counts of all ranks, and assigns the points by them. Collective.
-    void refine(const Points& points, const Box& box, Decision& decision, Balance& result,
+    void refine(PointPasses& points, const Box& box, Decision& decision, Balance& result,
                 Participant& self);
 
     /// Makes the parts by a search of many ranks. Collective.
-    void search(const Points& points, const Verdict& verdict, Balance& result, Participant& self);
+    void search(HostPasses& points, const Verdict& verdict, Balance& result, Participant& self);
 
   private:
     const Options* options_ = nullptr;
@@ -43,6 +44,6 @@ class Settlement {
 ///
 /// Collective: two reductions for all cuts. No messages for HeldCuts::own, unless coincident points
 /// are divided: then as assign_all(), because look-ups find the upper side of a cut.
-void hold_cuts(const Points& points, const Options& options, Balance& result, Participant& self);
+void hold_cuts(HostPasses& points, const Options& options, Balance& result, Participant& self);
 
 }  // namespace rrcb

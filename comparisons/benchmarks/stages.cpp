@@ -68,7 +68,11 @@ void bins(benchmark::State& state) {
 }
 
 void all(benchmark::State& state) {
-    run(state, [](const Points& points) { return collect_all(points); });
+    run(state, [](const Points& points) {
+        Collected all;
+        collect_all(points, all);
+        return all;
+    });
 }
 
 void moments(benchmark::State& state) {

@@ -1,3 +1,4 @@
+#include "balance_mpi.hpp"
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
 #include "cuts/cuts_mpi.hpp"
@@ -13,16 +14,18 @@ namespace rrcb::c {
 namespace {
 
 /// Balances from the cuts of the balancer, if it has any. Collective.
-void balance(const rrcb_points* given, int32_t* parts, rrcb_balancer& own, Participant& self) {
+void balance(const rrcb_points* from, int32_t* parts, rrcb_balancer& own, Participant& self) {
     Points points;
     Workspace* workspace = nullptr;
     self.attempt([&] {
         workspace = &workspace_of(self.comm);
-        points = points_of(given);
+        points = points_of(from);
         require_array(points.count, parts, "parts");
     });
-    Balance made = balance_aloud(points, own.options, own.cuts, self,
-                                 workspace ? std::move(workspace->result) : std::vector<Part>());
+    Balance made = aloud(self, [&] {
+        return rrcb::balance(points, own.options, given(own.cuts), true, self,
+                             workspace ? std::move(workspace->result) : std::vector<Part>());
+    });
     std::ranges::copy(made.parts, parts);
     own.cuts = std::move(made.cuts);
     own.report = std::move(made.report);

@@ -1,11 +1,11 @@
 #include "collective/duplicate.hpp"
 
-#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/watch_mpi.hpp"
 
+#include <rrcb/detail/mix.hpp>
 #include <rrcb/error.hpp>
 
 #include <algorithm>
@@ -47,7 +47,8 @@ std::uint64_t number_of_process() {
 std::uint64_t make_group(Participant& self) {
     std::uint64_t here = 0;
     self.attempt([&] {
-        here = mix(number_of_process() ^ mix(static_cast<std::uint64_t>(rank_of(self.comm)) + 1));
+        here = detail::mix(number_of_process() ^
+                           detail::mix(static_cast<std::uint64_t>(rank_of(self.comm)) + 1));
     });
     std::uint64_t all = 0;
     self.check(MPI_Allreduce(&here, &all, 1, MPI_UINT64_T, MPI_BXOR, self.comm), "MPI_Allreduce");

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "arithmetic/uninitialized.hpp"
 #include "collective/participant.hpp"
 #include "collective/rank_order.hpp"
+
+#include <rrcb/detail/uninitialized.hpp>
 
 #include <cstddef>
 #include <span>
@@ -13,8 +14,8 @@ namespace rrcb {
 
 /// Memory for records.
 struct ExchangeBuffers {
-    Uninitialized<std::byte> outbox{};  ///< sorted by rank
-    Uninitialized<std::byte> inbox{};   ///< in the order of arrival
+    detail::Uninitialized<std::byte> outbox{};  ///< sorted by rank
+    detail::Uninitialized<std::byte> inbox{};   ///< in the order of arrival
 };
 
 /// Sends records of one size from any rank to any rank.

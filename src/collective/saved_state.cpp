@@ -1,7 +1,8 @@
 #include "collective/saved_state.hpp"
 
-#include "arithmetic/mix.hpp"
 #include "options/rejection.hpp"
+
+#include <rrcb/detail/mix.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -25,7 +26,7 @@ std::uint64_t reversed(std::uint64_t word) {
 
 std::uint64_t checksum_of(std::span<const std::uint64_t> words) {
     std::uint64_t sum = 0;
-    for (const std::uint64_t word : words.subspan(head_size)) sum = mix(sum ^ word);
+    for (const std::uint64_t word : words.subspan(head_size)) sum = detail::mix(sum ^ word);
     return sum;
 }
 

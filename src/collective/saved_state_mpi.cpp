@@ -1,7 +1,8 @@
 #include "collective/saved_state_mpi.hpp"
 
-#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
+
+#include <rrcb/detail/mix.hpp>
 
 namespace rrcb {
 
@@ -42,7 +43,7 @@ std::array<double, 3> numbers_of_rank(SavedState& state, int rank) {
 
 std::uint64_t hash_of_bytes(std::span<const std::byte> bytes) {
     std::uint64_t hash = bytes.size();
-    for (const std::byte byte : bytes) hash = mix(hash ^ static_cast<std::uint64_t>(byte));
+    for (const std::byte byte : bytes) hash = detail::mix(hash ^ static_cast<std::uint64_t>(byte));
     return hash;
 }
 

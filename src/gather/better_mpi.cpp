@@ -3,7 +3,7 @@
 #include "collective/communicator.hpp"
 #include "gather/decision_mpi.hpp"
 #include "gather/keeping.hpp"
-#include "passes/near_points.hpp"
+#include "gather/near_points.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,9 +16,9 @@ namespace rrcb {
 namespace {
 
 /// Returns the number of this rank's points near cuts, from a large sample.
-std::int64_t num_near(const Cuts& cuts, const Points& points, double reach) {
+std::int64_t num_near(const Cuts& cuts, PointPasses& points, double reach) {
     const double share = near_share(cuts, points, reach, 1 << 14).by_count;
-    return std::llround(share * static_cast<double>(points.count));
+    return std::llround(share * static_cast<double>(points.count()));
 }
 
 /// Share of the weight near cuts, over that of reference, above which new cuts are made.
@@ -26,7 +26,7 @@ constexpr double more = 1.15;
 
 /// Compares the points near two sets of cuts. Returns true if the new ones are worth moving points;
 /// otherwise sets the share of reference so that they are made again when they may be. Collective.
-bool saves_ghosts(Balance& reused, const Balance& anew, const Points& points,
+bool saves_ghosts(Balance& reused, const Balance& anew, PointPasses& points,
                   const Participant& self) {
     constexpr double fewer = 0.94;
     const double reach = anew.cuts.near.reach / 4;
@@ -57,14 +57,15 @@ double reference(const NearCuts& chosen, double share_now, double excess) {
     return std::isgreater(excess, 0) ? share / (1 + ageing * excess) : share;
 }
 
-Balance better(Balance&& reused, Balance&& anew, const Points& points, const Options& options,
-               bool compares_ghosts, const Participant& self) {
+Balance better(Balance&& reused, std::span<const Part> parts, Balance&& anew, PointPasses& points,
+               const Options& options, bool compares_ghosts, Participant& self) {
     const double kept = reused.report.imbalance;
     const double offered = anew.report.imbalance;
     const bool is_even = std::islessequal(offered, std::max(options.imbalance_tolerance, kept));
     bool gains = may_be_poor(kept, reused.report.details.least_imbalance, options) &&
                  is_worth_moving(kept, offered, options);
     if (compares_ghosts) gains = (saves_ghosts(reused, anew, points, self) && is_even) || gains;
+    if (!gains) self.attempt([&] { points.set_parts(parts); });
     const int rounds = reused.report.details.rounds + anew.report.details.rounds;
     const double near_before = reused.report.details.near_before;
     Balance best = gains ? std::move(anew) : std::move(reused);

@@ -2,7 +2,9 @@
 
 #include "collective/participant.hpp"
 
-#include <rrcb/balance.hpp>
+#include <rrcb/passes.hpp>
+
+#include <span>
 
 namespace rrcb {
 
@@ -16,8 +18,9 @@ bool may_save_ghosts(const Options& options, const NearCuts& chosen, double shar
 double reference(const NearCuts& chosen, double share_now, double excess);
 
 /// Returns the better balance: that from scratch if its balance is worth moving points, or if
-/// `compares_ghosts` and it has much fewer points near its cuts. Collective.
-Balance better(Balance&& reused, Balance&& anew, const Points& points, const Options& options,
-               bool compares_ghosts, const Participant& self);
+/// `compares_ghosts` and it has much fewer points near its cuts; otherwise the points get back
+/// their `parts` by the cuts reused. Collective.
+Balance better(Balance&& reused, std::span<const Part> parts, Balance&& anew, PointPasses& points,
+               const Options& options, bool compares_ghosts, Participant& self);
 
 }  // namespace rrcb

@@ -2,7 +2,7 @@
 
 #include "cuts/cut_limits.hpp"
 #include "gather/cell_records.hpp"
-#include "passes/frame.hpp"
+#include "gather/frame.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 
@@ -79,16 +79,15 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
     return mesh;
 }
 
-/// Finds the cells of checked points in the support mesh of the options.
-BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
-    const int dimension = points.dimension;
+/// Returns the support mesh of the options over the box of the points.
+SupportMesh mesh_by_options(PointPasses& points, const Box& box, const Options& options) {
+    const int dimension = points.dimension();
     const bool is_automatic = options.tuning.support_mesh == 0;
-    if (is_automatic && !options.axes.grid.empty() && points.count > 0)
-        if (const auto mesh = mesh_on_lines(box, dimension, options))
-            return bin_by_cell(points, *mesh);
-    const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count, options)
+    if (is_automatic && !options.axes.grid.empty())
+        if (const auto mesh = mesh_on_lines(box, dimension, options)) return *mesh;
+    const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count(), options)
                                    : options.tuning.support_mesh;
-    return bin_by_cell(points, make_framed_mesh(points, box, cells));
+    return make_framed_mesh(points, box, cells);
 }
 
 }  // namespace
@@ -113,8 +112,8 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
 Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
     Summary summary;
     summary.box = points.box;
-    summary.num_points = static_cast<std::int64_t>(points.extent.count);
-    summary.weight = points.extent.weight;
+    summary.num_points = static_cast<std::int64_t>(points.count);
+    summary.weight = points.weight;
     summary.lightest = points.lightest;
     summary.heaviest = points.heaviest;
     if (summary.num_points > 0)
@@ -122,14 +121,13 @@ Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
     return summary;
 }
 
-void add_records(Points points, const Box& box, const Options& options, Contribution& mine) {
-    if (points.count == 0) return;
+void add_records(PointPasses& points, const Box& box, const Options& options, Contribution& mine) {
+    if (points.count() == 0) return;
     const Summary& summary = mine.summary;
-    if (summary.is_counted()) points.weights = {};
-    const BinnedPoints binned = bin_by_options(points, box, options);
-    const std::vector<CellMoments> cells = cell_moments(binned);
-    append_lean_cells(cells, binned.mesh, summary.is_counted() ? summary.heaviest : 1,
-                      mine.records);
+    points.use_weights(!summary.is_counted());
+    const SupportMesh mesh = mesh_by_options(points, box, options);
+    const std::vector<CellMoments> cells = points.moments(mesh);
+    append_lean_cells(cells, mesh, summary.is_counted() ? summary.heaviest : 1, mine.records);
     mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
 }
 

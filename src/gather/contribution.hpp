@@ -1,14 +1,11 @@
 #pragma once
 
 #include "collective/failure.hpp"
+#include "gather/near_points.hpp"
 #include "options/request.hpp"
-#include "passes/assignment.hpp"
-#include "passes/binned_points.hpp"
-#include "passes/near_points.hpp"
-#include "passes/summary.hpp"
 
 #include <rrcb/method/statistical_domain.hpp>
-#include <rrcb/points.hpp>
+#include <rrcb/passes.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -60,7 +57,7 @@ Summary summarize(const PointSummary& points, bool are_weighted, int rank);
 
 /// Reduces checked points in a box to the moments of their cells in the support mesh of the
 /// options.
-void add_records(Points points, const Box& box, const Options& options, Contribution& mine);
+void add_records(PointPasses& points, const Box& box, const Options& options, Contribution& mine);
 
 /// Adds the weights and counts of the parts of earlier cuts, and of the points near these.
 void add_totals(const PartTotals& totals, const NearShare& near, Contribution& mine);

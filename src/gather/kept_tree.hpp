@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/extent.hpp"
+#include "gather/extent.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>

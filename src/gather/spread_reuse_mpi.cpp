@@ -24,7 +24,7 @@ void add(std::span<const double> a, std::span<const double> b, std::vector<doubl
 
 }  // namespace
 
-SpreadReuse::SpreadReuse(const Cuts& cuts, const PartTotals& totals, bool was_whole,
+SpreadReuse::SpreadReuse(const Cuts& cuts, const KnownTotals& totals, bool was_whole,
                          const Options& options, const Points& points, std::span<Part> parts,
                          MPI_Comm comm)
     : options_(options),

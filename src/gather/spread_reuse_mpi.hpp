@@ -19,7 +19,7 @@ class SpreadReuse {
     /// Takes cuts with their numbers, and the `parts` of the points and their `totals` by these.
     /// All except the cuts outlive it. Not collective; throws std::bad_alloc, and Error if the rank
     /// lacks a cut that it owns.
-    SpreadReuse(const Cuts& cuts, const PartTotals& totals, bool was_whole, const Options& options,
+    SpreadReuse(const Cuts& cuts, const KnownTotals& totals, bool was_whole, const Options& options,
                 const Points& points, std::span<Part> parts, MPI_Comm comm);
 
     /// Finds the parts of all points and counts them. Returns false if they are not within the
@@ -39,7 +39,7 @@ class SpreadReuse {
     const Options& options_;
     const Points& points_;
     std::span<Part> parts_;
-    const PartTotals& totals_;
+    const KnownTotals& totals_;
     bool was_whole_;
     Cuts cuts_;  ///< those that the search has found, too
     SearchBuffers<PathSearch> buffers_;

@@ -1,11 +1,12 @@
 #include "lists/delivery_mpi.hpp"
 
-#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/stream_mpi.hpp"
 #include "options/rejection.hpp"
+
+#include <rrcb/detail/mix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -66,7 +67,7 @@ std::uint64_t hash_of_columns(std::span<const ByteColumn> columns) {
     for (const ByteColumn& column : columns) {
         const auto [components, value_bytes, kind] = type_of(column);
         for (const std::uint64_t number : {components, value_bytes, kind})
-            hash = mix(hash ^ number);
+            hash = detail::mix(hash ^ number);
     }
     return hash;
 }

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/exchange_mpi.hpp"
+
+#include <rrcb/detail/mix.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace rrcb {
 
 /// Returns the rank that collects all that ranks know of a key.
 inline int home_of(std::uint64_t key, int num_ranks) {
-    return static_cast<int>(mix(key) % static_cast<std::uint64_t>(num_ranks));
+    return static_cast<int>(detail::mix(key) % static_cast<std::uint64_t>(num_ranks));
 }
 
 /// A record and the rank that it comes from.

@@ -1,8 +1,9 @@
 #include "lists/periodic_images.hpp"
 
 #include "arithmetic/infinity.hpp"
-#include "arithmetic/mix.hpp"
 #include "options/rejection.hpp"
+
+#include <rrcb/detail/mix.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -73,7 +74,7 @@ std::uint64_t PeriodicImages::hash() const {
     std::uint64_t hash = 1;
     for (int a = 0; a < dimension_; ++a)
         for (const double end : {box_.lower[a], box_.upper[a]})
-            hash = mix(hash ^ std::bit_cast<std::uint64_t>(end + 0.0));
+            hash = detail::mix(hash ^ std::bit_cast<std::uint64_t>(end + 0.0));
     return hash;
 }
 

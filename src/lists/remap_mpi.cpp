@@ -1,6 +1,5 @@
 #include "lists/remap_mpi.hpp"
 
-#include "arithmetic/mix.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
@@ -8,6 +7,7 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
+#include <rrcb/detail/mix.hpp>
 #include <rrcb/options.hpp>
 
 #include <algorithm>
@@ -213,7 +213,7 @@ std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
     std::uint64_t hash = ranks_of_parts.size();
     for (const RankRange& ranks : ranks_of_parts)
         for (const int number : {ranks.first_rank, ranks.count})
-            hash = mix(hash ^ static_cast<std::uint64_t>(number));
+            hash = detail::mix(hash ^ static_cast<std::uint64_t>(number));
     return hash;
 }
 

@@ -1,6 +1,6 @@
 #include "options/request.hpp"
 
-#include "arithmetic/mix.hpp"
+#include <rrcb/detail/mix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ std::uint64_t bits_of(int value) {
 }
 
 void add(double value, std::uint64_t& hash) {
-    hash = mix(hash ^ bits_of(value));
+    hash = detail::mix(hash ^ bits_of(value));
 }
 
 }  // namespace

@@ -173,9 +173,9 @@ void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
 namespace {
 
 /// Returns totals of the ends of the tree.
-PartTotals count_ends(Assigner& assigner, const Points& points, std::span<Part> parts) {
+KnownTotals count_ends(Assigner& assigner, const Points& points, std::span<Part> parts) {
     const std::size_t num_bins = assigner.parts_of_bins().size();
-    PartTotals totals;
+    KnownTotals totals;
     Counter counter(num_bins);
     RunningSums<double> weights(num_bins + 1);
     LocalIndex num_added = 0;
@@ -201,10 +201,10 @@ PartTotals count_ends(Assigner& assigner, const Points& points, std::span<Part> 
 
 }  // namespace
 
-PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+KnownTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     const NonStop arithmetic;
     Assigner assigner(cuts, points);
-    PartTotals totals = count_ends(assigner, points, parts);
+    KnownTotals totals = count_ends(assigner, points, parts);
     if (!is_whole(cuts)) totals.parts = assigner.parts_of_bins();
     return totals;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <rrcb/cuts.hpp>
-#include <rrcb/method/bisection.hpp>
+#include <rrcb/passes.hpp>
 
 #include <span>
 #include <vector>
@@ -9,11 +8,9 @@
 namespace rrcb {
 
 /// Totals of the local points in each part, or in the parts of `parts`.
-struct PartTotals {
-    std::vector<double> weights;  ///< one per part
-    std::vector<double> counts;   ///< one per part
-    std::vector<Part> parts{};    ///< of each entry; empty: entry p of part p
-    bool all_finite = true;       ///< coordinates; otherwise the rest is undefined
+struct KnownTotals : PartTotals {
+    std::vector<Part> parts{};  ///< of each entry; empty: entry p of part p
+    bool all_finite = true;     ///< coordinates; otherwise the rest is undefined
 };
 
 /// Finds the end of the tree for every point, see TreeShape, or unknown_below() an unknown node.
@@ -26,7 +23,7 @@ bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts)
 /// Memory depends only on the number of parts or known cuts. Parts below an unknown node are
 /// unknown_below() it, in `parts` and in the totals, which name no part twice. Checks the
 /// coordinates, but not the lengths of the arrays.
-PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts);
+KnownTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 /// Finds the part of every point that keeps it wherever each of whole cuts moves in its interval,
 /// lower <= x <= upper across its axis, and no_part for the others. If `has_parts`, `parts` are

@@ -30,13 +30,11 @@ void copy(const Layout& x, const Points& points, LocalIndex i, LocalIndex k, Col
     if (!points.weights.empty()) collected.weights[k] = points.weights[i];
 }
 
-Collected emptied(Collected memory, const Points& points) {
-    memory.dimension = points.dimension;
-    resize(0, points, memory);
-    memory.weights.clear();
-    memory.settled_weights = std::vector<double>();
-    memory.settled_counts = std::vector<double>();
-    return memory;
+void clear(const Points& points, Collected& collected) {
+    collected.dimension = points.dimension;
+    resize(0, points, collected);
+    collected.weights.clear();
+    collected.settled = {};
 }
 
 template <class Layout>
@@ -69,26 +67,22 @@ void visit_in_blocks(const Points& points, const Test& is_found, Visit&& visit) 
 
 }  // namespace
 
-Collected collect(const Points& points, const Cuts& cuts, std::span<const Bracket> intervals,
-                  bool has_parts, std::span<Part> parts, Collected memory) {
-    Collected collected = emptied(std::move(memory), points);
-    PartTotals totals = assign_settled(cuts, intervals, points, has_parts, parts);
-    collected.settled_weights = std::move(totals.weights);
-    collected.settled_counts = std::move(totals.counts);
+void collect(const Points& points, const Cuts& cuts, std::span<const Bracket> intervals,
+             bool has_parts, std::span<Part> parts, Collected& collected) {
+    clear(points, collected);
+    collected.settled = assign_settled(cuts, intervals, points, has_parts, parts);
     const auto is_open = [&](const auto&, LocalIndex i) { return parts[i] < 0; };
     visit_in_blocks(points, is_open, [&](const auto& x, std::span<const LocalIndex> open) {
         append(x, points, open, collected);
     });
-    return collected;
 }
 
-Collected collect_all(const Points& points, Collected memory) {
-    Collected collected = emptied(std::move(memory), points);
+void collect_all(const Points& points, Collected& collected) {
+    clear(points, collected);
     resize(points.count, points, collected);
     visit_layout(points, [&](const auto& x) {
         for (LocalIndex i = 0; i < points.count; ++i) copy(x, points, i, i, collected);
     });
-    return collected;
 }
 
 namespace {
@@ -129,7 +123,7 @@ void weigh_again(const Points& points, std::span<const Part> parts,
 std::vector<std::size_t> collect_more(const Points& points, std::span<const Wanted> wanted,
                                       std::span<Part> parts, Collected& collected) {
     const std::vector<WantedOfPart> of_parts =
-        wanted_of_parts(wanted, collected.settled_weights.size());
+        wanted_of_parts(wanted, collected.settled.weights.size());
     std::vector<std::size_t> found;
     const auto is_found = [&](const auto& x, LocalIndex i) {
         const WantedOfPart& node = of_parts[parts[i] + 1];
@@ -140,14 +134,14 @@ std::vector<std::size_t> collect_more(const Points& points, std::span<const Want
         for (const LocalIndex i : open) {
             const Part part = std::exchange(parts[i], no_part);
             found.push_back(of_parts[part + 1].wanted);
-            collected.settled_counts[part] -= 1;
+            collected.settled.counts[part] -= 1;
         }
         append(x, points, open, collected);
     });
     if (points.weights.empty()) {
-        collected.settled_weights = collected.settled_counts;
+        collected.settled.weights = collected.settled.counts;
     } else {
-        weigh_again(points, parts, of_parts, collected.settled_weights);
+        weigh_again(points, parts, of_parts, collected.settled.weights);
     }
     return found;
 }

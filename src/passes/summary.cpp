@@ -29,10 +29,10 @@ Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
 
 /// Widens the ends of the order across `axis` by the points that reach `lower` or `upper`, the ends
 /// of all points so far.
-void widen(const Points& points, double lower, double upper, int axis, Extent& extent) {
+void widen(const Points& points, double lower, double upper, int axis, PointSummary& summary) {
     const PositionOrder is_before(axis, 1, points.dimension);
-    Vector& first = extent.first[axis];
-    Vector& last = extent.last[axis];
+    Vector& first = summary.first[axis];
+    Vector& last = summary.last[axis];
     visit_layout(points, [&](const auto& x) {
         for (LocalIndex i = 0; i < points.count; ++i) {
             const double value = x(i, axis);
@@ -55,7 +55,7 @@ void add_block(const Points& block, const Box& of_block, PointSummary& summary) 
         const bool has_ends = of_block.lower[a] <= lower || of_block.upper[a] >= upper;
         lower = std::min(lower, of_block.lower[a]);
         upper = std::max(upper, of_block.upper[a]);
-        if (has_ends) widen(block, lower, upper, a, summary.extent);
+        if (has_ends) widen(block, lower, upper, a, summary);
     }
 }
 
@@ -64,20 +64,20 @@ void add_block(const Points& block, const Box& of_block, PointSummary& summary) 
 PointSummary summary_of_weights(const Points& points) {
     check_lengths(points);
     PointSummary summary;
-    Extent& extent = summary.extent;
-    extent.count = extent.weight = static_cast<double>(points.count);
+    summary.count = points.count;
+    summary.weight = static_cast<double>(points.count);
     if (points.count == 0) return summary;
     summary.lightest = summary.heaviest = 1;
     if (points.weights.empty()) return summary;
     summary.lightest = std::numeric_limits<double>::infinity();
-    summary.heaviest = extent.weight = 0;
+    summary.heaviest = summary.weight = 0;
     for (const double weight : points.weights) {
         summary.lightest = std::min(summary.lightest, weight);
         summary.heaviest = std::max(summary.heaviest, weight);
-        extent.weight += weight;
+        summary.weight += weight;
     }
     // A sum with NaN or infinity is not finite.
-    if (summary.lightest < 0 || !std::isfinite(extent.weight)) reject_weights(points);
+    if (summary.lightest < 0 || !std::isfinite(summary.weight)) reject_weights(points);
     return summary;
 }
 

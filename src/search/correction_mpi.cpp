@@ -29,7 +29,7 @@ std::vector<Bracket> intervals_of(std::span<const Slab> slabs) {
 
 }  // namespace
 
-Correction::Correction(const Descent& top, bool is_root, Collected& memory) : points_(memory) {
+Correction::Correction(const Descent& top, bool is_root, OpenPoints& memory) : points_(memory) {
     const SlabTotals most = most_slabs(top);
     const std::size_t length = std::min(most.counts, length_of_search(most.moving)) + 1;
     slabs_.resize(most.moving);
@@ -39,28 +39,28 @@ Correction::Correction(const Descent& top, bool is_root, Collected& memory) : po
     expected_.resize(top.num_parts);
 }
 
-int Correction::run(const TargetRule& rule, const Points& points, std::span<const Bracket> brackets,
-                    Cuts& cuts, std::span<Part> parts, PartSums& sums, double& imbalance,
-                    Participant& self) {
+int Correction::run(const TargetRule& rule, PointPasses& points, std::span<const Bracket> brackets,
+                    Cuts& cuts, PartSums& sums, double& imbalance, Participant& self) {
     if (!rule.are_points_light()) return 0;
     totals_ = lay_slabs(rule, cuts, brackets, sums.sums(), slabs_);
     const std::size_t most_sent = length_of_search(totals_.moving);
     std::size_t sent = totals_.counts;
     if (totals_.moving == 0 || sent > most_sent) return 0;
     self.attempt([&] {
-        points_ = collect(points, cuts, intervals_of(slabs_), true, parts, std::move(points_));
-        assign_collected(cuts, points_, parts_, parts, sums.here());
+        points.collect(cuts, intervals_of(slabs_), true, points_);
+        assign_collected(cuts, points_, points_.parts, sums.here());
     });
     int rounds = 0;
     double before = 0;
     do {
         before = imbalance;
         correct_together(rule, sums, cuts, self);
-        self.attempt([&] { assign_collected(cuts, points_, parts_, parts, sums.here()); });
+        self.attempt([&] { assign_collected(cuts, points_, points_.parts, sums.here()); });
         imbalance = sums.add_up(rule.part_sizes, self);
         rounds += 2;
         sent += totals_.counts;
     } while (imbalance > rule.tolerance && sent <= most_sent && imbalance - 1 < (before - 1) / 2);
+    self.attempt([&] { points.settle(points_, points_.parts); });
     return rounds;
 }
 
@@ -70,7 +70,7 @@ void Correction::correct_together(const TargetRule& rule, const PartSums& sums, 
     const std::span here(here_.get(), totals_.counts + 1);
     std::ranges::fill(here, 0.0);
     self.attempt(
-        [&] { count_in_slabs(points_, parts_, cuts, slabs_, here.first(totals_.counts)); });
+        [&] { count_in_slabs(points_, points_.parts, cuts, slabs_, here.first(totals_.counts)); });
     here.back() = self.failed() ? 1 : 0;
     mpi::check(MPI_Reduce(here.data(), joined_.get(), mpi::to_int(std::ssize(here)), MPI_DOUBLE,
                           MPI_SUM, root, self.comm),

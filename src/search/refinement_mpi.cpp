@@ -5,7 +5,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "options/call_kind.hpp"
-#include "passes/assignment.hpp"
+#include "passes/collected.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -54,42 +54,42 @@ Refinement::Refinement(const Options& options, const Participant& self, PartSums
                             memory_.collected);
 }
 
-Refined Refinement::refine(Estimate&& estimate, const Points& points, const Box& box,
-                           std::span<Part> parts, Participant& self) {
+Refined Refinement::refine(Estimate&& estimate, PointPasses& points, const Box& box,
+                           Participant& self) {
     box_ = box;
     start(std::move(estimate), self);
     const bool is_exact = tree_.rule.is_exact;
     const bool is_known = estimate_.is_counted || (is_exact && !are_cuts_limited(options_));
     has_parts_ = estimate_.is_counted || !is_known;
-    const bool is_accepted = !is_known && accept_estimate(points, parts, self);
+    const bool is_accepted = !is_known && accept_estimate(points, self);
     // A search that would miss the tolerance, and be repeated exactly, is exact at once.
     const bool may_miss = !tree_.rule.is_attainable() && !limits_ && !estimate_.is_earlier;
     tree_.rule.is_exact = is_exact || (may_miss && !is_accepted);
-    if (tree_.rule.is_exact || !(is_accepted || correct(points, parts, self))) {
-        search(points, parts, self);
+    if (tree_.rule.is_exact || !(is_accepted || correct(points, self))) {
+        search(points, self);
     } else if (refined_.imbalance <= options_.imbalance_tolerance) {
-        search_exactly(points, parts, self);
+        search_exactly(points, self);
     }
     refined_.cuts = std::move(estimate_.cuts);
     return std::move(refined_);
 }
 
 /// Searches the cuts, and once more, exactly, if that is not enough. Collective.
-void Refinement::search(const Points& points, std::span<Part> parts, Participant& self) {
+void Refinement::search(PointPasses& points, Participant& self) {
     if (limits_) {
-        search_for_better(points, parts, self);
+        search_for_better(points, self);
     } else {
-        search_once(points, parts, self);
+        search_once(points, self);
     }
-    search_exactly(points, parts, self);
+    search_exactly(points, self);
 }
 
 /// Searches exactly, once, if the cuts miss the tolerance or leave parts empty. Collective.
-void Refinement::search_exactly(const Points& points, std::span<Part> parts, Participant& self) {
+void Refinement::search_exactly(PointPasses& points, Participant& self) {
     const bool is_good =
         refined_.imbalance <= options_.imbalance_tolerance && num_left_empty() == 0;
     if (is_good || std::exchange(tree_.rule.is_exact, true)) return;
-    search_for_better(points, parts, self);
+    search_for_better(points, self);
 }
 
 /// Takes an estimate, and derives the targets and the limits of its cuts.
@@ -122,9 +122,9 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
 
 /// Returns true if there is nothing to search: the estimated cuts are good enough, or the points
 /// are kept. Then `parts` is complete. Collective.
-bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Participant& self) {
+bool Refinement::accept_estimate(PointPasses& points, Participant& self) {
     self.attempt([&] {
-        const PartTotals totals = assign_and_count(estimate_.cuts, points, parts);
+        const PartTotals totals = points.assign(estimate_.cuts, true);
         std::ranges::copy(totals.weights, sums_.here().begin());
     });
     measure(self);
@@ -135,10 +135,10 @@ bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Pa
 
 /// Returns true if counted cuts, corrected all at once, are good enough, and `parts` is complete.
 /// Otherwise the current cuts are counted. Collective.
-bool Refinement::correct(const Points& points, std::span<Part> parts, Participant& self) {
+bool Refinement::correct(PointPasses& points, Participant& self) {
     if (!correction_) return false;
     refined_.rounds += correction_->run(tree_.rule, points, estimate_.brackets, estimate_.cuts,
-                                        parts, sums_, refined_.imbalance, self);
+                                        sums_, refined_.imbalance, self);
     tree_.rule.counted_weight = sum_of(sums_.sums());
     return refined_.imbalance <= options_.imbalance_tolerance;
 }
@@ -156,7 +156,7 @@ std::ptrdiff_t Refinement::num_left_empty() const {
 }
 
 /// Finds all cuts, and the parts at the end. Collective.
-void Refinement::search_once(const Points& points, std::span<Part> parts, Participant& self) {
+void Refinement::search_once(PointPasses& points, Participant& self) {
     const bool is_counted = !tree_.rule.is_exact && !limits_;
     const Guide guide{estimate_.cuts,
                       estimate_.brackets,
@@ -167,29 +167,30 @@ void Refinement::search_once(const Points& points, std::span<Part> parts, Partic
                       box_};
     std::optional<TreeSearch> search;
     self.attempt([&] {
-        search.emplace(tree_, rounds_.rank(), guide, points, parts, std::move(memory_.collected));
+        search.emplace(tree_, rounds_.rank(), guide, points, std::move(memory_.collected));
     });
     refined_.rounds += rounds_.run(search, self);
     refined_.coincident_cuts += search->num_coincident();
-    search->finish();
+    self.attempt([&] { search->finish(); });
     memory_.collected = search->take_memory();
     measure(self);
 }
 
 /// Searches all cuts, and keeps the new ones if they are better. Collective.
-void Refinement::search_for_better(const Points& points, std::span<Part> parts, Participant& self) {
+void Refinement::search_for_better(PointPasses& points, Participant& self) {
     struct {
         std::vector<Cut> tree;
         std::vector<double> sums;
+        std::vector<Part> parts;
         int coincident_cuts = 0;
     } before;
     self.attempt([&] {
-        before = {estimate_.cuts.tree, sums_.saved(), std::exchange(refined_.coincident_cuts, 0)};
-        memory_.parts.assign(parts.begin(), parts.end());
+        before = {estimate_.cuts.tree, sums_.saved(), points.parts(),
+                  std::exchange(refined_.coincident_cuts, 0)};
     });
     const double imbalance_before = refined_.imbalance;
     const std::ptrdiff_t empty_before = num_left_empty();
-    search_once(points, parts, self);
+    search_once(points, self);
     // Parts are filled only if they stay within the tolerance or as even as they were.
     constexpr double round_off = 1e-12;
     const std::ptrdiff_t gain = empty_before - num_left_empty();
@@ -201,7 +202,7 @@ void Refinement::search_for_better(const Points& points, std::span<Part> parts, 
     refined_.coincident_cuts = before.coincident_cuts;
     estimate_.cuts.tree = std::move(before.tree);
     sums_.restore(std::move(before.sums));
-    std::ranges::copy(memory_.parts, parts.begin());
+    self.attempt([&] { points.set_parts(before.parts); });
 }
 
 PartTree tree_of(const Options& options, int num_ranks) {
@@ -225,32 +226,37 @@ SpreadRefinement::SpreadRefinement(const Participant& self)
     : memory_(workspace_of(self.comm)),
       rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::spread) {}
 
-Refined SpreadRefinement::refine(const Box& box, PartTree tree, const Points& points,
-                                 std::span<Part> parts, Participant& self) {
-    Refined refined = search(box, tree, points, parts, self);
+Refined SpreadRefinement::refine(const Box& box, PartTree tree, HostPasses& points,
+                                 Participant& self) {
+    Refined refined = search(box, tree, points, self);
     const bool missed = refined.imbalance > tree.rule.tolerance;
     if (!missed || std::exchange(tree.rule.is_exact, true)) return refined;
-    self.attempt([&] { memory_.parts.assign(parts.begin(), parts.end()); });
-    Refined exact = search(box, tree, points, parts, self);
+    std::vector<Part> before;
+    self.attempt([&] { before = points.parts(); });
+    Refined exact = search(box, tree, points, self);
     exact.rounds += refined.rounds;
     if (exact.imbalance < refined.imbalance) return exact;
     refined.rounds = exact.rounds;
-    std::ranges::copy(memory_.parts, parts.begin());
+    points.set_parts(before);
     return refined;
 }
 
 /// Runs one search. Collective.
-Refined SpreadRefinement::search(const Box& box, const PartTree& tree, const Points& points,
-                                 std::span<Part> parts, Participant& self) {
+Refined SpreadRefinement::search(const Box& box, const PartTree& tree, HostPasses& points,
+                                 Participant& self) {
     std::optional<TreeSearch> search;
     self.attempt([&] {
-        search.emplace(tree, rounds_.rank(), box, points, parts, std::move(memory_.collected));
+        collect_all(points.points(), memory_.collected);
+        search.emplace(tree, rounds_.rank(), box, points, std::move(memory_.collected));
     });
     Refined refined;
     refined.rounds = rounds_.run(search, self);
     refined.imbalance = rounds_.imbalance();
     refined.coincident_cuts = mpi::sum_of(search->num_coincident(), self.comm);
-    self.attempt([&] { refined.cuts = search->cuts(); });
+    self.attempt([&] {
+        search->finish();
+        refined.cuts = search->cuts();
+    });
     memory_.collected = search->take_memory();
     return refined;
 }

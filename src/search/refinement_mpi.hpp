@@ -3,6 +3,7 @@
 #include "collective/butterfly_mpi.hpp"
 #include "collective/participant.hpp"
 #include "cuts/cut_limits.hpp"
+#include "passes/host_passes.hpp"
 #include "search/correction_mpi.hpp"
 #include "search/part_sums_mpi.hpp"
 #include "search/tree_search.hpp"
@@ -80,23 +81,22 @@ class Refinement {
 
     /// Refines the cuts of `estimate`, once.
     ///
-    /// Collective. `box` is that of the points. Writes the part of each point into `parts`. A
+    /// Collective. `box` is that of the points. Gives each point its part. A
     /// tolerance can be missed because upper levels used slack that lower ones need.
     /// Then, and if equal parts are empty although there are as many points, it searches once more,
     /// exactly, and keeps the better cuts. Limited cuts are all
     /// searched in their places, and the estimate is kept if it is better. Without weight the cuts
     /// are kept. A failure on one rank, before or here, is thrown on all.
-    Refined refine(Estimate&& estimate, const Points& points, const Box& box, std::span<Part> parts,
-                   Participant& self);
+    Refined refine(Estimate&& estimate, PointPasses& points, const Box& box, Participant& self);
 
   private:
     void start(Estimate&& estimate, Participant& self);
-    bool accept_estimate(const Points& points, std::span<Part> parts, Participant& self);
-    bool correct(const Points& points, std::span<Part> parts, Participant& self);
-    void search(const Points& points, std::span<Part> parts, Participant& self);
-    void search_exactly(const Points& points, std::span<Part> parts, Participant& self);
-    void search_once(const Points& points, std::span<Part> parts, Participant& self);
-    void search_for_better(const Points& points, std::span<Part> parts, Participant& self);
+    bool accept_estimate(PointPasses& points, Participant& self);
+    bool correct(PointPasses& points, Participant& self);
+    void search(PointPasses& points, Participant& self);
+    void search_exactly(PointPasses& points, Participant& self);
+    void search_once(PointPasses& points, Participant& self);
+    void search_for_better(PointPasses& points, Participant& self);
     void measure(Participant& self);
     std::ptrdiff_t num_left_empty() const;
 
@@ -124,18 +124,16 @@ class SpreadRefinement {
     /// Not collective. Throws Error or std::bad_alloc.
     explicit SpreadRefinement(const Participant& self);
 
-    /// Finds the cuts of all points, which are in `box`, and writes the part of each point into
-    /// `parts`. Returns the cuts that this rank knows.
+    /// Finds the cuts of all points, which are in `box`, and gives each point its part. Returns the
+    /// cuts that this rank knows.
     ///
     /// Collective. `box` and `tree` are the same on every rank. If a tolerance is missed, it
     /// searches once more, exactly, and keeps the better cuts. Throws on every rank the failure of
     /// one, before or here; a failure in the last messages is held back until the next agreement.
-    Refined refine(const Box& box, PartTree tree, const Points& points, std::span<Part> parts,
-                   Participant& self);
+    Refined refine(const Box& box, PartTree tree, HostPasses& points, Participant& self);
 
   private:
-    Refined search(const Box& box, const PartTree& tree, const Points& points,
-                   std::span<Part> parts, Participant& self);
+    Refined search(const Box& box, const PartTree& tree, HostPasses& points, Participant& self);
 
     Workspace& memory_;
     TreeRounds rounds_;

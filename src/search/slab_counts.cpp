@@ -53,11 +53,11 @@ Part part_across(const Cuts& cuts, const Step& step, const Vector& position) {
 
 }  // namespace
 
-void count_in_slabs(const Collected& points, std::span<const Part> parts, const Cuts& cuts,
+void count_in_slabs(const Collected& collected, std::span<const Part> parts, const Cuts& cuts,
                     std::span<const Slab> slabs, std::span<double> counts) {
     const std::vector<std::vector<Step>> ways = ways_to_parts(cuts, slabs);
-    for (LocalIndex i = 0; i < points.count(); ++i) {
-        const Vector position = points.position(i);
+    for (LocalIndex i = 0; i < collected.count(); ++i) {
+        const Vector position = collected.position(i);
         const Part part = parts[i];
         for (const Step& step : ways[part]) {
             const Slab& slab = slabs[step.at.node];
@@ -68,18 +68,19 @@ void count_in_slabs(const Collected& points, std::span<const Part> parts, const 
             const auto bin = bin_in(counts, step.at, slab, step.above,
                                     bin_of(slab, cut.at[axis], step.above, x));
             const Part across = part_across(cuts, step, position);
-            bin[part - step.at.first_part] += points.weight(i);
-            bin[across - step.at.first_part] += points.weight(i);
+            bin[part - step.at.first_part] += collected.weight(i);
+            bin[across - step.at.first_part] += collected.weight(i);
         }
     }
 }
 
-void assign_collected(const Cuts& cuts, const Collected& points, std::vector<Part>& parts,
-                      std::span<Part> all_parts, std::span<double> part_weights) {
-    parts.resize(points.count());
-    const PartTotals totals = assign_and_count(cuts, points.points(), parts);
-    for (LocalIndex k = 0; k < points.count(); ++k) all_parts[points.original[k]] = parts[k];
-    std::ranges::transform(points.settled_weights, totals.weights, part_weights.begin(),
+void assign_collected(const Cuts& cuts, const Collected& collected, std::vector<Part>& parts,
+                      std::span<double> part_weights) {
+    parts.resize(collected.count());
+    const PartTotals totals = assign_and_count(
+        cuts, interleaved_points(collected.coordinates, collected.dimension, collected.weights),
+        parts);
+    std::ranges::transform(collected.settled.weights, totals.weights, part_weights.begin(),
                            std::plus<>());
 }
 

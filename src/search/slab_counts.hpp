@@ -1,7 +1,8 @@
 #pragma once
 
-#include "passes/collected.hpp"
 #include "search/slabs.hpp"
+
+#include <rrcb/passes.hpp>
 
 #include <span>
 #include <vector>
@@ -10,12 +11,12 @@ namespace rrcb {
 
 /// Adds up the collected points, of these parts, in the bins of slabs, see bin_in. Throws
 /// std::bad_alloc.
-void count_in_slabs(const Collected& points, std::span<const Part> parts, const Cuts& cuts,
+void count_in_slabs(const Collected& collected, std::span<const Part> parts, const Cuts& cuts,
                     std::span<const Slab> slabs, std::span<double> counts);
 
-/// Sets `parts` of the collected points, and `all_parts` of all points, by cuts that have moved in
-/// their slabs. Writes the weight of all points of this rank in each part. Throws std::bad_alloc.
-void assign_collected(const Cuts& cuts, const Collected& points, std::vector<Part>& parts,
-                      std::span<Part> all_parts, std::span<double> part_weights);
+/// Sets the parts of the collected points by cuts that have moved in their slabs. Writes the weight
+/// of all points of this rank in each part. Throws std::bad_alloc.
+void assign_collected(const Cuts& cuts, const Collected& collected, std::vector<Part>& parts,
+                      std::span<double> part_weights);
 
 }  // namespace rrcb

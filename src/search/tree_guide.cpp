@@ -94,16 +94,18 @@ void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
 
 /// Collects the points of nodes whose cuts have left their intervals.
 void TreeSearch::collect_more() {
+    std::vector<std::size_t> nodes;
     std::vector<Wanted> wanted;
     for (const Node& node : nodes_) {
         if (!node.is_wide) continue;
         const Bracket& before = points_.interval(node.at.node);
-        wanted.push_back({node.at.node, node.at.first_part, node.at.num_parts, node.search.cut.axis,
+        nodes.push_back(node.at.node);
+        wanted.push_back({node.at.first_part, node.at.num_parts, node.search.cut.axis,
                           node.search.chosen == 0 ? Bracket{-infinity, before.lower}
                                                   : Bracket{before.upper, infinity}});
     }
     if (wanted.empty()) return;
-    std::vector<Entries> found = points_.collect_more(wanted);
+    std::vector<Entries> found = points_.collect_more(nodes, wanted);
     auto next = found.begin();
     for (Node& node : nodes_) {
         if (!std::exchange(node.is_wide, false)) continue;

@@ -15,13 +15,13 @@
 
 namespace rrcb {
 
-TreeSearch::TreeSearch(const PartTree& tree, int rank, const Box& box, const Points& points,
-                       std::span<Part> parts, Collected memory)
+TreeSearch::TreeSearch(const PartTree& tree, int rank, const Box& box, PointPasses& points,
+                       OpenPoints&& all)
     : tree_(tree),
       rank_(rank),
-      dimension_(points.dimension),
+      dimension_(points.dimension()),
       all_sizes_(tree.rule.size_of(root_of(tree.num_parts, tree.shape))),
-      points_(points, parts, std::move(memory)) {
+      points_(points, std::move(all)) {
     const PartRange own = parts_on(rank, tree.num_parts, tree.num_ranks);
     first_own_ = own.first;
     end_own_ = own.end;
@@ -29,15 +29,15 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Box& box, const Poi
     enter(root_of(tree.num_parts, tree.shape), {points_.all(), box, tree.weight});
 }
 
-TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, const Points& points,
-                       std::span<Part> parts, Collected memory)
+TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, PointPasses& points,
+                       OpenPoints&& memory)
     : tree_(tree),
       guide_(&guide),
       rank_(rank),
       dimension_(guide.cuts.dimension),
       all_sizes_(tree.rule.size_of(root_of(guide.cuts))),
       layout_{.limits = tree.limits},
-      points_(points, guide.cuts, intervals(), guide.has_parts, parts, std::move(memory)) {
+      points_(points, guide.cuts, intervals(), guide.has_parts, std::move(memory)) {
     Content content{{}, Box{}, tree.weight};
     if (guide.limits) content.box = guide.limits->region();
     content.are_parts_counted = guide.is_counted;
@@ -167,8 +167,13 @@ void TreeSearch::weigh_part(const Descent& at, const Content& content) {
 }
 
 void TreeSearch::finish() {
-    points_.settle_rest(guide_->cuts);
-    std::ranges::copy(points_.points().settled_weights, guide_->sums.here().begin());
+    if (is_central()) {
+        points_.settle_rest(guide_->cuts);
+        const std::span<double> weights = guide_->sums.here();
+        for (std::size_t p = 0; p < weights.size(); ++p)
+            weights[p] = points_.total_of(static_cast<Part>(p)).weight;
+    }
+    points_.write_parts();
 }
 
 /// Returns the share of the weight that a part should have.

@@ -2,7 +2,7 @@
 
 #include "collective/butterfly.hpp"
 #include "cuts/cut_limits.hpp"
-#include "passes/collected_tree.hpp"
+#include "search/collected_tree.hpp"
 #include "search/cut_search.hpp"
 #include "search/part_sums_mpi.hpp"
 #include "search/target_rule.hpp"
@@ -69,15 +69,15 @@ struct Guide {
 /// are kept. If an earlier cut moves, the parts below are counted once more.
 class TreeSearch {
   public:
-    /// Starts a spread search; the points of all ranks are in `box`. `parts` and the spans of
-    /// `tree` are borrowed. Throws std::bad_alloc.
-    TreeSearch(const PartTree& tree, int rank, const Box& box, const Points& points,
-               std::span<Part> parts, Collected memory = {});
+    /// Starts a spread search of `all` points of this rank; those of all ranks are in `box`. The
+    /// spans of `tree` are borrowed. Throws std::bad_alloc.
+    TreeSearch(const PartTree& tree, int rank, const Box& box, PointPasses& points,
+               OpenPoints&& all);
 
     /// Starts a central search; the rule has part sizes. Everything except the memory is borrowed.
     /// Throws std::bad_alloc.
-    TreeSearch(const PartTree& tree, int rank, const Guide& guide, const Points& points,
-               std::span<Part> parts, Collected memory = {});
+    TreeSearch(const PartTree& tree, int rank, const Guide& guide, PointPasses& points,
+               OpenPoints&& memory);
     TreeSearch(const TreeSearch&) = delete;
     TreeSearch& operator=(const TreeSearch&) = delete;
 
@@ -89,8 +89,8 @@ class TreeSearch {
     /// Decides on the nodes that this rank owns. Throws std::bad_alloc.
     void decide(Butterfly& butterfly);
 
-    /// Follows the decisions, and writes the parts that are complete. A node whose answer a failure
-    /// has lost is left unchanged. Throws std::bad_alloc.
+    /// Follows the decisions. A node whose answer a failure has lost is left unchanged. Throws
+    /// std::bad_alloc.
     void follow(const Butterfly& butterfly);
 
     /// Joins two records of a node; see Butterfly::Join.
@@ -109,12 +109,11 @@ class TreeSearch {
     /// search, those that this rank owns in a spread one.
     int num_coincident() const { return num_coincident_; }
 
-    /// Writes the parts of all points and their weights on this rank; ends a central search. Throws
-    /// std::bad_alloc.
+    /// Writes the parts of all points; after a central search also their weights on this rank.
     void finish();
 
     /// Returns the memory for another search; ends this one.
-    Collected take_memory() { return points_.take(); }
+    OpenPoints take_memory() { return points_.take(); }
 
   private:
     /// First entry of a node's record from a rank with points there: it contains a histogram, the

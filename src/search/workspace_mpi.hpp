@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/collected.hpp"
+#include "search/collected_tree.hpp"
 
 #include <mpi.h>
 
@@ -12,8 +12,7 @@ namespace rrcb {
 ///
 /// A step may move an entry out. If it does not put the entry back, the memory is freed.
 struct Workspace {
-    Collected collected{};       ///< up to 8 bytes a point for each coordinate, 8, 8 weighted
-    std::vector<Part> parts{};   ///< of cuts that another search may improve: 4 bytes a point
+    OpenPoints collected{};      ///< up to 8 bytes a point for each coordinate, 12, 8 weighted
     std::vector<Part> result{};  ///< of calls from C, which get a copy: 4 bytes a point
 };
 

@@ -12,8 +12,8 @@ TOP = "src"  # files of no folder: a call and its steps
 READS = re.compile(r"\bvisit_layout\b|\bfloat_axes\b|\bpoints_?\.(axes|position|coordinate)\b")
 # Folders whose subject is points: passes of the engine, services, bindings, the paper's methods.
 MAY_READ = {"passes", "lists", "paper", "zoltan", "c"}
-# The correction of all cuts counts in slabs. Options check the lengths of arrays, and stamp points.
-STILL_READ = {"options/validation.cpp", "options/request.cpp", "search/slab_counts.cpp", "cuts/tier_search.cpp"}
+# Options check the lengths of arrays, and stamp points.
+STILL_READ = {"options/validation.cpp", "options/request.cpp", "cuts/tier_search.cpp"}
 
 
 def folder_of(path: Path, root: Path) -> str:

@@ -5,6 +5,7 @@
 #include "gather/decision_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
+#include "passes/host_passes.hpp"
 #include "search/refinement_mpi.hpp"
 
 #include <rrcb/quality.hpp>
@@ -55,8 +56,8 @@ struct VirtualRanks {
 
     /// What a rank sends to its parent.
     Contribution contribution_of(int rank) {
-        const Points mine = points_of(rank);
-        const PointSummary summary = summary_of(mine);
+        HostPasses mine(points_of(rank));
+        const PointSummary summary = mine.summary(true);
         Contribution all{summarize(summary, false, 0), {}};
         add_records(mine, summary.box, options, all);
         all.summary.first_rank = rank;
@@ -91,14 +92,14 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     PartSums sums(ranks.options.part_sizes.size());
     Participant self{MPI_COMM_SELF};
     Refinement refinement(ranks.options, self, sums);
-    std::vector<Part> parts(points.count);
+    HostPasses passes(points, std::vector<Part>(points.count));
     Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
                       static_cast<double>(points.count), decision.verdict.common_weight};
     const Refined refined =
-        refinement.refine(std::move(estimate), points, bounding_box(points), parts, self);
+        refinement.refine(std::move(estimate), passes, bounding_box(points), self);
 
     std::vector<double> weights(ranks.options.part_sizes.size());
-    for (const Part part : parts) weights[static_cast<std::size_t>(part)] += 1;
+    for (const Part part : passes.parts_here()) weights[static_cast<std::size_t>(part)] += 1;
     EXPECT_LE(imbalance(weights, ranks.options.part_sizes), 1.01);
     EXPECT_EQ(imbalance(weights, ranks.options.part_sizes), refined.imbalance);
     RecordProperty("rounds", refined.rounds);

@@ -1,8 +1,10 @@
 // The search for cuts on a great many virtual ranks, in one process.
 #pragma once
 
+#include "all_collected.hpp"
 #include "gather/contribution.hpp"
 #include "memory_layer.hpp"
+#include "passes/host_passes.hpp"
 #include "search/tree_search.hpp"
 #include "virtual_cloud.hpp"
 #include "virtual_round.hpp"
@@ -74,6 +76,11 @@ class VirtualSearch {
             if (goes_on) note(round, totals);
             run_all([&](int rank) { of(rank).search.follow(butterfly(rank)); });
         }
+        auto next = parts_.begin();
+        for (auto& rank : ranks_) {
+            rank->search.finish();
+            next = std::ranges::copy(rank->passes.parts_here(), next).out;
+        }
         for (const Memory& memory : memory_)
             totals.most_memory = std::max(totals.most_memory, memory.most);
         return totals;
@@ -91,12 +98,13 @@ class VirtualSearch {
 
   private:
     struct Rank {
+        HostPasses passes;
         TreeSearch search;
         Butterfly butterfly;
 
-        Rank(const PartTree& tree, int rank, const Box& box, const Points& points,
-             std::span<Part> parts)
-            : search(tree, rank, box, points, parts),
+        Rank(const PartTree& tree, int rank, const Box& box, const Points& points)
+            : passes(points, std::vector<Part>(points.count)),
+              search(tree, rank, box, passes, all_collected(points)),
               butterfly(rank, tree.num_ranks, TreeSearch::join) {}
     };
     struct Memory {
@@ -126,10 +134,7 @@ class VirtualSearch {
 
     void start(const VirtualCloud& cloud, const PartTree& tree, const Box& box, int rank) {
         const Points mine = cloud.points_of(rank);
-        const std::size_t first = static_cast<std::size_t>(rank) * mine.count;
-        const auto parts = std::span(parts_).subspan(first, mine.count);
-        run(rank,
-            [&] { ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, box, mine, parts); });
+        run(rank, [&] { ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, box, mine); });
     }
 
     void ask(int rank) {

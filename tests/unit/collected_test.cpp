@@ -1,10 +1,13 @@
 // Collected points on their way down a tree, against looking at every point.
+#include "../support/all_collected.hpp"
 #include "../support/clouds.hpp"
-#include "passes/collected_tree.hpp"
+#include "passes/host_passes.hpp"
+#include "search/collected_tree.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace rrcb {
@@ -25,12 +28,14 @@ struct Square {
     std::vector<double> coordinates = test::uniform_cloud(2000, 2, 7);
     std::vector<double> weights{};
     Cuts cuts{2, 4, {plane_at(0, 0.5), plane_at(1, 0.5), plane_at(1, 0.5)}, {}, {}};
-    std::vector<Part> parts = std::vector<Part>(2000, no_part);
+    std::optional<HostPasses> passes{};
 
     Points points() const { return interleaved_points(coordinates, 2, weights); }
     CollectedTree tree(double width) {
         const std::vector<Bracket> intervals(3, {0.5 - width, 0.5 + width});
-        return {points(), cuts, intervals, false, parts, {}};
+        passes.emplace(points());
+        passes->summary(true);
+        return {*passes, cuts, intervals, false, {}};
     }
     double weight_in(double x0, double x1, double y0, double y1) const {
         double weight = 0;
@@ -66,14 +71,16 @@ TEST(CollectedTree, lets_points_wait_in_the_first_interval_on_their_way) {
         std::vector<double> counted(4);
         tree.count_parts(root, {}, made.cuts, counted);
         tree.settle_rest(made.cuts);
+        tree.write_parts();
+        const std::vector<Part> parts = made.passes->parts();
         for (LocalIndex i = 0; i < 2000; ++i)
-            ASSERT_EQ(made.parts[i], part_of(made.cuts, made.points().position(i)));
+            ASSERT_EQ(parts[i], part_of(made.cuts, made.points().position(i)));
         const std::vector<double> expected{
             made.weight_in(0, 0.45, 0, 0.5), made.weight_in(0, 0.45, 0.5, 1),
             made.weight_in(0.45, 1, 0, 0.5), made.weight_in(0.45, 1, 0.5, 1)};
         for (std::size_t p = 0; p < 4; ++p) {
             EXPECT_NEAR(counted[p], expected[p], 1e-9);
-            EXPECT_NEAR(tree.points().settled_weights[p], expected[p], 1e-9);
+            EXPECT_NEAR(tree.total_of(static_cast<Part>(p)).weight, expected[p], 1e-9);
         }
     }
 }
@@ -83,8 +90,8 @@ TEST(CollectedTree, collects_more_where_a_cut_leaves_its_interval) {
         CollectedTree tree = made.tree(0.05);
         const Descent root = root_of(made.cuts);
         const Entries before = tree.admit(root, {});
-        const Wanted wanted{root.node, 0, 4, 0, {-infinity, 0.45}};
-        const Entries more = tree.collect_more({&wanted, 1})[0];
+        const Wanted wanted{0, 4, 0, {-infinity, 0.45}};
+        const Entries more = tree.collect_more({&root.node, 1}, {&wanted, 1})[0];
         EXPECT_NEAR(tree.weight_of(before) + tree.weight_of(more), made.weight_in(0, 0.55, 0, 1),
                     1e-9);
         EXPECT_NEAR(tree.total_in(root.lower()).weight, 0, 1e-9);
@@ -96,7 +103,6 @@ TEST(CollectedTree, collects_more_where_a_cut_leaves_its_interval) {
 TEST(CollectedTree, finds_the_gap_about_a_cut_among_settled_points_too) {
     Square made;
     made.coordinates = {0.1, 0.5, 0.3, 0.9, 0.52, 0.2, 0.8, 0.1, 0.7, 0.9};
-    made.parts.resize(5);
     CollectedTree tree = made.tree(0.05);
     const Descent root = root_of(made.cuts);
     const Entries entries = tree.admit(root, {});
@@ -112,8 +118,8 @@ TEST(CollectedTree, finds_the_gap_about_a_cut_among_settled_points_too) {
 TEST(CollectedTree, divides_a_lot_in_the_order_of_the_points) {
     const std::vector<double> x{1, 2, 1, 1, 0, 1};
     const std::vector<double> weights{1, 9, 2, 0, 9, 4};
-    std::vector<Part> parts(6);
-    CollectedTree tree(interleaved_points(x, 1, weights), parts, {});
+    HostPasses passes(interleaved_points(x, 1, weights));
+    CollectedTree tree(passes, test::all_collected(passes.points()));
     const Cut cut = plane_at(0, 1);
     const PointsInLot lot = tree.points_at(cut, {5, 4, 3, 2, 1, 0});
     EXPECT_EQ(lot.weight, 7);

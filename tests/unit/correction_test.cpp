@@ -1,6 +1,7 @@
 // Corrections of all cuts at once, on the points of one rank: what is left open, what is counted
 // and where the cuts go, against looking up every point.
 #include "../support/clouds.hpp"
+#include "passes/collected.hpp"
 #include "search/slab_counts.hpp"
 
 #include <rrcb/paper.hpp>
@@ -111,7 +112,9 @@ struct Example {
         for (const Slab& slab : slabs)
             intervals.push_back(
                 {slab.lower, std::max(slab.upper, std::nextafter(slab.lower, infinity))});
-        return collect(points(), cuts, intervals, true, parts);
+        Collected open;
+        collect(points(), cuts, intervals, true, parts, open);
+        return open;
     }
 
     /// The cuts corrected once.
@@ -213,7 +216,7 @@ TEST(Collected, are_all_whose_part_may_change_and_the_others_are_weighed) {
         for (std::size_t k = 0; k < open.original.size(); ++k) {
             const LocalIndex i = open.original[k];
             is_open[i] = true;
-            EXPECT_EQ(open.points().position(k), made.points().position(i));
+            EXPECT_EQ(open.position(k), made.points().position(i));
             EXPECT_EQ(open.weight(k), made.points().weight(i));
             EXPECT_EQ(settled[i], no_part);
         }
@@ -225,7 +228,7 @@ TEST(Collected, are_all_whose_part_may_change_and_the_others_are_weighed) {
                 decided[static_cast<std::size_t>(parts[i])] += made.points().weight(i);
             }
         for (std::size_t p = 0; p < decided.size(); ++p)
-            EXPECT_NEAR(open.settled_weights[p], decided[p], 1e-12 * decided[p]);
+            EXPECT_NEAR(open.settled.weights[p], decided[p], 1e-12 * decided[p]);
         std::mt19937_64 engine(seed);
         for (int trial = 0; trial < 20; ++trial) {
             Example moved = made;
@@ -253,7 +256,8 @@ TEST(Collected, get_the_parts_of_cuts_that_have_moved) {
         std::vector<Part> of_open;
         made.cuts = made.corrected(totals);
         std::vector<double> weights(made.sizes.size());
-        assign_collected(made.cuts, open, of_open, parts, weights);
+        assign_collected(made.cuts, open, of_open, weights);
+        for (LocalIndex k = 0; k < open.count(); ++k) parts[open.original[k]] = of_open[k];
         EXPECT_EQ(parts, made.parts());
         const std::vector<double> expected = made.part_weights();
         for (std::size_t p = 0; p < weights.size(); ++p)

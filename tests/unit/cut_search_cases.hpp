@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/count.hpp"
+#include "search/count.hpp"
 #include "search/cut_search.hpp"
 
 #include <algorithm>

@@ -2,9 +2,10 @@
 // cloud, their histograms are joined, and the root decides.
 #include "search/cut_search.hpp"
 
+#include "../support/all_collected.hpp"
 #include "../support/clouds.hpp"
 #include "arithmetic/quantum.hpp"
-#include "passes/count.hpp"
+#include "search/count.hpp"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +57,7 @@ class Search {
         }
         for (Rank& rank : ranks_) {
             const Points points = interleaved_points(rank.coordinates, dimension_, rank.weights);
-            rank.points = collect_all(points);
+            rank.points = test::all_collected(points);
         }
     }
 

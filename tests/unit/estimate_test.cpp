@@ -4,6 +4,7 @@
 #include "gather/contribution.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
+#include "passes/host_passes.hpp"
 
 #include <rrcb/method/bisection.hpp>
 #include <rrcb/quality.hpp>
@@ -98,8 +99,8 @@ struct Ranks {
 
     /// What a rank hands to its parent.
     Contribution contribution_of(int rank) const {
-        const Points mine = points_of(rank);
-        const PointSummary summary = summary_of(mine);
+        HostPasses mine(points_of(rank));
+        const PointSummary summary = mine.summary(true);
         Contribution all{summarize(summary, false, 0), {}};
         add_records(mine, summary.box, options, all);
         MergeTree{num_ranks}.for_each_child(rank, [&](int child) {

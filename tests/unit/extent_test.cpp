@@ -1,3 +1,5 @@
+#include "gather/extent.hpp"
+
 #include "arithmetic/position_order.hpp"
 #include "passes/summary.hpp"
 
@@ -24,7 +26,7 @@ std::vector<double> lattice_cloud(std::size_t count, int dimension, int width) {
 }
 
 Extent extent_of_all(const Points& points) {
-    return summary_of(points).extent;
+    return extent_of(summary_of(points));
 }
 
 void expect_ends(const Points& points, const Extent& extent) {
@@ -100,7 +102,7 @@ TEST(PointSummary, reads_weights_and_refuses_the_first_illegal_value) {
     const auto summary = [&] { return summary_of(interleaved_points(coordinates, 2, weights)); };
     EXPECT_EQ(summary().lightest, 0.5);
     EXPECT_EQ(summary().heaviest, 7);
-    EXPECT_EQ(summary().extent.weight, 598 * 2.5 + 7.5);
+    EXPECT_EQ(summary().weight, 598 * 2.5 + 7.5);
     EXPECT_EQ(summary().box.lower, bounding_box(interleaved_points(coordinates, 2)).lower);
     EXPECT_EQ(summary().box.upper, bounding_box(interleaved_points(coordinates, 2)).upper);
     const auto text_for = [&](double& value, double illegal) -> std::string {

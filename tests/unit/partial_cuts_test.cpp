@@ -121,7 +121,7 @@ TEST(PartialCuts, count_what_each_known_part_holds_and_what_is_below_each_unknow
     for_each_case([](const Case& data, std::mt19937_64&) {
         std::map<Part, std::pair<double, double>> expected;
         std::vector<Part> parts(data.points.count);
-        const PartTotals totals = assign_and_count(data.some, data.points, parts);
+        const KnownTotals totals = assign_and_count(data.some, data.points, parts);
         for (LocalIndex i = 0; i < data.points.count; ++i) {
             const Part whole = part_of(data.whole, data.points.position(i));
             Part part = whole;

@@ -1,5 +1,5 @@
+#include "../support/all_collected.hpp"
 #include "../support/clouds.hpp"
-#include "passes/collected.hpp"
 
 #include <rrcb/eigen.hpp>
 #include <rrcb/error.hpp>
@@ -95,7 +95,8 @@ TEST(Points, at_any_stride_and_in_several_arrays_are_the_points_one_after_the_ot
             EXPECT_EQ(box.lower, bounding_box(expected).lower);
             EXPECT_EQ(box.upper, bounding_box(expected).upper);
             const SupportMesh mesh = make_support_mesh(box, dimension, 3);
-            EXPECT_EQ(collect_all(points).coordinates, collect_all(expected).coordinates);
+            EXPECT_EQ(test::all_collected(points).coordinates,
+                      test::all_collected(expected).coordinates);
             const auto cells = cell_moments(points, mesh);
             const auto same = cell_moments(expected, mesh);
             ASSERT_EQ(cells.size(), same.size());

@@ -1,9 +1,11 @@
 // Cuts found by the ranks that own them, against all points in one place.
 #include "search/tree_search.hpp"
 
+#include "../support/all_collected.hpp"
 #include "../support/clouds.hpp"
 #include "../support/virtual_owners.hpp"
 #include "cuts/cut_limits.hpp"
+#include "passes/host_passes.hpp"
 
 #include <rrcb/plan.hpp>
 
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <numeric>
 #include <random>
@@ -79,7 +82,7 @@ class Global {
                          ranks_of_part(parts_[i], case_.num_parts, case_.num_ranks).first_rank)]
                 .push_back(i);
         searches_.clear();
-        local_parts_.clear();
+        passes_.clear();
         cuts_.clear();
         return run(tolerance);
     }
@@ -234,9 +237,9 @@ class Global {
             if (!weights_.empty()) weights.push_back(weights_[i]);
         }
         const Points points = interleaved_points(coordinates, case_.dimension, weights);
-        local_parts_.emplace_back(mine.size(), -1);
+        HostPasses& passes = passes_.emplace_back(points, std::vector<Part>(mine.size(), -1));
         searches_.push_back(
-            std::make_unique<TreeSearch>(tree, rank, box(), points, local_parts_.back()));
+            std::make_unique<TreeSearch>(tree, rank, box(), passes, test::all_collected(points)));
     }
 
     std::map<std::size_t, Cut> known_by(int rank) const {
@@ -250,8 +253,10 @@ class Global {
     void collect() {
         parts_.assign(size(), -1);
         for (std::size_t rank = 0; rank < members_.size(); ++rank) {
+            searches_[rank]->finish();
+            const std::span<const Part> parts = passes_[rank].parts_here();
             for (std::size_t k = 0; k < members_[rank].size(); ++k)
-                parts_[members_[rank][k]] = local_parts_[rank][k];
+                parts_[members_[rank][k]] = parts[k];
             for (const auto& [node, cut] : known_by(static_cast<int>(rank))) {
                 const auto [at, is_new] = cuts_.emplace(node, cut);
                 EXPECT_TRUE(at->second.axis == cut.axis && at->second.at == cut.at)
@@ -356,7 +361,7 @@ class Global {
     std::vector<double> coordinates_;
     std::vector<double> weights_;
     std::vector<std::vector<std::size_t>> members_;  ///< points of each rank
-    std::vector<std::vector<Part>> local_parts_;
+    std::deque<HostPasses> passes_;
     std::vector<std::unique_ptr<TreeSearch>> searches_;
     std::vector<Part> parts_;
     std::map<std::size_t, Cut> cuts_;  ///< that any rank knows

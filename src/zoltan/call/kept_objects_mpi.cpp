@@ -1,10 +1,11 @@
 #include "zoltan/call/kept_objects_mpi.hpp"
 
-#include "arithmetic/mix.hpp"
 #include "arithmetic/non_stop.hpp"
 #include "arithmetic/vector_clones.hpp"
 #include "collective/communicator.hpp"
 #include "passes/point_layout.hpp"
+
+#include <rrcb/detail/mix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,7 @@ RRCB_VECTOR_CLONES std::uint64_t checksum_of(const Layout& x, std::span<const do
         std::uint64_t entries = static_cast<std::uint64_t>(parts[i]) + 1;
         if constexpr (Weighted) entries = join(entries, weights[i]);
         for (int axis = 0; axis < Layout::dimension; ++axis) entries = join(entries, x(i, axis));
-        sum += mix(entries);
+        sum += detail::mix(entries);
     }
     return sum;
 }

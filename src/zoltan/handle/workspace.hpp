@@ -1,8 +1,8 @@
 #pragma once
 
-#include "arithmetic/uninitialized.hpp"
 #include "collective/exchange_mpi.hpp"
 
+#include <rrcb/detail/uninitialized.hpp>
 #include <rrcb/points.hpp>
 
 #include <cstddef>
@@ -13,14 +13,14 @@ namespace rrcb::zoltan {
 
 /// Memory that grows and is kept, so that repeated calls touch the same pages.
 template <typename T>
-struct Scratch : private Uninitialized<T> {
+struct Scratch : private detail::Uninitialized<T> {
     /// Returns room for `size` entries. Old entries are lost. Throws std::bad_alloc.
     T* get(std::size_t size) {
         this->clear();
         this->resize(size);
-        return Uninitialized<T>::data();
+        return detail::Uninitialized<T>::data();
     }
-    using Uninitialized<T>::data;  ///< null before the first get()
+    using detail::Uninitialized<T>::data;  ///< null before the first get()
 };
 
 /// Memory that one handle's calls share.

@@ -1,4 +1,4 @@
-#include "passes/collected_tree.hpp"
+#include "search/collected_tree.hpp"
 
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/position_order.hpp"
@@ -15,19 +15,30 @@ bool is_at(const Cut& cut, const Vector& position, int dimension) {
     return std::equal(position.begin(), position.begin() + dimension, cut.at.begin());
 }
 
+void widen(Box& box, const Vector& position) {
+    for (std::size_t a = 0; a < max_dimension; ++a) {
+        box.lower[a] = std::min(box.lower[a], position[a]);
+        box.upper[a] = std::max(box.upper[a], position[a]);
+    }
+}
+
 }  // namespace
 
-CollectedTree::CollectedTree(const Points& points, std::span<Part> parts, Collected memory)
-    : points_(points), parts_(parts), collected_(collect_all(points, std::move(memory))) {}
+CollectedTree::CollectedTree(PointPasses& points, OpenPoints&& all)
+    : points_(points), collected_(std::move(all)) {
+    collected_.parts.assign(collected_.count(), no_part);
+}
 
-CollectedTree::CollectedTree(const Points& points, const Cuts& cuts,
+CollectedTree::CollectedTree(PointPasses& points, const Cuts& cuts,
                              std::span<const Bracket> intervals, bool has_parts,
-                             std::span<Part> parts, Collected memory)
+                             OpenPoints&& memory)
     : points_(points),
-      parts_(parts),
-      collected_(collect(points, cuts, intervals, has_parts, parts, std::move(memory))),
+      collected_(std::move(memory)),
+      arrived_(cuts.tree.size() + 1),
       steps_(cuts.tree.size()),
       waiting_(cuts.tree.size()) {
+    points_.collect(cuts, intervals, has_parts, collected_);
+    collected_.parts.assign(collected_.count(), no_part);
     add_steps(root_of(cuts), cuts, intervals);
     const Place root{0, 0, cuts.num_parts};
     for (LocalIndex i = 0; i < collected_.count(); ++i) send(root, i);
@@ -41,22 +52,44 @@ void CollectedTree::add_steps(const Descent& at, const Cuts& cuts,
     add_steps(at.upper(), cuts, intervals);
 }
 
-std::vector<Entries> CollectedTree::collect_more(std::span<const Wanted> wanted) {
-    std::vector<Entries> found(wanted.size());
+std::vector<Entries> CollectedTree::collect_more(std::span<const std::size_t> nodes,
+                                                 std::span<const Wanted> wanted) {
+    for (std::size_t k = 0; k < wanted.size(); ++k) steps_[nodes[k]].interval = wanted[k].interval;
+    std::vector<Entries> found = reopen(nodes, wanted);
     LocalIndex next = collected_.count();
-    for (const std::size_t k : rrcb::collect_more(points_, wanted, parts_, collected_))
-        found[k].push_back(next++);
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-        const Wanted& at = wanted[k];
-        steps_[at.node].interval = at.interval;
-        for (int below = 1; below + 1 < at.num_parts; ++below)
-            std::erase_if(waiting_[at.node + static_cast<std::size_t>(below)], [&](LocalIndex i) {
-                const bool is_inside = at.contains(collected_.coordinate(i, at.axis));
-                if (is_inside) found[k].push_back(i);
-                return is_inside;
-            });
-    }
+    for (const std::size_t k : points_.collect_more(wanted, collected_)) found[k].push_back(next++);
+    collected_.parts.resize(next, no_part);
     part_boxes_.clear();
+    return found;
+}
+
+/// Returns the entries in the new intervals of nodes that wait below these, or have arrived.
+std::vector<Entries> CollectedTree::reopen(std::span<const std::size_t> nodes,
+                                           std::span<const Wanted> wanted) {
+    std::vector<Entries> found(wanted.size());
+    const auto takes = [&](std::size_t k, LocalIndex i) {
+        const bool is_inside = wanted[k].contains(collected_.coordinate(i, wanted[k].axis));
+        if (is_inside) found[k].push_back(i);
+        return is_inside;
+    };
+    std::vector<std::size_t> wanted_of_part(arrived_.size(), wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        for (int below = 1; below + 1 < wanted[k].num_parts; ++below)
+            std::erase_if(waiting_[nodes[k] + static_cast<std::size_t>(below)],
+                          [&](LocalIndex i) { return takes(k, i); });
+        std::fill_n(wanted_of_part.begin() + wanted[k].first_part, wanted[k].num_parts, k);
+        std::fill_n(arrived_.begin() + wanted[k].first_part, wanted[k].num_parts, Total{});
+    }
+    for (LocalIndex i = 0; i < collected_.parts.size(); ++i) {
+        Part& part = collected_.parts[i];
+        const std::size_t k = part == no_part ? wanted.size() : wanted_of_part[part];
+        if (k == wanted.size()) continue;
+        if (takes(k, i)) {
+            part = no_part;
+        } else {
+            arrived_[part] = arrived_[part] + Total{collected_.weight(i), 1};
+        }
+    }
     return found;
 }
 
@@ -100,26 +133,32 @@ Entries CollectedTree::admit(const Descent& at, const Entries& arrived) {
 }
 
 void CollectedTree::settle(const Entries& entries, Part part) {
-    for (const LocalIndex i : entries) parts_[collected_.original[i]] = part;
+    for (const LocalIndex i : entries) collected_.parts[i] = part;
 }
 
 /// Settles a point in a part; adds it to the totals.
 void CollectedTree::settle(LocalIndex i, Part part) {
-    parts_[collected_.original[i]] = part;
-    collected_.settled_weights[part] += collected_.weight(i);
-    collected_.settled_counts[part] += 1;
-    if (part_boxes_.empty()) return;
-    Box& box = part_boxes_[part];
-    for (int a = 0; a < collected_.dimension; ++a) {
-        box.lower[a] = std::min(box.lower[a], collected_.coordinate(i, a));
-        box.upper[a] = std::max(box.upper[a], collected_.coordinate(i, a));
-    }
+    collected_.parts[i] = part;
+    arrived_[part] = arrived_[part] + Total{collected_.weight(i), 1};
+    if (!part_boxes_.empty()) widen(part_boxes_[part], collected_.position(i));
+}
+
+/// Makes the boxes of the points that have their parts.
+void CollectedTree::make_part_boxes() {
+    part_boxes_ = points_.boxes(static_cast<int>(steps_.size()) + 1);
+    for (LocalIndex i = 0; i < collected_.parts.size(); ++i)
+        if (collected_.parts[i] != no_part)
+            widen(part_boxes_[collected_.parts[i]], collected_.position(i));
+}
+
+Total CollectedTree::total_of(Part part) const {
+    return arrived_[part] +
+           Total{collected_.settled.weights[part], collected_.settled.counts[part]};
 }
 
 Total CollectedTree::total_in(const Descent& at) const {
     Total total;
-    for (Part p = at.first_part; p < at.first_part + at.num_parts; ++p)
-        total = total + Total{collected_.settled_weights[p], collected_.settled_counts[p]};
+    for (Part p = at.first_part; p < at.first_part + at.num_parts; ++p) total = total + total_of(p);
     for (int k = 0; k + 1 < at.num_parts; ++k)
         for (const LocalIndex i : waiting_[at.node + static_cast<std::size_t>(k)])
             total = total + Total{collected_.weight(i), 1};
@@ -155,7 +194,7 @@ std::pair<Entries, Entries> CollectedTree::divide(Entries&& entries, const Cut& 
 void CollectedTree::count_parts(const Descent& at, const Entries& entries, const Cuts& cuts,
                                 std::span<double> weights) const {
     for (Part p = at.first_part; p < at.first_part + at.num_parts; ++p)
-        weights[p] += collected_.settled_weights[p];
+        weights[p] += total_of(p).weight;
     const auto add = [&](const Descent& from, const Entries& some) {
         for (const LocalIndex i : some)
             weights[rrcb::descend(cuts, collected_.position(i), from).first_part] +=
@@ -218,8 +257,7 @@ Gap CollectedTree::gap_about(const Descent& at, const Entries& entries, const Cu
     for (int k = 0; k + 1 < at.num_parts; ++k)
         narrow(cut, waiting_[at.node + static_cast<std::size_t>(k)], gap);
     const bool is_open = gap[0] < -interval(at.node).upper || gap[1] < interval(at.node).lower;
-    if (is_open && part_boxes_.empty())
-        part_boxes_ = boxes_of_parts(points_, parts_, static_cast<int>(steps_.size()) + 1);
+    if (is_open && part_boxes_.empty()) make_part_boxes();
     if (is_open) narrow_by_parts(at, cut, gap);
     return gap;
 }

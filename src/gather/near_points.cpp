@@ -1,9 +1,7 @@
-#include "passes/near_points.hpp"
+#include "gather/near_points.hpp"
 
 #include "cuts/tree.hpp"
-#include "passes/sample.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace rrcb {
@@ -23,15 +21,15 @@ int num_near_cuts(const Cuts& cuts, const Vector& position, double reach) {
 
 }  // namespace
 
-NearShare near_share(const Cuts& cuts, const Points& points, double reach, LocalIndex most) {
+NearShare near_share(const Cuts& cuts, PointPasses& points, double reach, LocalIndex most) {
     NearShare near;
-    if (!(reach > 0) || points.count == 0) return near;
+    if (!(reach > 0) || points.count() == 0) return near;
     double weight = 0;
-    const LocalIndex size = std::min(most, points.count);
-    for (LocalIndex k = 0; k < size; ++k) {
-        const LocalIndex i = size < points.count ? sampled(k, points.count) : k;
-        const double own = points.weights.empty() ? 1 : points.weights[i];
-        const int number = num_near_cuts(cuts, points.position(i), reach);
+    const PointSample sample = points.sample(most);
+    const std::size_t size = sample.positions.size();
+    for (std::size_t k = 0; k < size; ++k) {
+        const double own = sample.weights.empty() ? 1 : sample.weights[k];
+        const int number = num_near_cuts(cuts, sample.positions[k], reach);
         near.by_count += number;
         near.by_weight += number * own;
         weight += own;

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "arithmetic/mix.hpp"
-
+#include <rrcb/detail/mix.hpp>
 #include <rrcb/points.hpp>
 
 #include <cstddef>
 
-namespace rrcb {
+namespace rrcb::detail {
 
 /// Returns entry k of a sample of `count` points: at random, as regular steps would alias with a
 /// lattice, but the same in every call. Some entries are equal.
@@ -14,4 +13,4 @@ inline LocalIndex sampled(std::size_t k, LocalIndex count) {
     return mix(k + 1) % count;
 }
 
-}  // namespace rrcb
+}  // namespace rrcb::detail

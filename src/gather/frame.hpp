@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rrcb/method/support_mesh.hpp>
-#include <rrcb/points.hpp>
+#include <rrcb/passes.hpp>
 
 namespace rrcb {
 
@@ -10,6 +10,6 @@ namespace rrcb {
 /// Along an axis on which a sample of the points spans far less than their box, the layers divide
 /// the span of the sample without its ends, and a margin; the outermost two reach to the box. Other
 /// axes are as in make_support_mesh(). Reads a few hundred positions. Not collective.
-SupportMesh make_framed_mesh(const Points& points, const Box& box, int cells_per_axis);
+SupportMesh make_framed_mesh(PointPasses& points, const Box& box, int cells_per_axis);
 
 }  // namespace rrcb

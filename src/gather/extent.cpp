@@ -1,4 +1,4 @@
-#include "passes/extent.hpp"
+#include "gather/extent.hpp"
 
 #include "arithmetic/position_order.hpp"
 
@@ -30,6 +30,10 @@ Box Extent::box() const {
         box.upper[a] = last[a][a];
     }
     return box;
+}
+
+Extent extent_of(const PointSummary& summary) {
+    return {static_cast<double>(summary.count), summary.weight, summary.first, summary.last};
 }
 
 void join(Extent& extent, const Extent& other, int dimension) {

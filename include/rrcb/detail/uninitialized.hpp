@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace rrcb {
+namespace rrcb::detail {
 
 /// Leaves new entries uninitialized: they are overwritten at once.
 template <class Value>
@@ -28,4 +28,4 @@ struct UninitializedAllocator : std::allocator<Value> {
 template <class Value>
 using Uninitialized = std::vector<Value, UninitializedAllocator<Value>>;
 
-}  // namespace rrcb
+}  // namespace rrcb::detail

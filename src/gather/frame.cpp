@@ -1,6 +1,4 @@
-#include "passes/frame.hpp"
-
-#include "passes/sample.hpp"
+#include "gather/frame.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,10 +24,10 @@ struct Layers {
     }
 };
 
-Layers span_of(const Points& points, int axis) {
+Layers span_of(const PointSample& sample, int axis) {
     std::array<double, sample_size> values;
     for (std::size_t k = 0; k < sample_size; ++k)
-        values[k] = points.coordinate(sampled(k, points.count), axis);
+        values[k] = sample.positions[k][static_cast<std::size_t>(axis)];
     const auto first = values.begin() + left_out;
     const auto last = values.end() - 1 - left_out;
     std::ranges::nth_element(values, first);
@@ -58,11 +56,12 @@ void frame_axis(const Layers& span, std::size_t axis, SupportMesh& mesh) {
 
 }  // namespace
 
-SupportMesh make_framed_mesh(const Points& points, const Box& box, int cells_per_axis) {
-    SupportMesh mesh = make_support_mesh(box, points.dimension, cells_per_axis);
-    if (points.count < sample_size) return mesh;
-    for (int a = 0; a < points.dimension; ++a)
-        frame_axis(span_of(points, a), static_cast<std::size_t>(a), mesh);
+SupportMesh make_framed_mesh(PointPasses& points, const Box& box, int cells_per_axis) {
+    SupportMesh mesh = make_support_mesh(box, points.dimension(), cells_per_axis);
+    if (points.count() < sample_size) return mesh;
+    const PointSample sample = points.sample(sample_size);
+    for (int a = 0; a < points.dimension(); ++a)
+        frame_axis(span_of(sample, a), static_cast<std::size_t>(a), mesh);
     return mesh;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "cuts/tree.hpp"
-#include "passes/collected.hpp"
+
+#include <rrcb/passes.hpp>
 
 #include <array>
 #include <span>
@@ -11,7 +12,12 @@
 namespace rrcb {
 
 /// Indices of collected points.
-using Entries = Uninitialized<LocalIndex>;
+using Entries = detail::Uninitialized<LocalIndex>;
+
+/// Collected points and their parts.
+struct OpenPoints : Collected {
+    std::vector<Part> parts{};  ///< of those that have arrived, no_part of the others
+};
 
 /// Weight and number of points.
 struct Total {
@@ -59,16 +65,15 @@ using Gap = std::array<double, std::size_t{2} * max_dimension>;
 /// its nodes itself. Not collective.
 class CollectedTree {
   public:
-    /// Collects all points, without intervals. Borrows `parts`. Throws std::bad_alloc.
-    CollectedTree(const Points& points, std::span<Part> parts, Collected memory);
+    /// Takes all points, without intervals. Borrows `points`. Throws std::bad_alloc.
+    CollectedTree(PointPasses& points, OpenPoints&& all);
 
-    /// Collects points as collect(). Borrows `points` and `parts`, which become those of the
-    /// settled points. Throws std::bad_alloc.
-    CollectedTree(const Points& points, const Cuts& cuts, std::span<const Bracket> intervals,
-                  bool has_parts, std::span<Part> parts, Collected memory);
+    /// Collects points as PointPasses::collect(). Borrows `points`. Throws what it throws.
+    CollectedTree(PointPasses& points, const Cuts& cuts, std::span<const Bracket> intervals,
+                  bool has_parts, OpenPoints&& memory);
 
     const Collected& points() const { return collected_; }
-    Collected take() { return std::move(collected_); }
+    OpenPoints take() { return std::move(collected_); }
 
     /// Returns the entries of all points.
     Entries all() const;
@@ -88,13 +93,20 @@ class CollectedTree {
 
     /// Takes new intervals of nodes, and collects the points there once more. Returns the entries
     /// of each node that are new to it.
-    std::vector<Entries> collect_more(std::span<const Wanted> wanted);
+    std::vector<Entries> collect_more(std::span<const std::size_t> nodes,
+                                      std::span<const Wanted> wanted);
 
     /// Returns the entries below and above the cut of a node.
     std::pair<Entries, Entries> divide(Entries&& entries, const Cut& cut, const Lot& lot) const;
 
     /// Sets the part of entries, without totals.
     void settle(const Entries& entries, Part part);
+
+    /// Returns the totals of a part on this rank, once no point waits.
+    Total total_of(Part part) const;
+
+    /// Writes the parts of the collected points where the others have theirs.
+    void write_parts() { points_.settle(collected_, collected_.parts); }
 
     /// Adds the weights of the parts at or below a node by `cuts`, with `entries` taken from it, to
     /// `weights`, one for each part of the whole tree.
@@ -107,7 +119,7 @@ class CollectedTree {
     /// Appends the positions and weights of entries.
     void append(const Entries& entries, std::vector<double>& records) const;
 
-    /// Settles all points that still wait, by `cuts`.
+    /// Settles the entries that still wait, by `cuts`.
     void settle_rest(const Cuts& cuts);
 
     /// Returns the points exactly at a cut, in the order in which divide() takes them below.
@@ -133,12 +145,14 @@ class CollectedTree {
     Place descend(Place at, LocalIndex i) const;
     void settle(LocalIndex i, Part part);
     void send(const Place& from, LocalIndex i);
+    std::vector<Entries> reopen(std::span<const std::size_t> nodes, std::span<const Wanted> wanted);
+    void make_part_boxes();
     void narrow(const Cut& cut, const Entries& entries, Gap& gap) const;
     void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) const;
 
-    Points points_;  ///< borrowed
-    std::span<Part> parts_;
-    Collected collected_;
+    PointPasses& points_;
+    OpenPoints collected_;
+    std::vector<Total> arrived_;    ///< totals of these
     std::vector<Step> steps_;       ///< at each node
     std::vector<Entries> waiting_;  ///< of each node
     std::vector<Box> part_boxes_;   ///< of settled points; empty until a gap needs them

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace rrcb {
+namespace rrcb::detail {
 
 /// Returns pseudorandom bits, different for each number: the finalizer of SplitMix64 (Steele, Lea,
 /// Flood: Fast splittable pseudorandom number generators, 2014).
@@ -12,4 +12,4 @@ inline std::uint64_t mix(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
-}  // namespace rrcb
+}  // namespace rrcb::detail

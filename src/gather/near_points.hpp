@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
-#include <rrcb/points.hpp>
+#include <rrcb/passes.hpp>
 
 namespace rrcb {
 
@@ -13,6 +13,6 @@ struct NearShare {
 
 /// Counts the local points within `reach` of the cuts, `most` of them at random if there are more;
 /// none if `reach` is 0. Not collective.
-NearShare near_share(const Cuts& cuts, const Points& points, double reach, LocalIndex most);
+NearShare near_share(const Cuts& cuts, PointPasses& points, double reach, LocalIndex most);
 
 }  // namespace rrcb

@@ -1,4 +1,4 @@
-#include "passes/count.hpp"
+#include "search/count.hpp"
 
 #include "arithmetic/quantum.hpp"
 
@@ -20,19 +20,19 @@ void widen(std::span<double> histogram, const Box& box) {
 }
 
 template <std::size_t dimension>
-void count(const Collected& points, const Entries& entries, int axis, const Bins& bins,
+void count(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
            const HistogramLayout& layout, std::span<double> histogram) {
     const std::span<double> weights = sums_of(histogram).first(layout.num_slots());
     const std::span<double> counts = sums_of(histogram).last(layout.num_slots());
     Box box;
     for (const LocalIndex i : entries) {
-        const double* const x = &points.coordinates[i * dimension];
+        const double* const x = &collected.coordinates[i * dimension];
         for (std::size_t a = 0; a < dimension; ++a) {
             box.lower[a] = std::min(box.lower[a], x[a]);
             box.upper[a] = std::max(box.upper[a], x[a]);
         }
         const auto slot = static_cast<std::size_t>(bins.slot_of(x[axis]));
-        weights[slot] += points.weight(i);
+        weights[slot] += collected.weight(i);
         counts[slot] += 1;
     }
     widen(histogram, box);
@@ -40,11 +40,13 @@ void count(const Collected& points, const Entries& entries, int axis, const Bins
 
 }  // namespace
 
-void count(const Collected& points, const Entries& entries, int axis, const Bins& bins,
+void count(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
            const HistogramLayout& layout, std::span<double> histogram) {
-    if (points.dimension == 1) return count<1>(points, entries, axis, bins, layout, histogram);
-    if (points.dimension == 2) return count<2>(points, entries, axis, bins, layout, histogram);
-    count<3>(points, entries, axis, bins, layout, histogram);
+    if (collected.dimension == 1)
+        return count<1>(collected, entries, axis, bins, layout, histogram);
+    if (collected.dimension == 2)
+        return count<2>(collected, entries, axis, bins, layout, histogram);
+    count<3>(collected, entries, axis, bins, layout, histogram);
 }
 
 void count_settled(const Total& total, const Box& box, int slot, const HistogramLayout& layout,
@@ -61,12 +63,12 @@ void round_weights(double quantum, const HistogramLayout& layout, std::span<doub
 }
 
 Entries between(double lower, double upper, int axis, const Entries& entries,
-                const Collected& points) {
+                const Collected& collected) {
     Entries inside(entries.size());
     std::size_t num_inside = 0;
     // Without branches, because the points come in any order.
     for (const LocalIndex i : entries) {
-        const double x = points.coordinate(i, axis);
+        const double x = collected.coordinate(i, axis);
         inside[num_inside] = i;
         num_inside += (x >= lower ? 1 : 0) & (x < upper ? 1 : 0);
     }

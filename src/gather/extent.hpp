@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/points.hpp>
+#include <rrcb/passes.hpp>
 
 #include <limits>
 #include <span>
@@ -26,6 +26,9 @@ struct Extent {
         return {corner, corner, corner};
     }
 };
+
+/// Returns the extent of the points of a rank.
+Extent extent_of(const PointSummary& summary);
 
 /// Adds the points of another extent.
 void join(Extent& extent, const Extent& other, int dimension);

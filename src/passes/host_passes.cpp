@@ -1,0 +1,85 @@
+#include "passes/host_passes.hpp"
+
+#include "options/validation.hpp"
+#include "passes/binned_points.hpp"
+#include "passes/collected.hpp"
+#include "passes/summary.hpp"
+
+#include <rrcb/detail/sample.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace rrcb {
+
+HostPasses::HostPasses(const Points& points, std::vector<Part> memory)
+    : points_(points), given_weights_(points.weights), parts_(std::move(memory)) {}
+
+void HostPasses::use_weights(bool are_used) {
+    points_.weights = are_used ? given_weights_ : std::span<const double>{};
+}
+
+PointSummary HostPasses::summary(bool reads_positions) {
+    PointSummary summary = reads_positions ? summary_of(points_) : summary_of_weights(points_);
+    parts_.resize(points_.count);
+    return summary;
+}
+
+PointSample HostPasses::sample(LocalIndex size) {
+    PointSample sample;
+    const bool takes_all = size >= points_.count;
+    const LocalIndex taken = takes_all ? points_.count : size;
+    for (LocalIndex k = 0; k < taken; ++k) {
+        const LocalIndex i = takes_all ? k : detail::sampled(k, points_.count);
+        sample.positions.push_back(points_.position(i));
+        if (!points_.weights.empty()) sample.weights.push_back(points_.weights[i]);
+    }
+    return sample;
+}
+
+std::vector<CellMoments> HostPasses::moments(const SupportMesh& mesh) {
+    return cell_moments(bin_by_cell(points_, mesh));
+}
+
+PartTotals HostPasses::assign(const Cuts& cuts, bool counts) {
+    if (counts) return assign_known(cuts);
+    if (!rrcb::assign_known(cuts, points_, parts_)) reject_coordinates(points_);
+    return {};
+}
+
+KnownTotals HostPasses::assign_known(const Cuts& cuts) {
+    KnownTotals totals = assign_and_count(cuts, points_, parts_);
+    if (!totals.all_finite) reject_coordinates(points_);
+    return totals;
+}
+
+void HostPasses::collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
+                         Collected& collected) {
+    rrcb::collect(points_, cuts, intervals, has_parts, parts_, collected);
+}
+
+std::vector<std::size_t> HostPasses::collect_more(std::span<const Wanted> wanted,
+                                                  Collected& collected) {
+    return rrcb::collect_more(points_, wanted, parts_, collected);
+}
+
+std::vector<Box> HostPasses::boxes(int num_parts) {
+    return boxes_of_parts(points_, parts_, num_parts);
+}
+
+void HostPasses::settle(const Collected& collected, std::span<const Part> parts) {
+    for (LocalIndex k = 0; k < collected.count(); ++k) parts_[collected.original[k]] = parts[k];
+}
+
+void HostPasses::renumber(std::span<const Part> numbers) {
+    if (numbers.size() == 1)
+        std::ranges::fill(parts_, numbers[0]);
+    else
+        for (Part& part : parts_) part = numbers[part];
+}
+
+void HostPasses::set_parts(std::span<const Part> parts) {
+    std::ranges::copy(parts, parts_.begin());
+}
+
+}  // namespace rrcb

@@ -55,6 +55,19 @@ auto data_of(const View& view) {
         return view.data();
 }
 
+/// True unless a view of Kokkos is in memory that only a device reads: its mirror is then
+/// elsewhere.
+template <class View>
+constexpr bool host_reads() {
+    if constexpr (requires { typename View::host_mirror_type; })
+        return std::same_as<typename View::memory_space,
+                            typename View::host_mirror_type::memory_space>;
+    else if constexpr (requires { typename View::HostMirror; })
+        return std::same_as<typename View::memory_space, typename View::HostMirror::memory_space>;
+    else
+        return true;
+}
+
 }  // namespace detail
 
 /// Returns a view of coordinates that are members of structs: member_points(particles,
@@ -120,6 +133,10 @@ requires(!detail::Scalar<Position> && !detail::Array<Position>) Points
 template <detail::StridedView First, detail::StridedView... Others>
 Points view_points(const First& first, const Others&... others) {
     static_assert(sizeof...(others) < max_dimension);
+    static_assert(
+        (detail::host_reads<First>() && ... && detail::host_reads<Others>()),
+        "the host cannot read this view; call rrcb::balance(exec, view, options, comm) of "
+        "rrcb/kokkos.hpp, or copy it with Kokkos::create_mirror_view_and_copy()");
     const LocalIndex count = first.extent(0);
     const auto stride = [&](const auto& view) {
         return count > 1 ? static_cast<std::ptrdiff_t>(view.stride(0)) : 1;

@@ -28,15 +28,33 @@ def float_type(values: Array, name: str) -> int:
     return FLOATS[values.dtype]
 
 
+# Types of devices of DLPack whose memory the host reads: CPU, pinned by CUDA or ROCm, managed.
+HOSTS = (1, 3, 11, 13)
+
+
+def refuse_device(values: Any) -> None:
+    """Raises Error for an array in the memory of a device."""
+    if isinstance(values, np.ndarray):
+        return
+    device = getattr(values, "__dlpack_device__", None)
+    if hasattr(values, "__cuda_array_interface__") or (device and device()[0] not in HOSTS):
+        raise c.Error(
+            f"an array of type {type(values).__name__} is on a device, which Python calls cannot "
+            "read: copy it to numpy (cupy.asnumpy(x), x.cpu().numpy()), or use rrcb/kokkos.hpp"
+        )
+
+
 def as_array(values: Any) -> Array:
-    """Returns values as an array. Raises Error if some are masked."""
+    """Returns values as an array. Raises Error if they are on a device, or some are masked."""
+    refuse_device(values)
     if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise c.Error("some values are masked: drop them, or call .filled()")
     return np.asarray(values)
 
 
 def numbers_in(values: Any, name: str) -> Array:
-    """Returns values as float64. Raises Error if some are no numbers."""
+    """Returns values as float64. Raises Error if some are no numbers, or on a device."""
+    refuse_device(values)
     try:
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):

@@ -13,7 +13,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare, together
-from ._arrays import Array, Columns, Points, numbers_in
+from ._arrays import Array, Columns, Points, as_array, numbers_in
 from ._cuts import CUT, Cuts, cuts_of
 from ._ghosts import Ghosts
 
@@ -235,7 +235,7 @@ def plan(parts: Any, num_parts: int | None = None, comm: MPI.Comm | None = None)
 
 def parts_in(given: Any, count: int | None = None) -> Array:
     """Returns parts as the library takes them."""
-    numbers = np.asarray(given)
+    numbers = as_array(given)
     if numbers.dtype.kind not in "iu" and numbers.size:
         raise c.Error(f"parts must be integers, not {numbers.dtype}")
     if numbers.ndim != 1 or (count is not None and len(numbers) != count):

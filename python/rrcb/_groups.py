@@ -118,9 +118,10 @@ def join_keys(keys: Any, comm: MPI.Comm | None = None) -> Array:
     chosen = communicator(comm)
 
     def local() -> Array:
-        if np.ndim(keys) != 2:
-            raise c.Error(f"keys must have the shape (n, k), not {np.shape(keys)}")
-        return keys_of(keys, np.shape(keys))
+        values = as_array(keys)
+        if values.ndim != 2:
+            raise c.Error(f"keys must have the shape (n, k), not {values.shape}")
+        return keys_of(values, values.shape)
 
     def signature(made: Array) -> str:
         return f"keys of the shape (n, {made.shape[1]})"

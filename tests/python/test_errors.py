@@ -32,6 +32,41 @@ def test_names_the_calls_of_ranks_that_differ():
     assert rrcb.balance(x, comm=comm).report == balance.report
 
 
+class CudaArray:
+    """As arrays of CuPy and Numba: the host must not touch the address."""
+
+    __cuda_array_interface__ = {"shape": (8, 2), "typestr": "<f8", "data": (16, False), "version": 3}
+
+    def __array__(self, *_, **__):
+        raise AssertionError("was read")
+
+
+class DeviceTensor:
+    """As tensors of DLPack on a device of ROCm."""
+
+    def __dlpack_device__(self):
+        return 10, 0
+
+    def __array__(self, *_, **__):
+        raise AssertionError("was read")
+
+
+def test_refuses_arrays_on_a_device():
+    last = RANKS - 1
+    x = cloud(2)
+    balance = rrcb.balance(x, comm=comm)
+    for array in (CudaArray(), DeviceTensor()):
+        given = on_rank(last, array, x)
+        weights = on_rank(last, array, np.ones(len(x)))
+        axes = on_rank(last, (array, array), (x[:, 0], x[:, 1]))
+        text = f"{type(array).__name__} is on a device, which Python calls cannot read: copy it"
+        same_error(lambda: rrcb.balance(given, comm=comm), text)
+        same_error(lambda: rrcb.balance(axes, comm=comm), text)
+        same_error(lambda: rrcb.balance(x, weights=weights, comm=comm), text)
+        same_error(lambda: balance.distribute({"x": given}), text)
+        same_error(lambda: rrcb.join_keys(on_rank(last, array, x[:, :1].astype(int)), comm), text)
+
+
 def test_raises_the_error_of_one_rank_on_all():
     last = RANKS - 1
     x = cloud(2)

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <rrcb/kokkos/passes.hpp>
+#include <rrcb/kokkos/plan.hpp>
+
+#include <mpi.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+
+namespace detail {
+
+template <class Views>
+inline constexpr bool are_views = Kokkos::is_view<typename ViewType<Views>::type>::value;
+
+template <class Execution>
+concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
+
+template <class Views>
+concept KokkosPoints = are_views<Views>;
+
+template <class Views>
+using MemoryOf = typename ViewType<Views>::type::memory_space;
+
+}  // namespace detail
+
+/// Result of a call with views. Cuts and report are on the host and the same on every rank.
+template <class MemorySpace>
+struct KokkosBalance {
+    Cuts cuts;                                 ///< between the parts, for look-ups
+    Report report;                             ///< measured imbalance and statistics
+    Kokkos::View<Part*, MemorySpace> parts{};  ///< of the points of this rank, where they are
+};
+
+/// Divides points in views as the function of Points with the same name. Collective.
+///
+///     auto balance = rrcb::balance(exec, x, weights, {}, {}, comm);
+///
+/// @param exec     instance on whose device the points are; the call ends with a fence of it
+/// @param x        View<T**> or View<T*[3]> of floats or doubles, points by axes, at any stride; or
+///                 a std::array of one View<T*> for each axis
+/// @param weights  a view of one float or double for each point; empty: every point weighs 1
+/// @param options  the same on every rank
+/// @param previous as for Points
+/// @param comm     as for Points
+/// Throws Error as balance(const Points&), on every rank alike, also if Kokkos is not initialized
+/// on one. Cuts may differ from those of Points by rounding. Cost: see docs/kokkos.md.
+template <detail::KokkosSpace Execution, detail::KokkosPoints Views, detail::KokkosPoints Weights>
+auto balance(const Execution& exec, const Views& x, const Weights& weights, const Options& options,
+             const Cuts& previous, MPI_Comm comm) {
+    KokkosPasses<Execution, Views, Weights> passes(exec, x, weights);
+    Balance result = balance(static_cast<PointPasses&>(passes), options, previous, comm);
+    return KokkosBalance<detail::MemoryOf<Views>>{std::move(result.cuts), std::move(result.report),
+                                                  passes.device_parts()};
+}
+
+/// Divides points in views without earlier cuts. Collective.
+template <detail::KokkosSpace Execution, detail::KokkosPoints Views, detail::KokkosPoints Weights>
+auto balance(const Execution& exec, const Views& x, const Weights& weights, const Options& options,
+             MPI_Comm comm) {
+    return balance(exec, x, weights, options, Cuts{}, comm);
+}
+
+/// Divides points in views that all weigh 1. Collective.
+template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
+auto balance(const Execution& exec, const Views& x, const Options& options, const Cuts& previous,
+             MPI_Comm comm) {
+    const Kokkos::View<double*, detail::MemoryOf<Views>> none;
+    return balance(exec, x, none, options, previous, comm);
+}
+
+/// Divides points in views that all weigh 1, without earlier cuts. Collective.
+template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
+auto balance(const Execution& exec, const Views& x, const Options& options, MPI_Comm comm) {
+    return balance(exec, x, options, Cuts{}, comm);
+}
+
+/// Writes the part of every point in a view. Not collective.
+///
+/// @param exec  as for balance(); ends with a fence of it
+/// @param cuts  complete ones
+/// @param x     of the dimension of the cuts
+/// @param parts a view in the memory of `x`, an entry for each point
+/// Throws Error if a coordinate is NaN or infinite, sizes differ, or the cuts are not complete.
+template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
+void assign(const Execution& exec, const Cuts& cuts, const Views& x,
+            const Kokkos::View<Part*, detail::MemoryOf<Views>>& parts) {
+    using T = detail::ScalarOf<typename detail::ViewType<Views>::type>;
+    detail::require_kokkos();
+    assign(cuts, Points{.dimension = cuts.dimension}, {});  // checks the cuts
+    const detail::Positions<T> positions = detail::positions_of(x);
+    if (positions.dimension != cuts.dimension)
+        detail::reject_on_device("positions must have the dimension of the cuts");
+    if (!positions.are_even || static_cast<std::int64_t>(parts.extent(0)) != positions.count)
+        detail::reject_on_device("parts must have one entry per point");
+    if (!is_whole(cuts))
+        detail::reject_on_device("look-ups on a device need complete cuts; call gather_cuts()");
+    const detail::DeviceTree<detail::MemoryOf<Views>> tree(exec, cuts, true);
+    detail::assigned<detail::MemoryOf<Views>>(exec, detail::AssignBody<T, double>{positions,
+                                                                                  {},
+                                                                                  tree.get(),
+                                                                                  nullptr,
+                                                                                  parts.data(),
+                                                                                  cuts.num_parts,
+                                                                                  true,
+                                                                                  false,
+                                                                                  nullptr});
+}
+
+/// Destinations of the points of this rank.
+template <class MemorySpace>
+struct KokkosPlan {
+    Kokkos::View<int*, MemorySpace> ranks{};  ///< of each point, as Cabana's Distributor takes
+    Kokkos::View<LocalIndex*, MemorySpace> order{};  ///< points by rank, ascending for each
+    std::vector<RankCount> counts{};  ///< points for each rank that gets some, this one included
+};
+
+/// Lists points by the rank that gets their part, as plan() of the host. Not collective.
+///
+/// @param exec    as for balance(); ends with a fence of it
+/// @param balance of the points of this rank
+/// @param comm    of the balance
+/// Throws Error if Kokkos is not initialized.
+template <detail::KokkosSpace Execution, class MemorySpace>
+KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySpace>& balance,
+                             MPI_Comm comm) {
+    detail::require_kokkos();
+    int rank = 0;
+    int num_ranks = 1;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &num_ranks);
+    const std::vector<std::int32_t> ranks =
+        detail::ranks_of_parts(balance.cuts.num_parts, rank, num_ranks);
+    const auto count = static_cast<std::int64_t>(balance.parts.extent(0));
+    KokkosPlan<MemorySpace> plan;
+    plan.ranks = detail::allocate<int, MemorySpace>(exec, balance.parts.extent(0));
+    const auto table = detail::copy_in<MemorySpace>(exec, std::span<const std::int32_t>(ranks));
+    Kokkos::parallel_for(
+        "rrcb::ranks", detail::range(exec, count),
+        detail::RankOfPoint{balance.parts.data(), table.data(), plan.ranks.data()});
+    // Parts ascend with their ranks.
+    std::vector<std::int32_t> slots;
+    for (const std::int32_t to : ranks) {
+        if (plan.counts.empty() || plan.counts.back().rank != to) plan.counts.push_back({to, 0});
+        slots.push_back(static_cast<std::int32_t>(plan.counts.size()) - 1);
+    }
+    std::vector<std::int64_t> numbers(plan.counts.size());
+    plan.order =
+        detail::list_by_rank<MemorySpace>(exec, balance.parts.data(), count, slots, numbers);
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+        plan.counts[k].count = static_cast<LocalIndex>(numbers[k]);
+    std::erase_if(plan.counts, [](const RankCount& to) { return to.count == 0; });
+    return plan;
+}
+
+}  // namespace rrcb

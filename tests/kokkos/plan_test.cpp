@@ -1,0 +1,71 @@
+#include "ranks.hpp"
+#include "views.hpp"
+
+#include <rrcb/kokkos.hpp>
+#include <rrcb/plan.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace rrcb::test {
+namespace {
+
+TEST(Plan, lists_points_by_rank) {
+    for (const int num_parts : {1, 2, 7, 40}) {
+        const Cloud cloud = lattice_cloud(20000, 2, 3 + rank(), false);
+        KokkosBalance<Memory> balance{cuts_through(cloud, num_parts, 4), {}, {}};
+        balance.parts = Kokkos::View<Part*, Memory>("parts", cloud.count());
+        assign(Device(), balance.cuts, view_of<double, Kokkos::LayoutLeft>(cloud), balance.parts);
+        const std::vector<Part> parts = on_host(balance.parts);
+        const Plan expected = plan(parts, num_parts, MPI_COMM_WORLD);
+        const KokkosPlan<Memory> found = plan(Device(), balance, MPI_COMM_WORLD);
+        std::vector<int> ranks(cloud.count(), rank());
+        for (std::size_t k = 0; k < expected.export_indices.size(); ++k)
+            ranks[expected.export_indices[k]] = expected.export_ranks[k];
+        EXPECT_EQ(on_host(found.ranks), ranks);
+        std::vector<LocalIndex> order(cloud.count());
+        std::iota(order.begin(), order.end(), LocalIndex{0});
+        std::ranges::stable_sort(order, {}, [&](LocalIndex i) { return ranks[i]; });
+        EXPECT_EQ(on_host(found.order), order);
+        LocalIndex sum = 0;
+        for (const RankCount& to : found.counts) {
+            EXPECT_EQ(std::ranges::count(ranks, to.rank), to.count);
+            sum += to.count;
+        }
+        EXPECT_EQ(sum, cloud.count());
+    }
+}
+
+TEST(Plan, of_no_points_is_empty) {
+    const KokkosBalance<Memory> balance{{.dimension = 2, .tree = {}}, {}, {}};
+    const KokkosPlan<Memory> found = plan(Device(), balance, MPI_COMM_WORLD);
+    EXPECT_TRUE(found.counts.empty());
+    EXPECT_EQ(found.order.extent(0), 0u);
+}
+
+TEST(Assign, numbers_dealt_parts_and_refuses_others) {
+    const Cloud cloud = lattice_cloud(500, 3, 3, false);
+    Cuts cuts = cuts_through(cloud, 8, 4);
+    cuts.shape = {4, false, 2};
+    const auto x = view_of<float, Kokkos::LayoutRight>(cloud);
+    const Kokkos::View<Part*, Memory> parts("parts", 500);
+    assign(Device(), cuts, x, parts);
+    std::vector<Part> expected(500);
+    assign(cuts, cloud.points(), expected);
+    EXPECT_EQ(on_host(parts), expected);
+    const Kokkos::View<Part*, Memory> fewer("parts", 499);
+    EXPECT_EQ(error_of([&] { assign(Device(), cuts, x, fewer); }),
+              "parts must have one entry per point");
+    Cuts planar = cuts;
+    planar.dimension = 2;
+    for (Cut& cut : planar.tree) cut.axis = 0;
+    EXPECT_EQ(error_of([&] { assign(Device(), planar, x, parts); }),
+              "positions must have the dimension of the cuts");
+    cuts.tree.pop_back();
+    EXPECT_NE(error_of([&] { assign(Device(), cuts, x, parts); }), "no error");
+}
+
+}  // namespace
+}  // namespace rrcb::test

@@ -1,0 +1,28 @@
+#include "ranks.hpp"
+#include "same_error.hpp"
+
+#include <rrcb/kokkos.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace rrcb::test {
+namespace {
+
+TEST(Uninitialized, is_an_error_on_all_ranks) {
+    if (rank() != 1) Kokkos::initialize();
+    {
+        std::array<double, 6> values{1, 2, 3, 4, 5, 6};
+        const Kokkos::View<double* [2], Kokkos::LayoutRight, Kokkos::HostSpace,
+                           Kokkos::MemoryTraits<Kokkos::Unmanaged>>
+            x(values.data(), 3);
+        expect_same_error(
+            [&] { balance(Kokkos::DefaultHostExecutionSpace(), x, Options{}, MPI_COMM_WORLD); },
+            "Kokkos is not initialized; call Kokkos::initialize()");
+    }
+    if (rank() != 1) Kokkos::finalize();
+}
+
+}  // namespace
+}  // namespace rrcb::test

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """recipes.py CACHE SOURCE: checks what packaging/ and others repeat of the build, without their tools.
 
-Fails unless every file has the version of the build whose CMakeCache.txt is CACHE, and the recipe for
-Spack, run with stubs of Spack's modules, sets options of that build, names variants that exist and tests
-the installed package by a project of SOURCE.
+Fails unless every file has the version of the build whose CMakeCache.txt is CACHE, and packages the address
+of docs/conf.py; and the recipe for Spack, run with stubs of Spack's modules, sets options of that build, names
+variants that exist and tests the installed package by a project of SOURCE.
 """
 import os
 import re
@@ -28,6 +28,18 @@ VERSIONS = [
     ("tests/consumer/CMakeLists.txt", "find_package(rrcb {1} REQUIRED)"),
 ]
 
+# Each file, and the beginning of its line with the address of the project.
+ADDRESSES = [
+    ("packaging/conda/recipe.yaml", "url: https://"),
+    ("packaging/conda/recipe.yaml", "homepage: https://"),
+    ("packaging/debian/control", "Homepage: https://"),
+    ("packaging/debian/copyright", "Source: https://"),
+    ("packaging/debian/watch", "https://"),
+    ("packaging/spack/spack_repo/rrcb/packages/rrcb/package.py", 'homepage = "https://'),
+    ("packaging/spack/spack_repo/rrcb/packages/rrcb/package.py", 'url = "https://'),
+    ("packaging/spack/spack_repo/rrcb/packages/rrcb/package.py", 'git = "https://'),
+]
+
 
 def wrong_versions(source, version):
     names = version, version.rsplit(".", 1)[0]
@@ -36,6 +48,15 @@ def wrong_versions(source, version):
         lines = path.read_text().splitlines() if path.exists() else []
         if not any(text.startswith(line.format(*names)) for text in lines):
             yield f"{path} does not have '{line.format(*names)}'"
+
+
+def wrong_addresses(source):
+    """Lines of packages that have another address of the project than the site."""
+    host = re.search(r'^html_baseurl = "https://([^/"]+)', (source / "docs/conf.py").read_text(), re.M)[1]
+    for file, line in ADDRESSES:
+        address = re.search(rf"^ *{re.escape(line)}(\S+)", (source / file).read_text(), re.M)
+        if not address or not address[1].startswith(host):
+            yield f"{source / file} does not have '{line}{host}', as docs/conf.py"
 
 
 class Recorder(types.ModuleType):
@@ -113,7 +134,7 @@ def spack_problems(source, cache):
 def main():
     cache, source = Path(sys.argv[1]).read_text(), Path(sys.argv[2])
     version = re.search(r"^CMAKE_PROJECT_VERSION:\w+=(.*)$", cache, re.M)[1]
-    problems = [*wrong_versions(source, version), *spack_problems(source, cache)]
+    problems = [*wrong_versions(source, version), *wrong_addresses(source), *spack_problems(source, cache)]
     print("\n".join(problems) or f"version {version} everywhere; the recipe for Spack is in order")
     return len(problems) > 0
 

@@ -36,6 +36,7 @@ RIVALS = {
     ZOLTAN: "Zoltan's RCB", "zoltan-hsfc": "Zoltan's HSFC", "hilbert-counts": "counted keys",
     "zoltan2-mj": "multijagged",
 }  # fmt: skip
+LINE_OF_TEXT = 0.2  # of a decade, in a panel
 MESHES = (2, 4, 8, 16, 32)
 LOOKS = {"bytes": "bytes / Zoltan's RCB", "excess_percent": "imbalance left [%]"}
 
@@ -151,6 +152,16 @@ def draw(rows: pd.DataFrame) -> Figure:
     return plot.legend_above(figure, grid[0, 0], inches=1.2)
 
 
+def labels_of(levels: dict[str, float]) -> list[tuple[float, list[str]]]:
+    """Names at the highest of the levels that are too near each other for a line of text each, upwards."""
+    found: list[tuple[float, list[str]]] = []
+    for name, level in sorted(levels.items(), key=lambda item: item[1]):
+        near = found and level - found[-1][0] < LINE_OF_TEXT
+        names = found.pop()[1] if near else []
+        found.append((level, [*names, name]))
+    return found
+
+
 def _draw_panel(axes: Axes, rows: pd.DataFrame, name: str) -> None:
     for (cloud, dimension), of in rows.groupby(["cloud", "dim"], sort=False):
         values = [_value(of[of["method"] == method].iloc[0], name) for method in TOLERANCES.values()]
@@ -158,15 +169,14 @@ def _draw_panel(axes: Axes, rows: pd.DataFrame, name: str) -> None:
                 "label": cloud if dimension == 2 else None}  # fmt: skip
         numbers, lows, highs = zip(*((v.number, *v.reach) for v in values))
         plot.draw_line(axes, range(len(values)), numbers, lows, highs, **look)
-    labels: dict[int, list[str]] = {}  # of levels that are too near for a line of text each
+    levels: dict[str, float] = {}
     for method in RIVALS if name != "rounds" else ():
         values = [_value(row, name).number for _, row in rows[rows["method"] == method].iterrows()]
         if values:
-            level = float(np.mean(np.log10(values)))
-            axes.axhline(10**level, color="#999999", linewidth=0.8, zorder=0)
-            labels.setdefault(round(10 * level), []).append(RIVALS[method])
-    for level, names in labels.items():
-        axes.text(0, 10 ** (level / 10), ", ".join(names), fontsize=7, color="#666666", va="bottom")
+            levels[RIVALS[method]] = float(np.mean(np.log10(values)))
+            axes.axhline(10 ** levels[RIVALS[method]], color="#999999", linewidth=0.8, zorder=0)
+    for level, names in labels_of(levels):
+        axes.text(0, 10**level, ", ".join(names), fontsize=7, color="#666666", va="bottom")
     axes.set_yscale("log" if name != "rounds" else "linear")
     axes.grid(True, axis="y")
 

@@ -67,6 +67,10 @@ class PriceTest(unittest.TestCase):
         self.assertEqual(table.loc["none", "imbalance left, %"], "20.000 (20.000)")
         self.assertEqual(table.loc["Zoltan's RCB", "rounds"], "–")
 
+    def test_labels_too_near_for_a_line_each_share_one_in_their_order(self) -> None:
+        levels = {"b": -1.80, "a": -1.95, "d": -1.0, "c": -1.70}
+        self.assertEqual(price.labels_of(levels), [(-1.70, ["a", "b", "c"]), (-1.0, ["d"])])
+
     def test_counts_alone_need_no_times(self) -> None:
         rows = self.rows(1)
         self.assertNotIn("time / exact", price.table_of(rows, 4, 25))

@@ -10,7 +10,7 @@ html_copy_source = False
 html_static_path = ["site.css", "site.js"]
 html_css_files = ["site.css"]
 html_js_files = ["site.js"]
-# A placeholder until the project has an address; no other file has one.
+# A placeholder until the project has an address. Packages repeat it, which install.recipes compares.
 html_baseurl = "https://rrcb.invalid/"
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]

@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""versions.py CACHE SOURCE: fails unless every file has the version of the build whose CMakeCache.txt is CACHE."""
+"""versions.py CACHE SOURCE: checks what packages repeat of the build and of the site.
+
+Fails unless every file has the version of the build whose CMakeCache.txt is CACHE, and packages the address
+of docs/conf.py.
+"""
 import re
 import sys
 from pathlib import Path
@@ -19,6 +23,13 @@ VERSIONS = [
     ("tests/consumer/CMakeLists.txt", "find_package(rrcb {1} REQUIRED)"),
 ]
 
+# Each file, and the beginning of its line with the address of the project.
+ADDRESSES = [
+    ("packaging/debian/control", "Homepage: https://"),
+    ("packaging/debian/copyright", "Source: https://"),
+    ("packaging/debian/watch", "https://"),
+]
+
 
 def wrong_versions(source, version):
     names = version, version.rsplit(".", 1)[0]
@@ -29,10 +40,19 @@ def wrong_versions(source, version):
             yield f"{path} does not have '{line.format(*names)}'"
 
 
+def wrong_addresses(source):
+    """Lines of packages that have another address of the project than the site."""
+    host = re.search(r'^html_baseurl = "https://([^/"]+)', (source / "docs/conf.py").read_text(), re.M)[1]
+    for file, line in ADDRESSES:
+        address = re.search(rf"^ *{re.escape(line)}(\S+)", (source / file).read_text(), re.M)
+        if not address or not address[1].startswith(host):
+            yield f"{source / file} does not have '{line}{host}', as docs/conf.py"
+
+
 def main():
     cache, source = Path(sys.argv[1]).read_text(), Path(sys.argv[2])
     version = re.search(r"^CMAKE_PROJECT_VERSION:\w+=(.*)$", cache, re.M)[1]
-    problems = [*wrong_versions(source, version)]
+    problems = [*wrong_versions(source, version), *wrong_addresses(source)]
     print("\n".join(problems) or f"version {version} everywhere")
     return len(problems) > 0
 

@@ -30,6 +30,7 @@ def imbalance(loads):
 
 
 def main(history, picture=None):
+    pyplot.rcParams.update({"axes.spines.top": False, "axes.spines.right": False})
     figure, axes = pyplot.subplots(1, 2, figsize=(10, 3.6), sharey=True, layout="constrained")
     for axis, cost in zip(axes, ("count", "learned")):
         steps, loads = read(history, cost)

@@ -14,8 +14,7 @@ import reference_python
 
 CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts",
        "groups", "remap", "quality", "controller", "cost", "restart", "stages", "error", "version", "eigen",
-       "kokkos",
-       "paper", "method/support_mesh", "method/moments", "method/statistical_domain",
+       "kokkos", "kokkos/passes", "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
        "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters",
        "teuchos/time_monitor")
 C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/groups", "c/controller",
@@ -318,7 +317,7 @@ def pages(root):
                                             links_from(os.path.dirname(title), items))
               for title, of_page in items.items()}
     for language, heading, text in (
-            ("cpp", "C++", "Include `rrcb/rrcb.hpp`, which has all but the last eleven headers."),
+            ("cpp", "C++", "Include `rrcb/rrcb.hpp`, which has all but the last thirteen headers."),
             ("c", "C", "Include `rrcb/rrcb.h`."), ("fortran", "Fortran", "The module is `rrcb`.")):
         titles = [title for title in items if languages[title] == language]
         result[f"reference/{language}.md"] = overview(heading, text, titles, items)

@@ -268,6 +268,9 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
     call.settlement.refine(call.points, call.box, decision, call.result, self);
 }
 
+/// Keeps the earlier cuts if they are even enough, else moves them. Begins from scratch if the cuts
+/// cannot be reused, or are uneven and many ranks make the parts. If the axes of the earlier cuts
+/// may be poor by now, makes cuts from scratch as well and returns the better result. Collective.
 Balance balance_from_earlier(PointPasses& points, const Options& given, const Cuts& previous,
                              bool may_keep, Participant& self) {
     Call call(points, given.observer, self);

@@ -15,6 +15,7 @@ endfunction()
 
 set(compiled "")
 foreach(program IN ITEMS examples/quick_start/main.cpp examples/loop/main.cpp
+                        examples/loop/first.cpp
                         examples/neighbours/main.cpp
                         tests/mpi/groups_test.cpp)
   read_flat(${ROOT}/${program} source)

@@ -46,9 +46,8 @@ const std::map<std::string, std::string>& documentation() {
         {"every",
          "steps between rebalances, or auto (default): when they pay; or several by commas"},
         {"cost", "learned: simulations compare learned costs of points with counting; count"},
-        {"repeats", "timed calls of each method; 7"},
-        {"seed", "seed of the cloud; 1"},
-        {"drift", "fraction of its extent by which the cloud moves between calls; 0"},
+        {"repeats", "timed calls of each method; 6"},
+        {"seed", "of the cloud and the order of turns; 1"},
         {"radius", "cut-off of the counted ghosts; twice the median distance to the nearest point"},
         {"ranks-per-node", "ranks on each machine, to count ghosts between machines"},
         {"only", "of a scene: calls on its snapshots or simulations; both"},
@@ -126,7 +125,6 @@ void check_combination(const Texts& texts) {
     const bool is_scene = sources == 0 || texts.given("scene");
     needs("points", texts.given("cloud"), "--cloud only; remove it");
     needs("dim", texts.given("cloud"), "--cloud only; remove it");
-    needs("drift", texts.given("cloud"), "--cloud only; remove it");
     needs("layout", texts.given("cloud") || texts.given("file"),
           "--cloud or --file only; remove it");
     needs("only", is_scene, "--scene only; remove it");
@@ -203,12 +201,6 @@ Arguments read_arguments(int argc, char** argv) {
     read_integer(texts, "repeats", arguments.repeats, 1, 1000);
     read_integer<std::uint64_t>(texts, "seed", arguments.seed, 0,
                                 std::numeric_limits<std::uint64_t>::max());
-    if (texts.given("drift")) {
-        const std::optional<double> drift = read_number<double>(texts["drift"]);
-        if (!drift || !(*drift >= 0 && *drift <= 1))
-            throw Failure("--drift must be a number from 0 to 1, not '" + texts["drift"] + "'");
-        arguments.drift = *drift;
-    }
     if (texts.given("radius")) {
         arguments.ghosts.radius = read_number<double>(texts["radius"]);
         if (!arguments.ghosts.radius ||

@@ -20,10 +20,8 @@ enum class Only { all, calls, simulations };
 /// How methods are measured.
 struct MeasurementPlan {
     Lists lists = Lists::parts;
-    int repeats = 7;
-    double drift = 0;  ///< fraction of the extent by which the points move between two rounds of
-                       ///< calls; then the moved fraction is that of the last of these moves
-    std::uint64_t seed = 1;  ///< of a cloud, its layout and drift
+    int repeats = 6;
+    std::uint64_t seed = 1;  ///< of a cloud, its layout and the order of turns
     GhostRule ghosts{};
 };
 

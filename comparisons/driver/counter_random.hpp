@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,14 +36,23 @@ class CounterRandom {
     std::uint64_t state_;
 };
 
+/// Seed of its own for a text, that other texts do not share.
+constexpr std::uint64_t seed_for(std::string_view text, std::uint64_t seed) {
+    for (const char c : text) seed = scramble(seed ^ static_cast<unsigned char>(c));
+    return seed;
+}
+
 /// Numbers 0 ... count - 1 in an order that follows from the seed and the turn, so that no method
-/// always comes after the same other one.
+/// always comes after the same other one. An odd turn has the order of the turn before backwards: a
+/// call finds in the caches what the call before it left, and each of two methods is first as
+/// often.
 inline std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed,
                                             std::uint64_t turn) {
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    CounterRandom random(seed, turn);
+    CounterRandom random(seed, turn / 2);
     for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.next() % i]);
+    if (turn % 2 == 1) std::ranges::reverse(order);
     return order;
 }
 

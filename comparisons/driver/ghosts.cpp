@@ -15,8 +15,11 @@
 #include <rrcb/quality.hpp>
 #include <rrcb/rrcb.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
+#include <numeric>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,6 +29,8 @@ namespace {
 
 using namespace comparisons;
 using rrcb::Part;
+
+constexpr const char* lammps_axes = "LAMMPS' axes";  ///< here alone
 
 void print(const Row& row) {
     static bool is_first = true;
@@ -42,7 +47,57 @@ std::vector<Part> by_zoltan(const std::string& method, const Workload& workload,
     return zoltan.parts();
 }
 
+/// A bisection of even halves across the axis whose smaller half is the widest, the rule of LAMMPS.
+class WidestHalves {
+  public:
+    WidestHalves(const rrcb::Points& points, int num_parts)
+        : points_(points), parts_(points.count) {
+        std::vector<std::size_t> all(points.count);
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        divide(all, rrcb::bounding_box(points), 0, num_parts);
+    }
+
+    const std::vector<Part>& parts() const { return parts_; }
+
+  private:
+    double at(std::size_t point, std::size_t axis) const { return points_.position(point)[axis]; }
+
+    /// Puts the `below` points of least coordinate first; returns the cut.
+    double select(std::span<std::size_t> ids, std::size_t below, std::size_t axis) const {
+        const auto middle = ids.begin() + static_cast<std::ptrdiff_t>(below);
+        std::ranges::nth_element(ids, middle, {}, [&](std::size_t i) { return at(i, axis); });
+        return at(*middle, axis);
+    }
+
+    void divide(std::span<std::size_t> ids, const rrcb::Box& box, Part first, int num_parts) {
+        if (num_parts == 1 || ids.empty()) {
+            for (const std::size_t i : ids) parts_[i] = first;
+            return;
+        }
+        const int half = num_parts / 2;
+        const std::size_t below =
+            ids.size() * static_cast<std::size_t>(half) / static_cast<std::size_t>(num_parts);
+        std::size_t best = 0;
+        double widest = -1;
+        for (std::size_t axis = 0; axis < static_cast<std::size_t>(points_.dimension); ++axis) {
+            const double cut = select(ids, below, axis);
+            const double width = std::min(cut - box.lower[axis], box.upper[axis] - cut);
+            if (width > widest) best = axis;
+            widest = std::max(widest, width);
+        }
+        rrcb::Box lower = box;
+        rrcb::Box upper = box;
+        lower.upper[best] = upper.lower[best] = select(ids, below, best);
+        divide(ids.first(below), lower, first, half);
+        divide(ids.subspan(below), upper, first + half, num_parts - half);
+    }
+
+    rrcb::Points points_;
+    std::vector<Part> parts_;
+};
+
 std::vector<Part> by(const std::string& method, const Workload& workload, int num_parts) {
+    if (method == lammps_axes) return WidestHalves(workload.points(), num_parts).parts();
     const Method read = read_method(method);
     if (!read.options) return by_zoltan(method, workload, num_parts);
     auto options = std::get<rrcb::Options>(*read.options);
@@ -63,7 +118,7 @@ void compare(const Cloud& cloud) {
     const GhostCounter counter(workload, {radius}, MPI_COMM_SELF);
     for (const int num_parts : {4, 16, 64})
         for (const char* method : {"zoltan-rcb", "zoltan-rib", "zoltan-hsfc", "rrcb-arrays",
-                                   "rrcb-arrays[axes=longest]"}) {
+                                   "rrcb-arrays[axes=longest]", lammps_axes}) {
             const std::vector<Part> parts = by(method, workload, num_parts);
             const Ghosts ghosts = counter.count(parts, num_parts);
             print(Row()

@@ -11,7 +11,6 @@
 #include <zoltan.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -51,7 +50,6 @@ struct Candidate {
     std::unique_ptr<Partitioner> partitioner;
     Measurement result;
     std::vector<Judgement> judgements;  ///< one per seed
-    std::vector<rrcb::Part> before;     ///< parts of the points before they moved last
 };
 
 void note_code(Candidate& candidate, int code, MPI_Comm comm) {
@@ -102,21 +100,8 @@ Judgement judge(const Workload& workload, const std::vector<rrcb::Part>& parts, 
             rrcb::moved_fraction(workload.points(), parts, num_parts, comm)};
 }
 
-/// Share of the weight whose part is another than before. Collective over `comm`.
-double changed_fraction(const Workload& workload, const std::vector<rrcb::Part>& before,
-                        const std::vector<rrcb::Part>& parts, MPI_Comm comm) {
-    const rrcb::Points points = workload.points();
-    std::array<double, 2> sums{};
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        sums[0] += parts[i] != before[i] ? points.weight(i) : 0;
-        sums[1] += points.weight(i);
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, comm);
-    return sums[1] > 0 ? sums[0] / sums[1] : 0;
-}
-
 /// One call that is not timed; that of the first seed is counted.
-void count_and_judge(Candidate& candidate, const Workload& workload, bool drifts, MPI_Comm comm) {
+void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm comm) {
     start_counting_traffic();
     const int code = candidate.partitioner->partition();
     const Traffic traffic = stop_counting_traffic();
@@ -129,10 +114,7 @@ void count_and_judge(Candidate& candidate, const Workload& workload, bool drifts
     note_code(candidate, code, comm);
     if (!candidate.partitioner) return;
     std::vector<rrcb::Part> parts = candidate.partitioner->parts();
-    Judgement judgement = judge(workload, parts, comm);
-    if (drifts)
-        judgement.moved_fraction = changed_fraction(workload, candidate.before, parts, comm);
-    candidate.judgements.push_back(judgement);
+    candidate.judgements.push_back(judge(workload, parts, comm));
     if (is_first) result.parts = std::move(parts);
 }
 
@@ -153,35 +135,41 @@ void conclude(Candidate& candidate) {
         judgements[(judgements.size() - 1) / 2].worst_unbalance_percent;
 }
 
-/// A first call that is not timed, then the repeats, each turn in an order of its own; between them
-/// the points drift.
-void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan, const Drift& drift,
-                   Workload& workload, Progress& progress, MPI_Comm comm) {
+/// Seed of the order of turns: other workloads have other orders, else what an order favours would
+/// be counted once for each of them.
+std::uint64_t order_seed(const Workload& workload, std::uint64_t seed, MPI_Comm comm) {
+    const std::string numbers =
+        ' ' + std::to_string(workload.dimension) + ' ' + std::to_string(size_of(comm));
+    return seed_for(workload.name + numbers, seed);
+}
+
+/// A first call that is not timed, then the repeats, each turn in an order of its own.
+void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan,
+                   const Workload& workload, Progress& progress, MPI_Comm comm) {
+    const std::uint64_t seed = order_seed(workload, plan.seed, comm);
     for (int call = 0; call < plan.repeats + 1; ++call) {
-        const auto turn = static_cast<std::uint64_t>(call);
-        for (const std::size_t next : drawn_order(candidates.size(), plan.seed, turn)) {
+        // The first timed turn and the second are a pair.
+        const auto turn = static_cast<std::uint64_t>(call + 1);
+        for (const std::size_t next : drawn_order(candidates.size(), seed, turn)) {
             Candidate& candidate = candidates[next];
             progress.advance();
             if (!candidate.partitioner) continue;
             candidate.choose_seed(std::max(0, call - 1));
             const double elapsed = timed_call(candidate, comm);
             if (call > 0) candidate.result.times_ms.push_back(elapsed);
-            if (!candidate.partitioner) continue;
-            if (drift.moves()) candidate.before = candidate.partitioner->parts();
-            candidate.partitioner->free_lists();
+            if (candidate.partitioner) candidate.partitioner->free_lists();
         }
-        drift.move(workload);
     }
 }
 
-void judge_all(std::span<Candidate> candidates, const Workload& workload, bool drifts,
-               Progress& progress, MPI_Comm comm) {
+void judge_all(std::span<Candidate> candidates, const Workload& workload, Progress& progress,
+               MPI_Comm comm) {
     for (Candidate& candidate : candidates) {
         for (int call = 0; call < candidate.num_judged(); ++call) {
             progress.advance();
             if (!candidate.partitioner) continue;
             candidate.choose_seed(call);
-            count_and_judge(candidate, workload, drifts, comm);
+            count_and_judge(candidate, workload, comm);
             if (candidate.partitioner) candidate.partitioner->free_lists();
         }
         if (candidate.partitioner && candidate.method.options)
@@ -195,21 +183,16 @@ void judge_all(std::span<Candidate> candidates, const Workload& workload, bool d
 
 std::vector<Measurement> measure(const Workload& workload, std::span<const Method> methods,
                                  const MeasurementPlan& plan, Progress& progress, MPI_Comm comm) {
-    Workload moving = workload;
-    const Drift drift(workload, plan.drift, plan.seed, comm);
     std::vector<Candidate> candidates;
     int num_calls = 0;
     for (const Method& method : methods) {
-        // Parts are compared by number, and by no numbers that follow where points are kept.
-        Method measured = method;
-        measured.keeps_numbers = drift.moves();
-        candidates.emplace_back(measured, moving, plan.lists, comm);
+        candidates.emplace_back(method, workload, plan.lists, comm);
         num_calls += plan.repeats + 1 + candidates.back().num_judged();
     }
     progress.start(workload.name + ": methods", num_calls);
-    time_in_turns(candidates, plan, drift, moving, progress, comm);
-    judge_all(candidates, moving, drift.moves(), progress, comm);
-    const GhostCounter ghosts(moving, plan.ghosts, comm);
+    time_in_turns(candidates, plan, workload, progress, comm);
+    judge_all(candidates, workload, progress, comm);
+    const GhostCounter ghosts(workload, plan.ghosts, comm);
     std::vector<Measurement> measurements;
     for (Candidate& candidate : candidates) {
         Measurement& result = measurements.emplace_back(std::move(candidate.result));

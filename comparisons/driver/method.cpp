@@ -273,7 +273,6 @@ ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
         std::visit([&](const auto& options) { add(options, parameters); }, *method.options);
     if (method.reuses) parameters.emplace_back("RCB_REUSE", "1");
     if (method.locks_axes) parameters.emplace_back("RCB_LOCK_DIRECTIONS", "1");
-    if (method.keeps_numbers) parameters.emplace_back("REMAP", "0");
     return parameters;
 }
 

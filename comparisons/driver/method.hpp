@@ -24,7 +24,6 @@ struct Method {
     bool seed_given = false;            ///< the user chose the seed of its points
     bool reuses = false;                ///< starts from the cuts of its last call
     bool locks_axes = false;            ///< keeps the axes of the cuts of its first call
-    bool keeps_numbers = false;         ///< of parts, if objects stay on their ranks: REMAP=0
 
     /// The seed of its pseudo-random points.
     std::uint64_t seed() const { return std::get<rrcb::PaperOptions>(*options).seed; }

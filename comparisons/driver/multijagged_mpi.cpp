@@ -5,10 +5,8 @@
 #include <Zoltan2_PartitioningProblem.hpp>
 #include <zoltan.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
-#include <limits>
 #include <numeric>
 
 namespace comparisons {
@@ -45,21 +43,19 @@ Adapter make_adapter(const MultijaggedPoints& points, const std::vector<long lon
                    weight_strides);
 }
 
-Teuchos::ParameterList parameters_of(double tolerance, bool keeps_boxes) {
+Teuchos::ParameterList parameters_of(double tolerance) {
     Teuchos::ParameterList parameters;
     parameters.set("algorithm", "multijagged");
     parameters.set("imbalance_tolerance", tolerance);
-    parameters.set("mj_keep_part_boxes", keeps_boxes);
     return parameters;
 }
 
 class MultijaggedPartitioner : public Partitioner {
   public:
-    MultijaggedPartitioner(const MultijaggedPoints& points, double tolerance, MPI_Comm comm,
-                           bool keeps_boxes = false)
+    MultijaggedPartitioner(const MultijaggedPoints& points, double tolerance, MPI_Comm comm)
         : ids_(numbered(points.count, comm)),
           adapter_(make_adapter(points, ids_)),
-          parameters_(parameters_of(tolerance, keeps_boxes)),
+          parameters_(parameters_of(tolerance)),
           problem_(&adapter_, &parameters_, comm) {}
 
     int partition() override {
@@ -78,19 +74,6 @@ class MultijaggedPartitioner : public Partitioner {
 
     std::string function() const override { return "multijagged"; }
 
-    MultijaggedBoxes boxes(std::size_t dimension) const {
-        const auto& boxes = problem_.getSolution().getPartBoxesView();
-        MultijaggedBoxes result{parts(), {}, {}};
-        result.lower.resize(boxes.size());
-        result.upper.resize(boxes.size());
-        for (const auto& box : boxes) {
-            const auto part = static_cast<std::size_t>(box.getpId());
-            std::copy_n(box.getlmins(), dimension, result.lower[part].begin());
-            std::copy_n(box.getlmaxs(), dimension, result.upper[part].begin());
-        }
-        return result;
-    }
-
   private:
     std::vector<long long> ids_;
     Adapter adapter_;
@@ -98,37 +81,12 @@ class MultijaggedPartitioner : public Partitioner {
     mutable Zoltan2::PartitioningProblem<Adapter> problem_;  // its getSolution() is not const
 };
 
-/// Opens the faces that are on the box of all points.
-void open_outwards(MultijaggedBoxes& boxes, std::size_t dimension) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (std::size_t axis = 0; axis < dimension; ++axis) {
-        double least = infinity;
-        double most = -infinity;
-        for (const auto& lower : boxes.lower) least = std::min(least, lower[axis]);
-        for (const auto& upper : boxes.upper) most = std::max(most, upper[axis]);
-        for (auto& lower : boxes.lower)
-            if (lower[axis] == least) lower[axis] = -infinity;
-        for (auto& upper : boxes.upper)
-            if (upper[axis] == most) upper[axis] = infinity;
-    }
-}
-
 }  // namespace
 
 std::unique_ptr<Partitioner> make_multijagged(const MultijaggedPoints& points, double tolerance,
                                               MPI_Comm comm) {
     start_kokkos();
     return std::make_unique<MultijaggedPartitioner>(points, tolerance, comm);
-}
-
-MultijaggedBoxes divide_multijagged(const MultijaggedPoints& points, double tolerance,
-                                    MPI_Comm comm) {
-    start_kokkos();
-    MultijaggedPartitioner partitioner(points, tolerance, comm, true);
-    if (partitioner.partition() != ZOLTAN_OK) throw std::runtime_error("multijagged failed");
-    MultijaggedBoxes boxes = partitioner.boxes(points.axes.size());
-    open_outwards(boxes, points.axes.size());
-    return boxes;
 }
 
 }  // namespace comparisons

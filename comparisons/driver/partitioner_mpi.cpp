@@ -91,41 +91,6 @@ class ArraysPartitioner : public Partitioner {
     rrcb::Cuts cuts_;  ///< of the last call, if they are to be reused
 };
 
-#ifdef RRCB_HAS_ZOLTAN2
-bool holds(const mpm::Box& box, const mpm::Vector& at) {
-    for (std::size_t axis = 0; axis < at.size(); ++axis)
-        if (at[axis] < box.lower[axis] || at[axis] > box.upper[axis]) return false;
-    return true;
-}
-
-int first_that_holds(const std::vector<mpm::Box>& boxes, const mpm::Vector& at) {
-    const auto found = std::ranges::find_if(boxes, [&](const auto& box) { return holds(box, at); });
-    return static_cast<int>(found - boxes.begin());
-}
-
-/// Its parts, except of points that round-off has put beside their box.
-mpm::Decomposition multijagged_decomposition(mpm::Positions positions, MPI_Comm comm) {
-    std::vector<const double*> axes = {positions.x.data(), positions.y.data()};
-    if (positions.dimension == 3) axes.push_back(positions.z.data());
-    MultijaggedBoxes found =
-        divide_multijagged({positions.size(), axes}, multijagged_tolerance, comm);
-    mpm::Decomposition decomposition;
-    for (std::size_t part = 0; part < found.lower.size(); ++part)
-        decomposition.boxes.push_back({found.lower[part], found.upper[part]});
-    decomposition.local_owners = std::move(found.parts);
-    const std::vector<mpm::Box>& boxes = decomposition.boxes;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        int& owner = decomposition.local_owners[i];
-        if (!holds(boxes[static_cast<std::size_t>(owner)], positions[i]))
-            owner = first_that_holds(boxes, positions[i]);
-    }
-    decomposition.owners = [boxes](mpm::Positions at, std::span<int> owners) {
-        for (std::size_t i = 0; i < owners.size(); ++i) owners[i] = first_that_holds(boxes, at[i]);
-    };
-    return decomposition;
-}
-#endif
-
 }  // namespace
 
 ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload,
@@ -266,9 +231,6 @@ mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
 std::optional<mpm::Balancer> make_balancer(const Method& method, const PointWeights& weights) {
     if (method.lb_method == on_arrays)
         return rrcb_balancer(std::get<rrcb::Options>(*method.options), weights, method.reuses);
-#ifdef RRCB_HAS_ZOLTAN2
-    if (method.lb_method == multijagged) return multijagged_decomposition;
-#endif
     if (method.lb_method != "RCB" && method.lb_method != "RRCB") return std::nullopt;
     return zoltan_balancer(zoltan_parameters(method, Lists::parts));
 }

@@ -78,28 +78,28 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
     progress.start("simulations, round " + std::to_string(round + 1),
                    static_cast<int>(all.size()) * plan.num_steps);
     std::vector<SimulationPlan> plans(all.size(), plan);
-    std::vector<std::unique_ptr<TimedSimulation>> simulations;
-    for (const SimulationRounds& rounds : all) {
-        const bool shows_the_scene = round == 0 && simulations.empty();
+    std::vector<std::unique_ptr<TimedSimulation>> simulations(all.size());
+    const std::uint64_t seed = seed_for("round " + std::to_string(round), plan.seed);
+    // Where a simulation is in memory follows from what was made before it.
+    for (const std::size_t next : drawn_order(all.size(), seed, 0)) {
+        const SimulationRounds& rounds = all[next];
+        const bool shows_the_scene = round == 0 && next == 0;
         const auto make = [&](const PointWeights& weights) -> std::optional<mpm::Balancer> {
             if (!rounds.balanced_by) return std::nullopt;
             return make_balancer(with_next_seed(*rounds.balanced_by, static_cast<unsigned>(round)),
                                  weights);
         };
-        SimulationPlan& its_plan = plans[simulations.size()];
-        its_plan.every = rounds.every;
-        auto& simulation = simulations.emplace_back();
+        plans[next].every = rounds.every;
         if (!rounds.has_failed())
-            simulation = std::make_unique<TimedSimulation>(
-                its_plan, make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr),
+            simulations[next] = std::make_unique<TimedSimulation>(
+                plans[next], make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr),
                 comm, rounds.cost);
     }
     // Turns are long enough that each simulation finds its points in the cache again.
     constexpr int turn = 50;
     for (int done = 0; done < plan.num_steps; done += turn) {
         const auto number = static_cast<std::uint64_t>(done / turn);
-        for (const std::size_t next :
-             drawn_order(simulations.size(), static_cast<std::uint64_t>(round), number))
+        for (const std::size_t next : drawn_order(all.size(), seed, number))
             if (simulations[next]) simulations[next]->advance(turn);
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -181,6 +181,7 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
                      : arguments.quick   ? quick_steps
                                          : steps_to_end(plan.scene, comm);
     plan.record_every = record_interval(plan.num_steps, num_runs, comm);
+    plan.seed = arguments.seed;
     return plan;
 }
 

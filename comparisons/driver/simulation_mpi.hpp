@@ -23,8 +23,9 @@ namespace comparisons {
 struct SimulationPlan {
     mpm::Scene scene;
     int num_steps = 1;
-    int every = 1;         ///< steps between rebalances; 0: a controller says when
-    int record_every = 1;  ///< steps between records of the load
+    int every = 1;           ///< steps between rebalances; 0: a controller says when
+    int record_every = 1;    ///< steps between records of the load
+    std::uint64_t seed = 1;  ///< of the order of turns
 };
 
 /// Points on every rank, after the rebalance of a step if it had one.

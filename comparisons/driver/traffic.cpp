@@ -59,11 +59,7 @@ void count_message(const char* function, std::int64_t bytes, int to, MPI_Comm co
     count_call(function, bytes, 0);
     ++traffic.messages;
     traffic.bytes += bytes;
-    const int receiver = world_rank(to, comm);
-    if (receiver == 0) traffic.root_bytes_in += bytes;
-    if (ranks_per_machine > 0 &&
-        receiver / ranks_per_machine != rank_in(MPI_COMM_WORLD) / ranks_per_machine)
-        traffic.bytes_between_machines += bytes;
+    if (world_rank(to, comm) == 0) traffic.root_bytes_in += bytes;
 }
 
 void count_collective(const char* function, std::int64_t bytes_in, std::int64_t bytes_out) {

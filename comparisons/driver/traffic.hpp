@@ -23,7 +23,6 @@ struct Traffic {
     std::int64_t collectives = 0;
     std::int64_t communicators = 0;
     double seconds_in_mpi = 0;
-    std::int64_t bytes_between_machines = 0;  ///< of messages; machines as set below
 };
 
 /// Processor time this thread has used, in s; not collective.

@@ -10,8 +10,7 @@ comparisons/run [option ...]
   --quick               a small run of everything, to see that it works
  points, one of
   --scene=slope         snapshots of a simulation: slope (the default), submarine_slide,
-                        torpedo_anchor, dam_break, elastic_structure, a scene file,
-                        or all: one after the other, and their balance side by side
+                        torpedo_anchor, dam_break, elastic_structure, or a scene file
   --cloud=NAME          generated: uniform, slope, clusters, lattice, run_out, polygon,
                         shell or spiral, with
       --points=N            how many over all ranks
@@ -26,12 +25,12 @@ comparisons/run [option ...]
                         zoltan-rcb, rrcb-sampled, rrcb and rrcb-exact unless told otherwise;
                         all: every method, rrcb-sampled and rrcb in four settings each
   --lists=PARTS         or EXPORT, ALL: what a call must return
-  --repeats=7           of each call, and rounds of the simulations, of those 6 at most; the
-                        tables hold medians and, from 6 on, their 95 % intervals
+  --repeats=6           of each call, best an even number, and rounds of the simulations, of
+                        those 6 at most; medians have 95 % intervals from 6 on
   --radius=R            cut-off that ghosts, the copies of points that parts need from
                         others, are counted by; twice the mean spacing
   --ranks-per-node=N    counts those between machines with so many ranks each
-  --seed=1              of the points of a cloud and of --layout=scattered
+  --seed=1              of the points of a cloud, of --layout=scattered and of the order of turns
   --steps=N             of the simulation; to its end, of the slope until it lies still
   --every=auto          rebalance the simulation when it pays; or N: steps between two
                         rebalances; or several by commas, all in the same rounds
@@ -48,14 +47,9 @@ import sys
 import time
 from pathlib import Path
 
-from driver import COMPARE, OUT, build, has_multijagged, on_ranks
+from driver import COMPARE, OUT, build, on_ranks
 
 MAX_RANKS = 256
-SCENES = "slope submarine_slide torpedo_anchor dam_break elastic_structure".split()
-METHODS_OF_SCENES = (
-    "zoltan-rcb,zoltan-rib,zoltan-hsfc,root-rcb,rrcb-sampled[mesh=4,k=2,fraction=0.125],rrcb,"
-    "rrcb-exact,rrcb-arrays"
-)
 MADE = ("history.csv", "simulation*.csv", "noise.csv")
 
 
@@ -67,17 +61,15 @@ def main() -> int:
     options, others = _read_options(words)
     build("rrcb_compare", multijagged="zoltan2-mj" in options.methods or options.methods == "all")
     others += ["--progress"] * sys.stderr.isatty()
-    if options.scene != "all":
-        name = Path(options.scene).stem
-        out = options.out or (OUT if name == "slope" else OUT / name)
-        if options.methods:
-            others.append(f"--methods={options.methods}")
-        elif not re.search(r"--(cost|cloud|file|replay)\b", " ".join(others)):
-            others.append("--cost=learned")
-        if options.scene != "slope":
-            others.append(f"--scene={options.scene}")
-        return _compare(options.ranks, out, others)
-    return _compare_scenes(options, others)
+    name = Path(options.scene).stem
+    out = options.out or (OUT if name == "slope" else OUT / name)
+    if options.methods:
+        others.append(f"--methods={options.methods}")
+    elif not re.search(r"--(cost|cloud|file|replay)\b", " ".join(others)):
+        others.append("--cost=learned")
+    if options.scene != "slope":
+        others.append(f"--scene={options.scene}")
+    return _compare(options.ranks, out, others)
 
 
 def _read_options(words: list[str]) -> tuple[argparse.Namespace, list[str]]:
@@ -118,18 +110,6 @@ def _compare(ranks: int, out: Path, words: list[str]) -> int:
 
         write_report(out)
     return status
-
-
-def _compare_scenes(options: argparse.Namespace, words: list[str]) -> int:
-    """Every scene that is shipped, each in a folder of its own; one setting of each method."""
-    methods = options.methods or METHODS_OF_SCENES + ",zoltan2-mj" * has_multijagged()
-    folder = options.out or OUT / "all"
-    words = [*words, f"--methods={methods}"]
-    codes = [_compare(options.ranks, folder / s, [*words, f"--scene={s}"]) for s in SCENES]
-    from scenes import report_scenes
-
-    report_scenes(folder, SCENES)
-    return max(codes)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ def draw_history(histories: dict[str, pd.DataFrame]) -> Figure | None:
     if not histories:
         return None
     figure, grid = plot.panels(1, 1, 9, 4.6)
-    draw_worst(grid[0, 0], histories)
+    _draw_worst(grid[0, 0], histories)
     grid[0, 0].set_xlabel(TIME)
     return plot.legend_above(figure, grid[0, 0], inches=3.4)
 
@@ -40,7 +40,7 @@ def _windows(steps: int) -> np.ndarray:
     return np.unique(np.linspace(0, steps, min(steps, MOST_WINDOWS), endpoint=False).astype(int))
 
 
-def draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
+def _draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
     """The worst part of every method, the worst step of each window."""
     for method, style in plot.distinct_styles(histories).items():
         times, unbalance = per_part(histories[method])

@@ -53,14 +53,14 @@ class Cell:
     def name(self) -> str:
         return f"{self.scene}-{self.points}-{self.ranks}" + f"-{self.every}" * (self.every != "auto")
 
-    def run(self, driver: Driver, methods: str) -> pd.DataFrame:
-        """One round."""
+    def run(self, driver: Driver, methods: str, number: int) -> pd.DataFrame:
+        """One round, whose turns have an order of their own."""
         folder = driver.out / self.name
         folder.mkdir(parents=True, exist_ok=True)
         scene = folder / f"{self.scene}.yaml"
         scene.write_text(sized(self.scene, self.points * self.ranks))
         words = [f"--scene={scene}", f"--steps={self.steps}", f"--every={self.every}", "--only=simulations",
-                 "--repeats=1", "--no-data"]  # fmt: skip
+                 "--repeats=1", f"--seed={number}", "--no-data"]  # fmt: skip
         driver.run(self.name, self.ranks, [methods], *words)
         rows = read_all(folder / "simulation_runs.csv")
         others = re.search(r"used by other processes: (\d+) %", (folder / "run.txt").read_text())
@@ -98,7 +98,7 @@ def measure(driver: Driver, chosen: list[Cell], methods: str, minutes: float, ot
             if time.monotonic() > end:
                 print("Out of time; go on with --resume", file=sys.stderr)
                 return
-            found = cell.run(driver, methods)
+            found = cell.run(driver, methods, number)
             if found["others_percent"].iloc[0] > others:
                 print("A busy machine: the round does not count", file=sys.stderr)
                 continue

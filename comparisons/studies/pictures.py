@@ -1,5 +1,5 @@
-"""The pictures of comparisons/run: points by part, boxes that points leave, and
-load unbalance over the steps. Their captions are the docstrings of what draws them."""
+"""The pictures of comparisons/run: points by part, ghosts, and load unbalance over
+the steps. Their captions are the docstrings of what draws them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from results import Results, cases
 
-BASE, METHOD = "zoltan-rcb", "rrcb"  # the second one's boxes points leave
+BASE, METHOD = "zoltan-rcb", "rrcb"
 
 
 def draw_all(results: Results) -> dict[str, str]:
@@ -67,34 +67,6 @@ def draw_part_boxes(axes: Axes, points: pd.DataFrame, boxes: pd.DataFrame, whole
     plot.show_lengths(axes)
 
 
-def draw_moving_boxes(results: Results) -> Figure | None:
-    """Points of a scene by the rank that holds them, with the boxes of the ranks: balanced at the
-    start, half of the simulation later still in these boxes, and after a call of rrcb."""
-    scenes = [name.removesuffix("-start") for name in results.table.get("workload", ())]
-    data = [
-        results.data(kind, f"{scene}-{moment}", METHOD)
-        for scene in scenes[:1]
-        for moment in ("start", "middle")
-        for kind in ("points", "boxes")
-    ]
-    if not data or any(rows.empty or "z" in rows for rows in data):
-        return None
-    start, old_boxes, later, new_boxes = data
-    panels = {
-        "start, after a call": (start, old_boxes),
-        "later, before a call": (later.assign(part=parts_in(later, old_boxes)), old_boxes),
-        "later, after a call": (later, new_boxes),
-    }
-    height = 3.8 * plot.length_ratio([start, later]) + 0.8
-    figure, grid = plot.panels(1, 3, 12, height, sharex=True, sharey=True)
-    for axes, (name, (points, boxes)) in zip(grid[0], panels.items()):
-        draw_part_boxes(axes, points, boxes, pd.concat([start, later]))
-        loads = np.bincount(points["part"], minlength=len(boxes))
-        fullest = loads.max() / loads.mean()
-        axes.set_title(f"{name}: fullest rank {fullest:.{2 if fullest > 1.1 else 4}f} × mean")
-    return figure
-
-
 def draw_ghosts(results: Results) -> Figure | None:
     """Points by part at the end of a scene, and in black those that are ghosts of another part, because
     one of its points is within twice the median distance to the nearest point."""
@@ -130,21 +102,6 @@ def are_near_others(points: pd.DataFrame) -> np.ndarray:
     ])  # fmt: skip
 
 
-def parts_in(points: pd.DataFrame, boxes: pd.DataFrame) -> np.ndarray:
-    """The part whose box contains each point; the outermost boxes have no end outwards."""
-    found = np.zeros(len(points), int)
-    ends = boxes.agg({f"{end}_{a}": {"lower": "min", "upper": "max"}[end]
-                      for end in ("lower", "upper") for a in "xy"})  # fmt: skip
-    for _, box in boxes.iterrows():
-        inside = np.ones(len(points), bool)
-        for a in "xy":
-            lower, upper = box[f"lower_{a}"], box[f"upper_{a}"]
-            inside &= (points[a] >= lower) | (lower <= ends[f"lower_{a}"])
-            inside &= (points[a] < upper) | (upper >= ends[f"upper_{a}"])
-        found[inside] = int(box["part"])
-    return found
-
-
 def draw_unbalance(results: Results) -> Figure | None:
     """The largest load unbalance of a part over the steps of the simulation, the worst of each window
     of steps. Without learned costs, which even the time and not the points."""
@@ -168,7 +125,6 @@ def draw_rank_times(results: Results) -> Figure | None:
 PICTURES = {
     "parts.png": draw_parts,
     "ghosts.png": draw_ghosts,
-    "moving_boxes.png": draw_moving_boxes,
     "unbalance_history.png": draw_unbalance,
     "rank_times.png": draw_rank_times,
 }

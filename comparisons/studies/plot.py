@@ -149,8 +149,8 @@ def _label_plainly(axis: Axis) -> None:
 
 
 def _plain_number(value: float, _: int) -> str:
-    """Without powers of ten: 0.001, 1,000,000, 10 M."""
-    if value >= 1e7:
+    """Without powers of ten: 0.001, 100,000, 1 M."""
+    if value >= 1e6:
         return f"{value / 1e9:g} G" if value >= 1e9 else f"{value / 1e6:g} M"
     return f"{value:,.0f}" if value >= 1 and value == round(value) else f"{value:.12f}".rstrip("0")
 

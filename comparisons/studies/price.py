@@ -16,7 +16,7 @@ import pandas as pd
 import plot
 from document import CORES, Report, show
 from driver import COMPARE, OUT, Driver, build, has_multijagged
-from intervals import ONE, Value, in_digits, mean_of
+from intervals import ONE, Value, in_digits, mean_of, median_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from results import measurements, read
@@ -37,15 +37,20 @@ RIVALS = {
     "zoltan2-mj": "multijagged",
 }  # fmt: skip
 MESHES = (2, 4, 8, 16, 32)
-LOOKS = {"bytes": "bytes / Zoltan's RCB", "excess_percent": "imbalance left [%]"}
+MOST_A_CORE = 8  # ranks that are timed; of more the waits are those of the machine
+LOOKS = {
+    "time": "time / Zoltan's RCB", "rounds": "rounds of counting", "bytes": "bytes / Zoltan's RCB",
+    "excess_percent": "imbalance left [%]",
+}  # fmt: skip
 
 
 def measure(driver: Driver, parts: list[int], points: int, repeats: int) -> None:
     methods = [*TOLERANCES.values(), *RIVALS]
     if not has_multijagged(driver.program):
         methods.remove("zoltan2-mj")
-    words = ["--no-data", f"--repeats={repeats}", f"--points={points}"]
     for number in parts:
+        turns = repeats if number <= MOST_A_CORE * CORES else 1
+        words = ["--no-data", f"--repeats={turns}", f"--points={points}"]
         meshes = [f"rrcb[mesh={mesh}]" for mesh in MESHES] * (number == parts[0])
         for cloud in list(CLOUDS)[:: len(CLOUDS) if driver.quick else 1]:
             for dimension in (2, 3):
@@ -75,10 +80,10 @@ def _ratio(turns: pd.DataFrame, method: str, reference: str) -> Value:
 
 
 def noise_of(out: Path) -> Value:
-    """Zoltan's RCB over itself, of all turns: an A/A test, whose interval must contain 1."""
-    turns = pd.concat([read(path).assign(turn=lambda of, path=path: path.parent.name + of["turn"].astype(str))
-                       for path in out.glob("*/call_times.csv")])  # fmt: skip
-    return _ratio(turns, ZOLTAN + AGAIN, ZOLTAN)
+    """Zoltan's RCB over itself: an A/A test, whose interval must contain 1. A run counts once, because its
+    turns share the places of both arms in memory."""
+    runs = [read(path) for path in sorted(out.glob("*/call_times.csv"))]
+    return median_of(_ratio(turns, ZOLTAN + AGAIN, ZOLTAN).number for turns in runs if turns["turn"].max() > 1)
 
 
 def break_even(row: pd.Series, exact: pd.Series, step_ns: float) -> float:
@@ -136,15 +141,19 @@ def draw(rows: pd.DataFrame) -> Figure:
     """The price of accuracy: a call of RRCB by the tolerance asked for, a line for each cloud (2-D solid, 3-D
     dashed) and a column for each number of parts. Grey: other methods, geometric means over the clouds."""
     parts = sorted(rows["ranks"].unique())
-    first = "time / Zoltan's RCB" if rows["is_timed"].any() else "rounds of counting"
-    figure, grid = plot.panels(3, len(parts), 3.6 * len(parts) + 0.6, 7.5, sharex=True, sharey="row")
+    names = [name for name in LOOKS if name != "time" or rows["is_timed"].any()]
+    figure, grid = plot.panels(len(names), len(parts), 3.6 * len(parts) + 0.6, 2.2 * len(names) + 0.9,
+                               sharex=True, sharey="row")  # fmt: skip
     for column, number in enumerate(parts):
         here = rows[rows["ranks"] == number]
-        for axes, name in zip(grid[:, column], ("time" if "time" in first else "rounds", *LOOKS)):
-            _draw_panel(axes, here, name)
+        for axes, name in zip(grid[:, column], names):
+            if name == "time" and not here["is_timed"].all():
+                axes.text(0.5, 0.5, "too many ranks a core\nto be timed", ha="center", transform=axes.transAxes)
+            else:
+                _draw_panel(axes, here, name)
         grid[0, column].set_title(f"{number} parts")
-    for axes, label in zip(grid[:, 0], (first, *LOOKS.values())):
-        axes.set_ylabel(label)
+    for axes, name in zip(grid[:, 0], names):
+        axes.set_ylabel(LOOKS[name])
     for axes in grid[-1]:
         axes.set_xticks(range(len(TOLERANCES)), TOLERANCES, rotation=60)
         axes.set_xlabel("tolerance asked for")
@@ -158,17 +167,25 @@ def _draw_panel(axes: Axes, rows: pd.DataFrame, name: str) -> None:
                 "label": cloud if dimension == 2 else None}  # fmt: skip
         numbers, lows, highs = zip(*((v.number, *v.reach) for v in values))
         plot.draw_line(axes, range(len(values)), numbers, lows, highs, **look)
-    labels: dict[int, list[str]] = {}  # of levels that are too near for a line of text each
-    for method in RIVALS if name != "rounds" else ():
-        values = [_value(row, name).number for _, row in rows[rows["method"] == method].iterrows()]
-        if values:
-            level = float(np.mean(np.log10(values)))
-            axes.axhline(10**level, color="#999999", linewidth=0.8, zorder=0)
-            labels.setdefault(round(10 * level), []).append(RIVALS[method])
-    for level, names in labels.items():
-        axes.text(0, 10 ** (level / 10), ", ".join(names), fontsize=7, color="#666666", va="bottom")
-    axes.set_yscale("log" if name != "rounds" else "linear")
+    if name != "rounds":
+        _draw_rivals(axes, rows, name)
+        axes.set_yscale("log")
     axes.grid(True, axis="y")
+
+
+def _draw_rivals(axes: Axes, rows: pd.DataFrame, name: str) -> None:
+    """A level for each; levels that are too near for a line of text each share one."""
+    levels = {}
+    for method, of in rows[rows["method"].isin(RIVALS)].groupby("method"):
+        levels[RIVALS[method]] = float(np.mean([np.log10(_value(row, name).number) for _, row in of.iterrows()]))
+    labels: list[tuple[float, list[str]]] = []
+    for rival, level in sorted(levels.items(), key=lambda item: item[1]):
+        axes.axhline(10**level, color="#999999", linewidth=0.8, zorder=0)
+        if not labels or level - labels[-1][0] > 0.25:
+            labels.append((level, []))
+        labels[-1][1].append(rival)
+    for level, names in labels:
+        axes.text(0, 10**level, ", ".join(names), fontsize=7, color="#666666", va="bottom")
 
 
 def _value(row: pd.Series, name: str) -> Value:
@@ -199,7 +216,7 @@ def draw_meshes(rows: pd.DataFrame) -> Figure:
 def report(out: Path, step_ns: float) -> None:
     rows = rows_of(out)
     timed, parts = bool(rows["is_timed"].any()), sorted(rows["ranks"].unique())
-    most = max(rows.loc[rows["is_timed"] == timed, "ranks"].min(), min(16, parts[-1]))
+    most = max(number for number in parts if number <= max(16, parts[0]))
     counts = rows[["cloud", "dim", "ranks", "method", "imbalance", "rounds", "bytes", "ghosts"]]
     counts.to_csv(out / "price.csv", index=False, float_format="%.9g")
     plot.use_style()
@@ -216,7 +233,10 @@ def report(out: Path, step_ns: float) -> None:
         show(caption, table)
     if timed:
         again = noise_of(out)
-        verdict = "told apart from itself: do not believe the times" if again.is_apart(ONE) else "not told apart"
+        verdict = (
+            "too few runs to tell" if not again.has_interval else "not told apart" if not again.is_apart(ONE)
+            else "told apart from itself: do not believe the times"
+        )  # fmt: skip
         text = f"A/A: Zoltan's RCB over itself {again.text(3)}, {verdict}. A step takes {step_ns:g} ns a point."
         found.text(text)
         print(f"\n{text}")
@@ -227,9 +247,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="comparisons/run --price", description=__doc__,
                                      formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
     parser.add_argument("--out", type=Path, default=OUT / "price", help="folder of the results; comparisons/out/price")
-    parser.add_argument("--parts", default="4,16", help="numbers of parts, one a rank; 4,16")
+    parser.add_argument("--parts", default="4,16,64", help="numbers of parts, one a rank; 4,16,64")
     parser.add_argument("--points", type=int, default=100_000, help="of each cloud; 100000")
-    parser.add_argument("--repeats", type=int, default=7, help="turns; 7. With 1 counts alone, no times")
+    parser.add_argument("--repeats", type=int, default=6,
+                        help=f"turns, best an even number; 6. With 1, and beyond {MOST_A_CORE} ranks a core, counts"
+                        " alone, no times")
     parser.add_argument("--step-ns", type=float, default=25,
                         help="of your program for a point, for the steps from which exact cuts pay; 25")  # fmt: skip
     parser.add_argument("--keep", action="store_true", help="report what is in the folder")

@@ -184,11 +184,11 @@ def _imbalance(rows: object) -> str:
 def _call(rows: pd.DataFrame) -> str:
     if not (pairs := _pairs(rows, "rrcb", ZOLTAN)):
         return ""
-    share = mean_of(value_of(ours, "time_vs_zoltan_rcb") for ours, _ in pairs)
+    speed_up = ONE / mean_of(value_of(ours, "time_vs_zoltan_rcb") for ours, _ in pairs)
     over = f" (geometric means over {len(pairs)} workloads)" * (len(pairs) > 1)
     return (
-        f"A call of rrcb left an imbalance of {_imbalance(ours for ours, _ in pairs)} and took"
-        f" {share.text(3)} of the time of Zoltan's RCB{_doubt(share)}, which left"
+        f"A call of rrcb left an imbalance of {_imbalance(ours for ours, _ in pairs)} and had a speed-up of"
+        f" {speed_up.text(2)} over {ZOLTAN}{_doubt(speed_up)}, which left"
         f" {_imbalance(zoltan for _, zoltan in pairs)}{over}."
     )
 
@@ -207,15 +207,15 @@ def _exactness(rows: pd.DataFrame, turns: pd.DataFrame, method: str, exact: str)
 
 def _gain(rounds: pd.DataFrame) -> str:
     gain, zoltan = (
-        paired(rounds, rounds["critical_path_s"], "rrcb", other) if len(rounds) else None
+        paired(rounds, rounds["critical_path_s"], other, "rrcb") if len(rounds) else None
         for other in ("none", ZOLTAN)
     )
     if not gain:
         return ""
-    text = f"With a core for every rank the simulation under rrcb took {gain.text(3)} of the time"
-    text += f" without rebalancing{_doubt(gain)}"
+    text = f"With a core for every rank the simulation under rrcb had a speed-up of {gain.text(2)} over none"
+    text += _doubt(gain)
     if zoltan:
-        text += f" and {zoltan.text(3)} of that under Zoltan's RCB{_doubt(zoltan)}"
+        text += f" and of {zoltan.text(3)} over {ZOLTAN}{_doubt(zoltan)}"
     return f"{text}; medians of {gain.count} pairs."
 
 
@@ -276,6 +276,9 @@ def paid_table(rounds: pd.DataFrame) -> pd.DataFrame:
         "uneven time %": uneven_work(rounds) - 1,
         "rebalances, of all %": balancing(rounds) / total,
         "deciding, of all %": (rounds["decide_path_s"] + rounds["decide_network_s"]) / total,
+    } | {
+        f"{name} of rank 0, of all %": rounds[f"{phase}_root_s"] / total
+        for phase, name in (("step", "steps"), ("balance", "rebalances"), ("decide", "deciding"))
     }
     methods = list(dict.fromkeys(rounds["method"]))
     texts = {name: [of_method(rounds, 100 * values, m).text(2) for m in methods] for name, values in columns.items()}

@@ -25,6 +25,7 @@ from simulation import limit_of
 
 RANKS = (2, 3, 4, 8, 16, 32, 64)
 MOST_RANKS = 1 << 20
+RANK_TICKS = [1 << power for power in (4, 8, 12, 16, 20)]
 COUNTED_POINTS = 5000  # a rank, of the counted calls
 CENTRAL_PARTS = 4096  # as many as rank 0 makes alone
 FIXED_PER_LEVEL = 14  # collectives of a level of Zoltan's RCB besides the search for its median
@@ -59,7 +60,7 @@ def count(driver: Driver, points: int) -> None:
     for ranks in RANKS[:4] if driver.quick else RANKS:
         driver.run(f"ranks-{ranks}", ranks, methods, *layout, "--repeats=1",
                    f"--points={COUNTED_POINTS * ranks}")  # fmt: skip
-    driver.run("clock-2", 2, methods, *layout, "--repeats=7", f"--points={2 * points}")
+    driver.run("clock-2", 2, methods, *layout, "--repeats=6", f"--points={2 * points}")
 
 
 def search_virtually(driver: Driver) -> None:
@@ -172,22 +173,27 @@ def all_paths(counts: dict[str, pd.DataFrame], machine: Machine, virtual: pd.Dat
 
 
 def draw(paths: pd.DataFrame) -> plot.Figure:
-    panels = {"model_s": "modelled time of a call [s]", "messages": "sequential messages",
+    panels = {"model_s": "modelled time of a call [ms]", "messages": "sequential messages",
               "bytes_into_root": "bytes received by rank 0"}  # fmt: skip
-    figure, grid = plot.panels(1, len(panels), 12.3, 4)
-    look = {"color": "#BBBBBB", "linewidth": 0.8, "label": "RRCB: rank 0 to the left, many ranks to the right"}
-    for axes, (column, label) in zip(grid[0], panels.items()):
+    figure, grid = plot.panels(2, 2, 7.5, 5.8)
+    for axes, (column, label) in zip(grid.flat, panels.items()):
+        unit = 1e3 if column == "model_s" else 1
         for name, rows in paths.groupby("method", sort=False):
             style = plot.method_style(name)
-            axes.plot(rows["ranks"], rows[column], color=style.colour, linestyle=style.line, label=name)
+            axes.plot(rows["ranks"], unit * rows[column], color=style.colour, linestyle=style.line, label=name)
         axes.axvspan(2, RANKS[-1], color="#EEEEEE", zorder=0, label="counted here")
-        axes.axvline(CENTRAL_PARTS, **look)
+        axes.axvline(CENTRAL_PARTS, color="#BBBBBB", linewidth=0.8,
+                     label="RRCB: rank 0 to the left,\nmany ranks to the right")  # fmt: skip
         axes.set_xscale("log", base=16)
         axes.set_yscale("log")
+        axes.set_xticks(RANK_TICKS, [f"{ranks:,}" for ranks in RANK_TICKS])
+        axes.minorticks_off()
         axes.set_title(label)
+        axes.set_xlabel("ranks")
         axes.grid(True)
-    plot.label_edges(grid, "ranks", "")
-    return plot.legend_above(figure, grid[0, 0], inches=2.1)
+    grid[1, 1].axis("off")
+    grid[1, 1].legend(*grid[0, 0].get_legend_handles_labels(), loc="center left", fontsize=10)
+    return figure
 
 
 def fit_errors(counts: dict[str, pd.DataFrame]) -> pd.DataFrame:

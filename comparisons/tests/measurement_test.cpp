@@ -70,26 +70,6 @@ TEST_F(MeasurementTest, all_lists_tell_the_same_parts) {
     }
 }
 
-TEST_F(MeasurementTest, of_a_drifting_cloud_tells_what_the_last_move_changes) {
-    const std::vector<Method> methods = read_methods("zoltan-rcb,rrcb[tol=1.1,reuse]");
-    Progress progress(false);
-    const MeasurementPlan plan{Lists::parts, 3, 0.01, 5};
-    const auto results = measure(workload_, methods, plan, progress, MPI_COMM_WORLD);
-    const auto again = measure(workload_, methods, plan, progress, MPI_COMM_WORLD);
-    for (std::size_t m = 0; m < results.size(); ++m) {
-        EXPECT_EQ(results[m].error, "");
-        EXPECT_LE(results[m].imbalances[0], 1.1);
-        // A quarter of a square of which each side moves by a hundredth.
-        EXPECT_LE(results[m].moved_fraction, 0.1);
-        // Two parts may both move along their cut.
-        if (num_ranks_ != 2) {
-            EXPECT_EQ(results[m].moved_fraction > 0, num_ranks_ > 2);
-        }
-        EXPECT_EQ(results[m].moved_fraction, again[m].moved_fraction);
-    }
-    EXPECT_EQ(results[0].imbalances[0], 1) << "of the points where they are";
-}
-
 TEST_F(MeasurementTest, on_arrays_makes_the_parts_of_the_library) {
     const Method method = read_method("rrcb-arrays[mesh=2,tol=1.05]");
     const rrcb::Balance expected = balance(*method.options, workload_.points(), MPI_COMM_WORLD);

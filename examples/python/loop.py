@@ -92,7 +92,7 @@ with controller, model:
     for step in range(int(first), num_steps):
         if cuts is None or controller.due:
             balance = rrcb.balance(x, weights=model.weights(columns), comm=comm, previous=cuts)
-            controller.rebalanced(balance, COST)
+            controller.rebalanced(balance.report, COST)
             rebalances += 1
             cuts = balance.cuts
         else:

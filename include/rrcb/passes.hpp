@@ -115,8 +115,11 @@ class RRCB_API PointPasses {
     /// Returns the moments of the cells of a mesh, as cell_moments(). All points are in its box.
     virtual std::vector<CellMoments> moments(const SupportMesh& mesh) = 0;
 
-    /// Gives each point its part by whole cuts, see is_above(); returns the totals of the parts if
-    /// `counts`, else none. Throws Error for the first coordinate that is NaN or infinite.
+    /// Gives each point its part, see is_above().
+    ///
+    /// @param cuts   whole
+    /// @param counts whether the totals of the parts are returned
+    /// Throws Error for the first coordinate that is NaN or infinite.
     virtual PartTotals assign(const Cuts& cuts, bool counts) = 0;
 
     /// Collects the points that some place of the cuts in their intervals, lower <= cut <= upper,
@@ -126,14 +129,16 @@ class RRCB_API PointPasses {
     ///
     /// @param cuts      whole
     /// @param intervals one per cut
-    /// @param has_parts the points have the parts by these cuts, all of them
+    /// @param has_parts the points have the parts by these cuts; those at a cut that divides
+    /// may be on either side
     /// @param collected whose memory is reused
     virtual void collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
                          Collected& collected) = 0;
 
-    /// Collects settled points in the intervals of these nodes, which have no part in common, at
-    /// the end of `collected`; takes them from the totals, and gives them no_part.
+    /// Collects settled points in other intervals, and gives them no_part.
     ///
+    /// @param wanted    nodes that have no part in common
+    /// @param collected to which they are added, and from whose totals they are taken
     /// @return the wanted node of each new point
     virtual std::vector<std::size_t> collect_more(std::span<const Wanted> wanted,
                                                   Collected& collected) = 0;
@@ -141,7 +146,10 @@ class RRCB_API PointPasses {
     /// Returns the box of the points of each part, but for those with no_part.
     virtual std::vector<Box> boxes(int num_parts) = 0;
 
-    /// Gives the collected points their parts, one for each.
+    /// Gives the collected points their parts.
+    ///
+    /// @param collected points
+    /// @param parts     one for each
     virtual void settle(const Collected& collected, std::span<const Part> parts) = 0;
 
     /// Replaces each part p by `numbers[p]`; by the only number, if there is one, whatever it was.

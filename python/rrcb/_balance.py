@@ -160,18 +160,14 @@ class Balance(Distribution):
     @cached_property
     def report(self) -> Report:
         """Measured imbalance, and more."""
+        shown = c.Report()
+        c.call("get_report", self._own, shown)
         values = {
             field.name: bool(value) if str(field.type) == "bool" else value
             for field in dataclasses.fields(Report)
-            for value in [getattr(self._report, field.name)]
+            for value in [getattr(shown, field.name)]
         }
         return Report(**values)
-
-    @cached_property
-    def _report(self) -> c.Report:
-        shown = c.Report()
-        c.call("get_report", self._own, shown)
-        return shown
 
 
 def balance(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 import operator
 import weakref
 from typing import Any, TypeVar
@@ -13,7 +14,7 @@ from mpi4py import MPI
 from . import _library as c
 from ._agreement import communicator, prepare
 from ._arrays import Array, numbers_in
-from ._balance import Balance
+from ._balance import Report
 
 
 Self = TypeVar("Self", bound="Owner")
@@ -117,12 +118,16 @@ class Controller(Owner):
             c.call("controller_step_weight", self._own, number(load), number(weight), due)
         return bool(due.value)
 
-    def rebalanced(self, balance: Balance | None, cost: float) -> None:
-        """Records a rebalance and its cost on this rank, in the unit of the loads. On all ranks."""
-        report = balance._report if isinstance(balance, Balance) else None
-        if report is None and balance is not None:
+    def rebalanced(self, report: Report | None, cost: float) -> None:
+        """Records a rebalance and its cost on this rank, in the unit of the loads. On all ranks.
+
+        `report` is that of the balance, None after another balancer.
+        """
+        is_report = isinstance(report, Report)
+        if report is not None and not is_report:
             cost = float("nan")
-        c.call("controller_rebalanced", self._own, report, number(cost))
+        given = c.Report(**dataclasses.asdict(report)) if is_report else None
+        c.call("controller_rebalanced", self._own, given, number(cost))
 
 
 def address_of(controller: Controller | None) -> Any:

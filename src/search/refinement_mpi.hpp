@@ -51,9 +51,9 @@ struct Estimate {
     std::vector<Bracket> brackets;  ///< one per cut
     double total_weight = 0;        ///< over all ranks
     double common_weight = 0;       ///< weight of each point if all weigh the same, else 0
-    /// Imbalance of the parts that may stay instead; infinite if there are none.
+    /// Imbalance of the current distribution, if that may be kept instead; else infinite.
     double kept_imbalance = std::numeric_limits<double>::infinity();
-    bool is_counted = false;     ///< `parts` and the sums are those of the cuts, not good enough
+    bool is_counted = false;     ///< points and PartSums have the parts of the cuts
     double heaviest = 0;         ///< weight of the heaviest point
     bool is_earlier = false;     ///< the cuts are those of an earlier call
     Box box{};                   ///< of all points, if cuts are limited
@@ -66,7 +66,7 @@ struct Refined {
     Cuts cuts;
     double imbalance = 1;
     int rounds = 0;           ///< of counting and deciding
-    int coincident_cuts = 0;  ///< cuts that keep points together although the target divides them
+    int coincident_cuts = 0;  ///< through coincident points, which share a part all the same
 };
 
 /// Moves estimated cuts until all parts are as even as requested; rank 0 decides.

@@ -14,15 +14,15 @@
 
 namespace rrcb {
 
-/// Range across the axis of a cut in which the cut is corrected: lower <= cut <= upper. A single
-/// value if the cut is kept.
+/// Interval along the axis of a cut within which the cut is corrected: lower <= cut <= upper. The
+/// ends are equal if the cut is kept.
 struct Slab {
     static constexpr std::size_t stays = ~std::size_t{0};
 
     double lower = 0;
     double upper = 0;
-    std::size_t number = stays;   ///< among those of cuts that move, in preorder
-    std::size_t first_count = 0;  ///< of the counts in bins of all slabs, see bin_in
+    std::size_t number = stays;   ///< position in the list of all cuts that move, in preorder
+    std::size_t first_count = 0;  ///< position in the counts of all slabs, see bin_in
 
     bool moves() const { return number != stays; }
 };
@@ -64,9 +64,11 @@ inline int bin_of(const Slab& slab, double cut, bool above, double position) {
 /// Returns the place of a cut that has passed this share (0 ... 1) of a bin.
 double place_in_bin(const Slab& slab, double cut, bool above, int bin, double share);
 
-/// Returns the counts in a bin, one for each part of the node of its cut. For parts on the side of
-/// the bin: the weight they have in it. For parts on the other side: the weight they would get from
-/// it.
+/// Returns the counts of a bin: one weight for each part below the cut, by which the part changes
+/// if the cut passes the bin.
+///
+/// The parts on the bin's side of the cut lose the weight of their points in the bin. Those on the
+/// other side gain it: each gets the points that cuts further down would assign to it.
 template <class Count>
 std::span<Count> bin_in(std::span<Count> counts, const Descent& at, const Slab& slab, bool above,
                         int bin) {

@@ -124,10 +124,10 @@ class TreeSearch {
     static constexpr double mark_of_parts = 3;
     static constexpr double mark_of_gap = 4;
 
-    /// Question of a round about a node.
+    /// Quantity that a round finds for a node.
     enum class Question {
-        cut,    ///< the place of the cut, or the weight of a part
-        lot,    ///< the weight of each rank at the known cut
+        cut,  ///< the position of its cut or, if the node is a part, its weight
+        lot,  ///< for each rank the weight of its coincident points at the cut, which divides them
         parts,  ///< the weights of the parts below by the current cuts
     };
 
@@ -144,11 +144,12 @@ class TreeSearch {
 
     /// Points and weight of a node.
     struct Content {
-        Entries entries;
-        Box box;                 ///< spread: holds its points on all ranks; central: see CutLimits
+        Entries entries;         ///< points of this rank
+        Box box;                 ///< spread: contains the points of all ranks; central: region
+                                 ///< that limits of the cuts leave, see CutLimits
         double weight = 0;       ///< over all ranks
         bool is_counted = true;  ///< false if the weight is wrong by up to a point
-        bool are_parts_counted = false;  ///< the guide's sums hold its parts' weights
+        bool are_parts_counted = false;  ///< the guide's sums contain its parts' weights
         int depth = 0;                   ///< number of cuts above
     };
 

@@ -50,10 +50,11 @@ def measure(call):
 
 
 sides = [in_cpp(), in_python()]
-# [turn, side, call, quantity]; the first turns are not counted.
-found = np.array(
-    [[[measure(call) for call in calls] for calls in sides] for _ in range(TURNS + 3)]
-)[3:]
+# [turn, side, call, quantity]; the first turns are not counted. Each side is first in every other turn.
+found = np.array([
+    [[measure(call) for call in calls] for calls in sides[:: 1 - 2 * (turn % 2)]][:: 1 - 2 * (turn % 2)]
+    for turn in range(TURNS + 3)
+])[3:]
 if comm.rank == 0:
     for k, name in enumerate(("balance", "distribute")):
         (cpp, cpp_pages), (python, pages) = np.median(found[:, :, k], axis=0)

@@ -271,7 +271,7 @@ def test_refuses_a_freed_communicator():
 
 def test_raises_errors_of_a_controller_on_all():
     last, balance = RANKS - 1, rrcb.balance(cloud(2), comm=comm)
-    for given, cost in ((on_rank(last, 3, balance), 1.0), (None, on_rank(last, "text", 1.0))):
+    for given, cost in ((on_rank(last, 3, balance.report), 1.0), (None, on_rank(last, "text", 1.0))):
         with rrcb.Controller(comm) as controller:
             controller.rebalanced(given, cost)
             same_error(lambda: [controller.step(1.0) for _ in range(3)], "")

@@ -507,7 +507,7 @@ def test_controls_a_loop():
             if due[-1]:
                 controller.rebalanced(None, 0.01)
         assert any(due) == (RANKS > 1) and all(d == due for d in comm.allgather(due))
-        controller.rebalanced(rrcb.balance(cloud(2), comm=comm), 0.1)
+        controller.rebalanced(rrcb.balance(cloud(2), comm=comm).report, 0.1)
         assert not controller.step(1.0, 100)
     broken = rrcb.Controller(comm)
     broken.step(on_rank(0, "text", 1.0))

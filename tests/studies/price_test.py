@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -11,6 +12,8 @@ from support import measured
 import pandas as pd
 import price
 
+ROOT = Path(__file__).resolve().parents[2]
+
 # Of 1000 points on 4 ranks, sent by Zoltan's RCB 8 ms.
 METHODS = {  # time, imbalance, bytes, rounds
     "zoltan-rcb": (8, 1, 1000, None), "rrcb[refine=none]": (1, 1.2, 90, 0), "rrcb[tol=1.1]": (2, 1.05, 100, 1),
@@ -18,22 +21,24 @@ METHODS = {  # time, imbalance, bytes, rounds
 }  # fmt: skip
 
 
-def folder_of(out: Path, cloud: str, repeats: int) -> None:
+def folder_of(out: Path, cloud: str, repeats: int, ranks: int = 4, again: float = 1) -> None:
+    """Calls of all methods on a cloud, and of Zoltan's RCB again in `again` times its time."""
     rows = [
-        measured(method, time, imbalance, bytes=sent, rounds=rounds, workload=cloud, repeats=repeats)
+        measured(method, time, imbalance, bytes=sent, rounds=rounds, workload=cloud, repeats=repeats, ranks=ranks)
         for method, (time, imbalance, sent, rounds) in METHODS.items()
     ]
     rows += [rows[2] | {"method": price.TOLERANCES[name]} for name in ("1.05", "1.02")]
     rows += [rows[5] | {"method": price.TOLERANCES[name]} for name in ("1.001", "1.0003")]
     rows += [rows[4] | {"method": f"rrcb[mesh={mesh}]", "bytes": 100 * mesh} for mesh in price.MESHES]
-    (out / cloud).mkdir()
-    pd.DataFrame(rows).to_csv(out / cloud / "table.csv", index=False)
-    again = rows[0] | {"method": "zoltan-rcb again"}
+    folder = out / f"{cloud}-{ranks}"
+    folder.mkdir()
+    pd.DataFrame(rows).to_csv(folder / "table.csv", index=False)
+    second = rows[0] | {"method": "zoltan-rcb again", "time_ms_median": 8 * again}
     turns = [
         {"method": row["method"], "workload": cloud, "turn": turn, "time_ms": row["time_ms_median"] * (1 + turn)}
-        for row in [*rows, again] for turn in range(repeats)
+        for row in [*rows, second] for turn in range(repeats)
     ]  # fmt: skip
-    pd.DataFrame(turns).to_csv(out / cloud / "call_times.csv", index=False)
+    pd.DataFrame(turns).to_csv(folder / "call_times.csv", index=False)
 
 
 class PriceTest(unittest.TestCase):
@@ -52,7 +57,23 @@ class PriceTest(unittest.TestCase):
         found = rows[rows["method"] == "rrcb"].iloc[0]
         self.assertEqual(found["time"].reach, (0.25, 0.25))  # however the turns slow down
         self.assertEqual(found["bytes_over_zoltan"], 0.1)
-        self.assertFalse(price.noise_of(self.out).is_apart(price.ONE))
+
+    def test_turns_of_a_run_are_one_value_of_the_noise(self) -> None:
+        for number, again in enumerate((0.97, 0.97, 0.97, 0.97, 0.97, 1.01)):
+            folder_of(self.out, f"cloud{number}", 6, again=again)
+        found = price.noise_of(self.out)
+        self.assertEqual(found.reach, (0.97, 1.01))  # of 36 turns it would be told apart from itself
+        self.assertFalse(found.is_apart(price.ONE))
+
+    def test_many_ranks_a_core_are_counted_and_not_timed(self) -> None:
+        self.rows(6)
+        for cloud in ("slope", "shell"):
+            folder_of(self.out, cloud, 1, ranks=64)
+        rows = price.rows_of(self.out)
+        self.assertNotIn("time / exact", price.table_of(rows, 64, 25))
+        texts = [[text.get_text() for text in axes.texts] for axes in price.draw(rows).axes]
+        self.assertEqual([i for i, found in enumerate(texts) if "too many ranks a core\nto be timed" in found], [1])
+        self.assertTrue(pd.isna(price.noise_of(self.out).low))  # of two runs
 
     def test_exact_cuts_pay_from_what_they_cost_over_what_they_save(self) -> None:
         rows = self.rows(6).set_index("method")
@@ -74,6 +95,24 @@ class PriceTest(unittest.TestCase):
         found = price.choice_table(rows, 4).iloc[0]
         self.assertEqual(found["costs no more than 1.1"], "1.003")
         self.assertEqual(found["bytes of exact / of 1.01"], "2")
+
+
+class DocumentTest(unittest.TestCase):
+    def test_choosing_has_the_counts_of_price_csv(self) -> None:
+        counts = pd.read_csv(ROOT / "comparisons/price.csv").set_index(["cloud", "dim", "ranks"])
+        exact = counts[counts["method"] == price.EXACT]
+        text = (ROOT / "docs/choosing.md").read_text()
+        methods = {name: price.TOLERANCES[name] for name in ("1.1", "1.01", "1.001", "exact")}
+        for name, method in (methods | {"Zoltan's RCB": price.ZOLTAN}).items():
+            (row,) = re.findall(rf"^\| {re.escape(name)} \|([^|]*)\|([^|]*)\|([^|]*)\|", text, re.M)
+            of = counts[counts["method"] == method].xs(16, level="ranks")
+            ratios = of["bytes"] / exact["bytes"].xs(16, level="ranks")
+            for cell, values in zip(row, (100 * (of["imbalance"] - 1), of["rounds"], ratios)):
+                for written, value in zip(cell.strip().split(", ") if cell.strip() else [], (values.median(), values.max())):
+                    digits = len(written.partition(".")[2])
+                    self.assertEqual(f"{value:.{digits}f}", written, (name, cell))
+        of = counts[counts["method"] == "rrcb"].xs(64, level="ranks")["bytes"] / exact["bytes"].xs(64, level="ranks")
+        self.assertIn(f"1.01 sends {of.median():.2f} of exact's bytes, at worst {of.max():.1f}.", text)
 
 
 if __name__ == "__main__":

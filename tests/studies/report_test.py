@@ -15,7 +15,6 @@ import numpy as np
 import pandas as pd
 import pictures
 import report
-import scenes
 from results import Results
 
 # Noise slows a whole round down by up to five times, and no ratio by more than 2 %.
@@ -38,14 +37,6 @@ ROWS = [
     measured("rrcb-exact", 4, 1, bytes=10),
     measured("rrcb-arrays", 7.6, 1.01, spread=0.1),
 ]
-BOXES = {
-    "start": "part,lower_x,lower_y,upper_x,upper_y\n0,0,0,1,2\n1,1,0,2,2\n",
-    "middle": "part,lower_x,lower_y,upper_x,upper_y\n0,0,0,4,2\n1,4,0,8,2\n",
-}
-POINTS = {
-    "start": "x,y,part\n0,0,0\n0,1,0\n1,1,1\n2,2,1\n",
-    "middle": "x,y,part\n2,0,0\n3,1,0\n4,1,1\n8,2,1\n",
-}
 
 
 class FolderTest(unittest.TestCase):
@@ -77,11 +68,11 @@ class OptionTest(unittest.TestCase):
 class SentenceTest(FolderTest):
     def test_tell_costs_gains_and_when_they_matter(self) -> None:
         call, gain, matter = report.sentences(self.results(ROWS, ROUNDS))
-        self.assertIn("left an imbalance of 1.01000 and took 0.250 [0.200, 0.300] of the", call)
+        self.assertIn("left an imbalance of 1.01000 and had a speed-up of 4.00 [3.33, 5.00] over", call)
         self.assertIn("rrcb-exact took 2.00 times as long as rrcb and sent 2 times its bytes", call)
         self.assertNotIn("time of rrcb-arrays", call)  # whose exact setting is not there
-        self.assertIn("took 0.500 of the time without rebalancing", gain)
-        self.assertIn("1.000 [0.990, 1.010] of that under Zoltan's RCB (not told apart); medians of 6", gain)
+        self.assertIn("had a speed-up of 2.00 over none", gain)
+        self.assertIn("of 1.000 [0.990, 1.010] over zoltan-rcb (not told apart); medians of 6", gain)
         # A step takes 100 ms; r = 3: 200 (1 - 1 / sqrt 3) 300 / 100.
         self.assertIn("100 ms, 1 steps, under rrcb and 300 ms, 3 steps, under Zoltan's RCB", matter)
         self.assertIn("a rebalance pays every 254 steps or more often", matter)
@@ -89,7 +80,7 @@ class SentenceTest(FolderTest):
     def test_say_that_methods_are_not_told_apart(self) -> None:
         rows = [measured("zoltan-rcb", 8, 1), measured("rrcb", 6, 1, spread=0.5)]
         call, _ = report.sentences(self.results(rows))
-        self.assertIn("0.750 [0.375, 1.125] of the time of Zoltan's RCB (not told apart), which", call)
+        self.assertIn("1.33 [0.89, 2.67] over zoltan-rcb (not told apart), which", call)
 
     def test_name_what_failed(self) -> None:
         self.assertEqual(report.failures(self.results(ROWS)), [])
@@ -117,6 +108,12 @@ class SentenceTest(FolderTest):
         self.assertEqual(paid.loc["none", ["uneven points %", "uneven time %"]].tolist(), ["60.00", "58.00"])
         self.assertEqual(paid.loc["rrcb", ["uneven points %", "uneven time %"]].tolist(), ["0.00", "10.00"])
 
+    def test_a_step_pays_for_rank_0(self) -> None:
+        run = simulated("rrcb", 0, 20, step_root_s=6, balance_root_s=4, decide_root_s=1)
+        paid = report.paid_table(pd.DataFrame([run])).set_index("method")
+        names = [f"{phase} of rank 0, of all %" for phase in ("steps", "rebalances", "deciding")]
+        self.assertEqual(paid.loc["rrcb", names].tolist(), ["30.00", "20.00", "5.00"])
+
 
 class TableTest(FolderTest):
     def test_ratios_whose_interval_contains_one_are_not_told_apart(self) -> None:
@@ -139,18 +136,6 @@ class TableTest(FolderTest):
 
 
 class PictureTest(FolderTest):
-    def test_points_that_leave_the_boxes_of_the_start_are_counted_there(self) -> None:
-        rows = [measured("rrcb", 1, 1, workload=f"slope-{moment}") for moment in BOXES]
-        (self.folder / "data").mkdir()
-        for moment, boxes in BOXES.items():
-            (self.folder / f"data/boxes_slope-{moment}_rrcb.csv").write_text(boxes)
-            (self.folder / f"data/points_slope-{moment}_rrcb.csv").write_text(POINTS[moment])
-        figure = pictures.draw_moving_boxes(self.results(rows))
-        titles = [axes.get_title() for axes in figure.axes]
-        self.assertEqual(titles, ["start, after a call: fullest rank 1.0000 × mean",
-                                  "later, before a call: fullest rank 2.00 × mean",
-                                  "later, after a call: fullest rank 1.0000 × mean"])  # fmt: skip
-
     def test_ghosts_are_near_points_of_another_part(self) -> None:
         line = pd.DataFrame({"x": range(10), "y": [0] * 10, "part": [0] * 5 + [1] * 5})
         self.assertEqual(np.flatnonzero(pictures.are_near_others(line)).tolist(), [3, 4, 5, 6])
@@ -170,17 +155,6 @@ class ReportTest(FolderTest):
         self.assertFalse((self.folder / "parts.png").exists())
         self.assertEqual(len(pd.read_csv(self.folder / "simulation.csv")), 4)
         self.assertLess(max(map(len, output.getvalue().split("Simulations")[1].splitlines())), 100)
-
-    def test_sets_scenes_side_by_side(self) -> None:
-        slope = self.results(ROWS, [simulated("none", 0, 1), simulated("rrcb", 0, 1)])
-        self.assertEqual(len(slope.runs), 2)
-        (self.folder / "beam").mkdir()
-        failed = simulated("rrcb", 0, 1, error="it fell")
-        runs = pd.DataFrame([simulated("none", 0, 1, mean_imbalance=1.5, worst_imbalance=1.75), failed])
-        runs.to_csv(self.folder / "beam/simulation_runs.csv", index=False)
-        found = scenes.table({"slope": slope, "beam": Results(self.folder / "beam")})
-        self.assertEqual(found.values.tolist(), [["`none`", "1.0000 (1.000)", "1.5000 (1.750)"],
-                                                 ["`rrcb`", "1.0000 (1.000)", ""]])  # fmt: skip
 
 
 if __name__ == "__main__":

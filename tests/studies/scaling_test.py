@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import tempfile
 import unittest
 from math import log2
+from pathlib import Path
 
 import support  # noqa: F401, before the studies
 
 import pandas as pd
+import plot
 import scaling
 
 RANKS = (2, 4, 8, 16)
@@ -45,6 +48,26 @@ class ScalingTest(unittest.TestCase):
         self.assertAlmostEqual(messages, (2 * 20 + 3) * 10)
         self.assertAlmostEqual(size, 2 * 20 * 10 * 100)
         self.assertAlmostEqual(into_rank, 20 * 50)
+
+    def test_digits_of_the_picture_are_apart_and_large_enough_on_a_page(self) -> None:
+        ranks = [1 << power for power in range(1, 21)]
+        paths = pd.DataFrame({"method": "rrcb", "ranks": ranks, "model_s": ranks, "messages": ranks,
+                              "bytes_into_root": [1e4 * number for number in ranks]})  # fmt: skip
+        plot.use_style()
+        figure = scaling.draw(paths)
+        with tempfile.TemporaryDirectory() as folder:
+            plot.save(figure, Path(folder) / "scaling.png")
+        figure.draw_without_rendering()
+        labels = 0
+        for axes in figure.axes:
+            for axis, side in (axes.xaxis, 0), (axes.yaxis, 1):
+                boxes = [text.get_window_extent() for text in axis.get_ticklabels() if text.get_text() and axes.axison]
+                ends = sorted((box.intervalx, box.intervaly)[side].tolist() for box in boxes)
+                self.assertTrue(all(a[1] < b[0] for a, b in zip(ends, ends[1:])), ends)
+                labels += len(ends)
+        self.assertGreater(labels, 15)
+        # Pages are 7 inches wide.
+        self.assertGreater(7 / figure.get_figwidth() * figure.axes[0].get_xticklabels()[0].get_fontsize(), 8)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,8 @@
 
 #include <cstdint>
 
-namespace rrcb::detail {
+namespace rrcb {
+namespace detail {
 
 /// Returns pseudorandom bits, different for each number: the finalizer of SplitMix64 (Steele, Lea,
 /// Flood: Fast splittable pseudorandom number generators, 2014).
@@ -12,4 +13,5 @@ inline std::uint64_t mix(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
-}  // namespace rrcb::detail
+}  // namespace detail
+}  // namespace rrcb

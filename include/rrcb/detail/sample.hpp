@@ -5,7 +5,8 @@
 
 #include <cstddef>
 
-namespace rrcb::detail {
+namespace rrcb {
+namespace detail {
 
 /// Returns entry k of a sample of `count` points: at random, as regular steps would alias with a
 /// lattice, but the same in every call. Some entries are equal.
@@ -13,4 +14,5 @@ inline LocalIndex sampled(std::size_t k, LocalIndex count) {
     return mix(k + 1) % count;
 }
 
-}  // namespace rrcb::detail
+}  // namespace detail
+}  // namespace rrcb

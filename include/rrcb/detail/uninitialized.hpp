@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-namespace rrcb::detail {
+namespace rrcb {
+namespace detail {
 
 /// Leaves new entries uninitialized: they are overwritten at once.
 template <class Value>
@@ -28,4 +29,5 @@ struct UninitializedAllocator : std::allocator<Value> {
 template <class Value>
 using Uninitialized = std::vector<Value, UninitializedAllocator<Value>>;
 
-}  // namespace rrcb::detail
+}  // namespace detail
+}  // namespace rrcb

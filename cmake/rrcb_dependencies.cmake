@@ -133,12 +133,15 @@ if(RRCB_BENCHMARKS)
 endif()
 
 # Kokkos as Kokkos::kokkos, which tests and examples use: its own package, or that of Trilinos.
-if(RRCB_TESTS OR RRCB_EXAMPLES)
+if((RRCB_TESTS OR RRCB_EXAMPLES) AND NOT TARGET Kokkos::kokkos)
   rrcb_find_trilinos(KokkosCore)
   if(TARGET KokkosCore::kokkoscore)
     add_library(Kokkos::kokkos ALIAS KokkosCore::kokkoscore)
   else()
     find_package(Kokkos QUIET)
   endif()
-  rrcb_find_trilinos(TpetraCore)
+  # With the MPI of Trilinos, as Teuchos.
+  if(RRCB_TEUCHOS)
+    rrcb_find_trilinos(TpetraCore)
+  endif()
 endif()

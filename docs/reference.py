@@ -14,7 +14,7 @@ import reference_python
 
 CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts",
        "groups", "remap", "quality", "controller", "cost", "restart", "stages", "error", "version", "eigen",
-       "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
+       "kokkos", "kokkos/passes", "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
        "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters",
        "teuchos/time_monitor")
 C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/groups", "c/controller",
@@ -22,7 +22,7 @@ C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/groups", "c/cont
 FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "groups.f90",
            "controllers.F90", "functions.f90")
 # What a header is for, in the lists of headers.
-TASKS = {"points": "describe points", "views": "describe views", "options": "choose", "balance": "divide",
+TASKS = {"points": "describe points", "views": "describe views", "kokkos": "divide on a device", "options": "choose", "balance": "divide",
          "cuts": "look up", "plan": "plan a move", "transfer": "move columns", "balancer": "divide, look up, move",
          "balancers": "divide, look up, move", "ghosts": "find neighbours and answer queries",
          "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure",
@@ -317,7 +317,7 @@ def pages(root):
                                             links_from(os.path.dirname(title), items))
               for title, of_page in items.items()}
     for language, heading, text in (
-            ("cpp", "C++", "Include `rrcb/rrcb.hpp`, which has all but the last ten headers."),
+            ("cpp", "C++", "Include `rrcb/rrcb.hpp`, which has all but the last twelve headers."),
             ("c", "C", "Include `rrcb/rrcb.h`."), ("fortran", "Fortran", "The module is `rrcb`.")):
         titles = [title for title in items if languages[title] == language]
         result[f"reference/{language}.md"] = overview(heading, text, titles, items)

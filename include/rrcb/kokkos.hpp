@@ -40,7 +40,7 @@ struct KokkosBalance {
 
 /// Divides points in views as the function of Points with the same name. Collective.
 ///
-///     auto balance = rrcb::balance(exec, x, weights, {}, {}, comm);
+///     auto balance = rrcb::balance(exec, x, weights, options, {}, comm);
 ///
 /// @param exec     instance on whose device the points are; the call ends with a fence of it
 /// @param x        View<T**> or View<T*[3]> of floats or doubles, points by axes, at any stride; or
@@ -60,14 +60,13 @@ auto balance(const Execution& exec, const Views& x, const Weights& weights, cons
                                                   passes.device_parts()};
 }
 
-/// Divides points in views without earlier cuts. Collective.
-template <detail::KokkosSpace Execution, detail::KokkosPoints Views, detail::KokkosPoints Weights>
-auto balance(const Execution& exec, const Views& x, const Weights& weights, const Options& options,
-             MPI_Comm comm) {
-    return balance(exec, x, weights, options, Cuts{}, comm);
-}
-
 /// Divides points in views that all weigh 1. Collective.
+///
+/// @param exec     as above, as all others
+/// @param x        positions
+/// @param options  the same on every rank
+/// @param previous cuts of an earlier call, or none
+/// @param comm     of the ranks with points
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 auto balance(const Execution& exec, const Views& x, const Options& options, const Cuts& previous,
              MPI_Comm comm) {
@@ -75,7 +74,12 @@ auto balance(const Execution& exec, const Views& x, const Options& options, cons
     return balance(exec, x, none, options, previous, comm);
 }
 
-/// Divides points in views that all weigh 1, without earlier cuts. Collective.
+/// Divides points in views that all weigh 1, from scratch. Collective.
+///
+/// @param exec    as above, as all others
+/// @param x       positions
+/// @param options the same on every rank
+/// @param comm    of the ranks with points
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 auto balance(const Execution& exec, const Views& x, const Options& options, MPI_Comm comm) {
     return balance(exec, x, options, Cuts{}, comm);

@@ -55,7 +55,7 @@ def misplaced_headings(page):
 def interface():
     """Names that the headers export, and those of the Fortran module, without classes' members."""
     for path in (ROOT / "include" / "rrcb").rglob("*.h*"):
-        text = re.sub(r"namespace detail \{.*?\}  // namespace detail", "", path.read_text(),
+        text = re.sub(r"namespace (?:rrcb::)?detail \{.*?\}  // namespace (?:rrcb::)?detail", "", path.read_text(),
                       flags=re.S)
         text = re.sub(r"^(class.*?^\};)", "", re.sub(r"//.*|/\*.*?\*/", "", text, flags=re.S)
                       if path.suffix == ".h" else re.sub(r"//.*", "", text), flags=re.S | re.M)

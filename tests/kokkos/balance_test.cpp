@@ -124,6 +124,24 @@ TEST(KokkosBalance, throws_the_error_of_one_rank_on_all) {
                       "imbalance_tolerance");
 }
 
+std::uint64_t bytes_copied = 0;
+
+void add_copy(Kokkos::Tools::SpaceHandle, const char*, const void*, Kokkos::Tools::SpaceHandle,
+              const char*, const void*, std::uint64_t size) {
+    bytes_copied += size;
+}
+
+TEST(KokkosBalance, copies_little) {
+    const Cloud cloud = smooth_cloud(200000, 3, 10 + static_cast<unsigned>(rank()), false);
+    const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
+    bytes_copied = 0;
+    Kokkos::Tools::Experimental::set_begin_deep_copy_callback(add_copy);
+    balance(Device(), x, Options{}, MPI_COMM_WORLD);
+    Kokkos::Tools::Experimental::set_begin_deep_copy_callback(nullptr);
+    EXPECT_GT(bytes_copied, 0u);
+    EXPECT_LT(bytes_copied, 1000000u);
+}
+
 TEST(KokkosBalance, of_no_points_is_empty) {
     const Cloud cloud{2};
     const auto found = balance_views<double, Kokkos::LayoutLeft>(cloud, {.num_parts = 3}, {});

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <rrcb/kokkos/kernels.hpp>
+#include <rrcb/kokkos/sums.hpp>
 #include <rrcb/method/moments.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,66 @@
 #include <vector>
 
 namespace rrcb::detail {
+
+/// Layers of a mesh along an axis, in scaled lengths.
+struct Layers {
+    double scale;
+    double lower;  ///< of the frame
+    double per_length;
+    double below_number;  ///< greatest double below the number of layers
+    std::int32_t number;
+    const double* middles;   ///< of each layer
+    const double* per_side;  ///< reciprocal of its thickness
+};
+
+/// Adds up the moments of points about the middle of their cell, in units of its sides.
+template <class T, class W>
+struct MomentsBody {
+    Positions<T> x;
+    Weights<W> weights;
+    Layers layers[max_dimension];
+    std::int64_t num_cells;
+    int first_axis;  ///< of the axes to sum; with axis 0 come counts, and weights if there are any
+    int num_axes;
+
+    template <class Bins>
+    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, const Bins& bins) const {
+        double offset[max_dimension] = {};
+        std::int64_t bin = 0;
+        for (int a = max_dimension; a-- > 0;)
+            if (a < x.dimension) bin = bin * layers[a].number + find_layer(i, a, offset[a]);
+        const double weight = weights.values == nullptr ? 1 : weights.relative(i);
+        if (first_axis == 0) {
+            bins.add(bin, 1);
+            bin += num_cells;
+            if (weights.values != nullptr) {
+                bins.add(bin, to_units(weight, weight_bits));
+                bin += num_cells;
+            }
+        }
+        for (int a = 0; a < max_dimension; ++a) {
+            if (a < first_axis || a >= first_axis + num_axes) continue;
+            const double first = weight * offset[a];
+            bins.add(bin, to_units(first, weight_bits));
+            bins.add(bin + num_cells, to_units(first * offset[a], square_bits));
+            bin += 2 * num_cells;
+        }
+    }
+
+  private:
+    /// Returns the layer of a point, and its offset from the middle.
+    KOKKOS_INLINE_FUNCTION std::int32_t find_layer(std::int64_t i, int axis, double& offset) const {
+        const Layers& of = layers[axis];
+        const double value = x(i, axis) * of.scale;
+        double place = (value - of.lower) * of.per_length;
+        place = place < of.below_number ? place : of.below_number;
+        const auto layer = static_cast<std::int32_t>(place > 0 ? place : 0);
+        offset = (value - of.middles[layer]) * of.per_side[layer];
+        offset = offset > -0.5 ? offset : -0.5;
+        offset = offset < 0.5 ? offset : 0.5;
+        return layer;
+    }
+};
 
 /// Sums over the points of each cell, relative to its middle and its sides.
 struct CellSums {

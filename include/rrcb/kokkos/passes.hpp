@@ -1,8 +1,11 @@
 #pragma once
 
 #include <rrcb/detail/sample.hpp>
-#include <rrcb/kokkos/kernels.hpp>
+#include <rrcb/kokkos/collect.hpp>
 #include <rrcb/kokkos/moments.hpp>
+#include <rrcb/kokkos/parts.hpp>
+#include <rrcb/kokkos/summary.hpp>
+#include <rrcb/kokkos/tree.hpp>
 #include <rrcb/passes.hpp>
 
 #include <algorithm>
@@ -78,13 +81,14 @@ class KokkosPasses final : public PointPasses {
         if (x_.count == 0) return summary;
         summary.lightest = summary.heaviest = 1;
         if (!reads_positions && !weighs()) return summary;
-        const detail::Ends ends = find_ends(reads_positions);
+        const detail::FoundEnds found = find_ends(reads_positions);
+        const detail::Ends& ends = found.ends;
         if (weighs()) {
             summary.lightest = ends.lightest;
             summary.heaviest = ends.heaviest;
-            summary.weight = total_weight();
+            summary.weight = detail::total_weight<Memory>(exec_, x_.count, given_);
         }
-        check_coordinates(coordinate_faults_);
+        detail::check_coordinates(found.of_coordinates);
         if (!reads_positions) return summary;
         for (int a = 0; a < x_.dimension; ++a) {
             const auto axis = static_cast<std::size_t>(a);
@@ -102,7 +106,7 @@ class KokkosPasses final : public PointPasses {
         for (std::size_t k = 0; k < indices.size(); ++k)
             indices[k] = count() <= size ? k : detail::sampled(k, count());
         const auto on_device = detail::copy_in<Memory>(exec_, std::span<const LocalIndex>(indices));
-        Copies copies = copy_points(on_device, indices.size(), false);
+        const detail::Copies copies = copied(on_device.data(), indices.size(), nullptr);
         PointSample sample;
         sample.positions.resize(indices.size());
         for (std::size_t k = 0; k < indices.size(); ++k)
@@ -148,7 +152,8 @@ class KokkosPasses final : public PointPasses {
         const auto table =
             detail::copy_in<Memory>(exec_, std::span<const detail::WantedOfPart>(of_parts));
         const detail::IsWanted<T> test{x_, parts_.data(), table.data()};
-        const std::vector<Part> taken = append(test, count_points(test), true, collected);
+        const std::vector<Part> taken =
+            append(test, detail::count_points<Memory>(exec_, x_.count, test), true, collected);
         std::vector<std::size_t> found;
         for (const Part part : taken) {
             found.push_back(static_cast<std::size_t>(of_parts[part].wanted));
@@ -160,20 +165,7 @@ class KokkosPasses final : public PointPasses {
 
     std::vector<Box> boxes(int num_parts) override {
         check();
-        const std::size_t size = 2 * max_dimension;
-        std::vector<double> bounds(static_cast<std::size_t>(num_parts) * size, HUGE_VAL);
-        const auto on_device = detail::copy_in<Memory>(exec_, std::span<const double>(bounds));
-        Kokkos::parallel_for("rrcb::boxes", detail::range(exec_, x_.count),
-                             detail::WidenBoxes<T>{x_, known_parts(), on_device.data()});
-        detail::copy_out(exec_, on_device, std::span(bounds));
-        exec_.fence();
-        std::vector<Box> boxes(static_cast<std::size_t>(num_parts));
-        for (std::size_t p = 0; p < boxes.size(); ++p)
-            for (std::size_t a = 0; a < max_dimension; ++a) {
-                boxes[p].lower[a] = bounds[p * size + a];
-                boxes[p].upper[a] = -bounds[p * size + max_dimension + a];
-            }
-        return boxes;
+        return detail::boxes_of_parts<Memory>(exec_, x_, known_parts(), num_parts);
     }
 
     void settle(const Collected& collected, std::span<const Part> parts) override {
@@ -215,12 +207,6 @@ class KokkosPasses final : public PointPasses {
         PartTotals totals;
         LocalIndex num_open = 0;
     };
-    /// Copies of points on the host.
-    struct Copies {
-        detail::Uninitialized<double> coordinates{};
-        detail::Uninitialized<double> weights{};
-        std::vector<Part> taken{};
-    };
 
     void check() const {
         detail::require_kokkos();
@@ -240,41 +226,23 @@ class KokkosPasses final : public PointPasses {
         return given_;
     }
 
+    /// Reads the weights, and the positions if asked for. A fence.
+    detail::FoundEnds find_ends(bool reads_positions) {
+        const detail::FoundEnds found = detail::find_ends<Memory>(
+            exec_, x_, weighs() ? given_ : detail::Weights<W>{}, reads_positions);
+        if (weighs()) given_.set_heaviest(heaviest_ = found.ends.heaviest);
+        return found;
+    }
+
+    /// Copies points to the host. A fence.
+    detail::Copies copied(const LocalIndex* indices, LocalIndex number, Part* parts) const {
+        return detail::copy_points<Memory>(exec_, x_, weighs() ? given_ : detail::Weights<W>{},
+                                           indices, number, parts);
+    }
+
     Part* known_parts() {
         if (parts_.extent(0) != count()) parts_ = detail::allocate<Part, Memory>(exec_, count());
         return parts_.data();
-    }
-
-    /// Finds the heaviest weight, at least; throws Error for unusable weights. A fence.
-    detail::Ends find_ends(bool reads_positions) {
-        const auto faults = detail::allocate<detail::Faults, Memory>(exec_, 2, true);
-        const auto ends = detail::allocate<detail::Ends, Memory>(exec_, 1);
-        const detail::FindEnds<T, W> find{x_, weighs() ? given_ : detail::Weights<W>{},
-                                          reads_positions, faults.data(), faults.data() + 1};
-        Kokkos::parallel_reduce("rrcb::summary", detail::range(exec_, x_.count), find,
-                                Kokkos::View<detail::Ends, Memory>(ends.data()));
-        detail::Ends result;
-        std::array<detail::Faults, 2> found;
-        detail::copy_out(exec_, ends, std::span(&result, 1));
-        detail::copy_out(exec_, faults, std::span<detail::Faults>(found));
-        exec_.fence();
-        check_weights(found[1]);
-        coordinate_faults_ = found[0];
-        if (weighs()) given_.set_heaviest(heaviest_ = result.heaviest);
-        return result;
-    }
-
-    /// A fence.
-    double total_weight() {
-        const detail::WeighBody<W> body{given_};
-        double units = 0;
-        for (const double sum : detail::sum_in_bins<Memory>(exec_, x_.count, body.num_bins, {},
-                                                            [&](detail::Word*) { return body; }))
-            units += sum;
-        const double total = given_.from_units(units);
-        if (!std::isfinite(total))
-            detail::reject_on_device("the sum of the weights overflows; scale them down");
-        return total;
     }
 
     /// Finds parts, unless they are given, and counts; those not settled become no_part if there
@@ -330,18 +298,6 @@ class KokkosPasses final : public PointPasses {
             if (of_parts[p].lower < of_parts[p].upper) totals.weights[p] = now.totals.weights[p];
     }
 
-    template <class Test>
-    LocalIndex count_points(const Test& test) {
-        const auto number = detail::allocate<std::int64_t, Memory>(exec_, 1);
-        Kokkos::parallel_reduce("rrcb::count", detail::range(exec_, x_.count),
-                                detail::Count<Test>{test},
-                                Kokkos::View<std::int64_t, Memory>(number.data()));
-        std::int64_t result = 0;
-        detail::copy_out(exec_, number, std::span(&result, 1));
-        exec_.fence();
-        return static_cast<LocalIndex>(result);
-    }
-
     static void clear(Collected& collected) {
         collected.coordinates.clear();
         collected.weights.clear();
@@ -360,34 +316,13 @@ class KokkosPasses final : public PointPasses {
         const LocalIndex before = collected.count();
         collected.original.resize(before + number);
         detail::copy_out(exec_, found, std::span(collected.original).subspan(before));
-        Copies copies = copy_points(found, number, takes);
+        detail::Copies copies = copied(found.data(), number, takes ? parts_.data() : nullptr);
         const auto add = [](const auto& from, auto& to) {
             to.insert(to.end(), from.begin(), from.end());
         };
         add(copies.coordinates, collected.coordinates);
         add(copies.weights, collected.weights);
         return std::move(copies.taken);
-    }
-
-    /// Copies points to the host; takes their parts if `takes`. A fence.
-    template <class Indices>
-    Copies copy_points(const Indices& indices, LocalIndex number, bool takes) {
-        Copies copies;
-        copies.coordinates.resize(number * static_cast<LocalIndex>(x_.dimension));
-        copies.weights.resize(weighs() ? number : 0);
-        copies.taken.resize(takes ? number : 0);
-        const auto x = detail::allocate<double, Memory>(exec_, copies.coordinates.size());
-        const auto w = detail::allocate<double, Memory>(exec_, copies.weights.size());
-        const auto taken = detail::allocate<Part, Memory>(exec_, copies.taken.size());
-        Kokkos::parallel_for(
-            "rrcb::copy", detail::range(exec_, static_cast<std::int64_t>(number)),
-            detail::Copy<T, W>{x_, weighs() ? given_ : detail::Weights<W>{}, indices.data(),
-                               x.data(), w.data(), takes ? parts_.data() : nullptr, taken.data()});
-        detail::copy_out(exec_, x, std::span(copies.coordinates));
-        detail::copy_out(exec_, w, std::span(copies.weights));
-        detail::copy_out(exec_, taken, std::span(copies.taken));
-        exec_.fence();
-        return copies;
     }
 
     ExecutionSpace exec_;
@@ -397,7 +332,6 @@ class KokkosPasses final : public PointPasses {
     detail::Weights<W> given_;
     bool uses_weights_ = true;
     double heaviest_ = -1;  ///< weight; -1: not known
-    detail::Faults coordinate_faults_{};
     PartsView parts_{};
 };
 

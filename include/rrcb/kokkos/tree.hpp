@@ -140,15 +140,7 @@ class DeviceTree {
     Tree tree_;
 };
 
-/// Points of a part that are collected once more: lower <= x < upper.
-struct WantedOfPart {
-    double lower = std::numeric_limits<double>::infinity();
-    double upper = -std::numeric_limits<double>::infinity();
-    std::int32_t axis = 0;
-    std::int32_t wanted = 0;
-};
-
-/// Gives each part its part, and counts.
+/// Gives each point its part, and counts.
 template <class T, class W>
 struct AssignBody {
     Positions<T> x;

@@ -70,7 +70,9 @@ auto balance(const Execution& exec, const Views& x, const Weights& weights, cons
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 auto balance(const Execution& exec, const Views& x, const Options& options, const Cuts& previous,
              MPI_Comm comm) {
-    const Kokkos::View<double*, detail::MemoryOf<Views>> none;
+    const Kokkos::View<const double*, detail::MemoryOf<Views>,
+                       Kokkos::MemoryTraits<Kokkos::Unmanaged>>
+        none(nullptr, 0);
     return balance(exec, x, none, options, previous, comm);
 }
 

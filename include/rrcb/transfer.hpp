@@ -108,14 +108,15 @@ template <class AnyPlan, class... T>
 std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column<T>...>& columns,
                                     MPI_Comm comm, const TransferLimits& limits,
                                     TransferReport* report) {
-    return [&]<std::size_t... I>(std::index_sequence<I...>) {
-        std::tuple<std::vector<T>...> results;
-        const std::array<ByteColumn, sizeof...(T)> each{
+    std::tuple<std::vector<T>...> results;
+    const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
+        return std::array<ByteColumn, sizeof...(T)>{
             byte_column(std::get<I>(columns), std::get<I>(results))...};
-        move(plan, each, limits, report, comm);
-        return results;
     }
     (std::index_sequence_for<T...>{});
+    // Not in the lambda, where nvcc 13 finds no `move` that is declared later.
+    move(plan, each, limits, report, comm);
+    return results;
 }
 
 template <class AnyPlan, class T>

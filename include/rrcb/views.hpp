@@ -49,10 +49,11 @@ constexpr std::size_t rank_of() {
 
 template <StridedView View>
 auto data_of(const View& view) {
-    if constexpr (requires { view.data_handle(); })
-        return view.data_handle();
-    else
+    // The data_handle() of Kokkos 5 is no pointer.
+    if constexpr (requires { view.data(); })
         return view.data();
+    else
+        return view.data_handle();
 }
 
 /// True unless a view of Kokkos is in memory that only a device reads: its mirror is then

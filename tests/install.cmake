@@ -36,7 +36,7 @@ add_test(
   NAME install.left_out
   COMMAND
     ${CMAKE_COMMAND} -D
-    "OUTPUT=RRCB_ZOLTAN: Zoltan of Trilinos was not found.*What packages add, this installs:.*tools/set_up [a-z0-9 .+-]*libtrilinos-kokkos-dev libtrilinos-teuchos-dev libtrilinos-zoltan-dev" -P
+    "OUTPUT=RRCB_ZOLTAN: Zoltan of Trilinos was not found.*What packages add, this installs:.*tools/set_up [a-z0-9 .+-]*libtrilinos-kokkos-dev libtrilinos-teuchos-dev libtrilinos-tpetra-dev libtrilinos-zoltan-dev" -P
     ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -E cat
     ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos/_deps/rrcb-build/left_out.txt)
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import subprocess
 import sys
+import time
 from io import StringIO
 from pathlib import Path
 
@@ -60,10 +61,13 @@ def counts(runs: pd.DataFrame) -> list[list[str]]:
     return lines
 
 
-def measure(program: Path, out: Path, rounds: int, points: int, steps: int) -> pd.DataFrame:
+def measure(program: Path, out: Path, minutes: float, rounds: int, points: int, steps: int) -> pd.DataFrame:
     """Round by round through the scenes; writes after each."""
     runs = pd.DataFrame()
+    end = time.monotonic() + 60 * minutes
     for number in range(rounds):
+        if number > 0 and time.monotonic() > end:
+            break
         for scene, times in SCENES.items():
             print(f"Round {number + 1} of {rounds}: {scene}", file=sys.stderr, flush=True)
             words = [scene, str(number), str(points), str(times * steps)]
@@ -80,6 +84,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=10)
     parser.add_argument("--points", type=int, default=20_000, help="of both ranks")
     parser.add_argument("--steps", type=int, default=500, help="of a splash; a pile takes 8 times as many")
+    parser.add_argument("--minutes", type=float, default=10.5, help="begin no round later than that")
     parser.add_argument("--quick", action="store_true", help="one round of few points and steps")
     parser.add_argument("--driver", type=Path, help="a program beside rrcb_clock, which is not built then")
     given = parser.parse_args()
@@ -90,7 +95,7 @@ def main() -> None:
     size = (1, 1000, 50) if given.quick else (given.rounds, given.points, given.steps)
     if CORES < RANKS:
         print("The ranks share a core: times mean nothing", file=sys.stderr)
-    runs = measure(program, given.out, *size)
+    runs = measure(program, given.out, given.minutes, *size)
     tables = "\n\n".join(markdown_table(lines) for lines in (factors(runs), counts(runs)))
     (given.out / "table.md").write_text(tables + "\n")
     print(tables)

@@ -60,14 +60,12 @@ class Loop {
   public:
     Loop(const Arm& arm, const Scene& scene, MPI_Comm comm)
         : comm_(comm),
+          learns_(arm.weights != std::string("count")),
           columns_(arm.weights == std::string("ghosts") ? 3 : 2),
           model_(comm, columns_),
           particles_(scene, comm),
           sees_x_only_(arm.call == std::string("zoltan-rcb") && arm.cuts == std::string("fewest")),
-          zoltan_(parameters_of(arm), {"", "", 2, {}, arm.weights != std::string("count"), {}},
-                  comm) {
-        if (arm.weights != std::string("count")) rows_.assign(particles_.size() * width(), 1);
-    }
+          zoltan_(parameters_of(arm), {"", "", 2, {}, learns_, {}}, comm) {}
 
     Run run(int num_steps) {
         MPI_Barrier(comm_);
@@ -79,7 +77,7 @@ class Loop {
                 run_.ghosts += static_cast<double>(particles_.num_ghosts());
             }
             const double work = particles_.step();
-            if (rows_.empty()) continue;
+            if (!learns_) continue;
             double columns[] = {static_cast<double>(particles_.size()), particles_.num_pairs(),
                                 static_cast<double>(particles_.num_ghosts())};
             model_.step(work, std::span(columns).first(width()));
@@ -98,7 +96,7 @@ class Loop {
 
     void rebalance() {
         std::vector<double> weights;
-        if (!rows_.empty()) weights = model_.weights(particles_.rows(width()));
+        if (learns_) weights = model_.weights(particles_.rows(width()));
         const double start = MPI_Wtime();
         rrcb::Points points = rrcb::interleaved_points(particles_.positions(), 2, weights);
         if (sees_x_only_) points.dimension = 1;
@@ -110,13 +108,13 @@ class Loop {
     }
 
     MPI_Comm comm_;
+    bool learns_;
     int columns_;
     rrcb::CostModel model_;
     Particles particles_;
     /// RCB_SET_DIRECTIONS orders cuts, but their axes are the longest.
     bool sees_x_only_;
     ZoltanPartitioner zoltan_;
-    std::vector<double> rows_{};
     Run run_{};
 };
 

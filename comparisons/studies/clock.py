@@ -21,7 +21,7 @@ from document import CORES, markdown_table
 from driver import OUT, PROGRAMS, build, on_ranks
 from intervals import Value, median_of
 
-SCENES = {"splash": 1, "pile": 8}  # steps over those of a splash, which take longer
+SCENES = {"splash": 1, "pile": 12}  # steps over those of a splash, which take longer
 RANKS = 2
 FACTORS = {"call": ("zoltan-rcb", "rrcb"), "cuts": ("longest", "fewest"), "weights": ("count", "learned")}
 
@@ -83,7 +83,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=OUT / "clock", help="folder of clock.csv and table.md")
     parser.add_argument("--rounds", type=int, default=10)
     parser.add_argument("--points", type=int, default=20_000, help="of both ranks")
-    parser.add_argument("--steps", type=int, default=500, help="of a splash; a pile takes 8 times as many")
+    parser.add_argument("--steps", type=int, default=500, help="of a splash; a pile takes 12 times as many")
     parser.add_argument("--minutes", type=float, default=10.5, help="begin no round later than that")
     parser.add_argument("--quick", action="store_true", help="one round of few points and steps")
     parser.add_argument("--driver", type=Path, help="a program beside rrcb_clock, which is not built then")

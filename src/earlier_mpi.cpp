@@ -36,7 +36,9 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
     const StageScope stage(given.observer, Stage::assignment, self.arithmetic);
     PointPasses& points = call.points;
     points.use_weights(true);
-    introduce(given, points.summary(!counts_earlier_parts(given)), &previous, call, self);
+    const PointSummary summary = points.summary(!counts_earlier_parts(given));
+    call.box = summary.box;
+    introduce(given, summary, &previous, call, self);
     if (!may_reuse(previous, call)) return;
     const Options& options = call.options;
     const Cuts& cuts = take_earlier(call.decision, options, call.is_spread, previous);
@@ -46,8 +48,7 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
                                call.host->points(), call.host->parts_here(), self.comm);
         return;
     }
-    if (counts_earlier_parts(options))
-        static_cast<PartTotals&>(earlier.totals) = points.assign(cuts, true);
+    if (counts_earlier_parts(options)) earlier.totals = {points.assign(cuts, true)};
     call.settlement.prepare(options, false, are_cuts_limited(options), self);
     add_totals(earlier.totals, near_share(cuts, points, cuts.near.reach, 1024), call.mine);
 }
@@ -73,7 +74,8 @@ bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
 void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& self) {
     const Options& options = call.options;
     Decision& decision = call.decision;
-    self.attempt([&] { call.box = call.points.summary(true).box; });
+    if (counts_earlier_parts(options))
+        self.attempt([&] { call.box = call.points.summary(true).box; });
     decision.verdict.box = box_together(call.box, self);
     const Box& whole = decision.verdict.box;
     if (are_cuts_limited(options))

@@ -164,7 +164,7 @@ class RRCB_API PointPasses {
 /// Divides points that only passes can read; the parts stay with them, and Balance::parts is empty.
 /// Collective.
 ///
-/// @param points   of this rank; not null in any sense: a rank without points has passes as well
+/// @param points   of this rank; a rank without points has passes as well
 /// @param options  the same on every rank; more parts than Tuning::central_parts are refused
 /// @param previous as for balance()
 /// @param comm     as for balance()

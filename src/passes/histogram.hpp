@@ -33,7 +33,7 @@ inline std::span<const double> weights_in(std::span<const double> histogram,
 
 inline std::span<const double> counts_in(std::span<const double> histogram,
                                          const HistogramLayout& layout) {
-    return histogram.subspan(HistogramLayout::num_extents + layout.num_slots());
+    return histogram.subspan(HistogramLayout::num_extents + layout.num_slots(), layout.num_slots());
 }
 
 /// Joins the histogram of other ranks. Any order gives the same bits if weights

@@ -25,6 +25,7 @@ struct CutSearch {
         over_candidates,  ///< count the candidates left in the bracket
         gathering,        ///< send all candidates to the owner
         centring,         ///< find the gap around the known cut
+        dividing,         ///< weigh the coincident points at the known cut, which divides them
         done
     };
     Stage stage = over_points;

@@ -48,11 +48,7 @@ Refinement::Refinement(const Options& options, const Participant& self, PartSums
       sums_(sums),
       memory_(workspace_of(self.comm)),
       tree_(tree_of(options, mpi::size_of(self.comm))),
-      rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::central) {
-    if (options.refine != Refine::exact && !are_cuts_limited(options))
-        correction_.emplace(root_of(options.num_parts, options.tree), rounds_.rank() == root,
-                            memory_.collected);
-}
+      rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::central) {}
 
 Refined Refinement::refine(Estimate&& estimate, PointPasses& points, const Box& box,
                            Participant& self) {
@@ -65,7 +61,7 @@ Refined Refinement::refine(Estimate&& estimate, PointPasses& points, const Box& 
     // A search that would miss the tolerance, and be repeated exactly, is exact at once.
     const bool may_miss = !tree_.rule.is_attainable() && !limits_ && !estimate_.is_earlier;
     tree_.rule.is_exact = is_exact || (may_miss && !is_accepted);
-    if (tree_.rule.is_exact || !(is_accepted || correct(points, self))) {
+    if (tree_.rule.is_exact || !is_accepted) {
         search(points, self);
     } else if (refined_.imbalance <= options_.imbalance_tolerance) {
         search_exactly(points, self);
@@ -131,16 +127,6 @@ bool Refinement::accept_estimate(PointPasses& points, Participant& self) {
     ++refined_.rounds;
     const double tolerance = options_.imbalance_tolerance;
     return refined_.imbalance <= tolerance || estimate_.kept_imbalance <= tolerance;
-}
-
-/// Returns true if counted cuts, corrected all at once, are good enough, and `parts` is complete.
-/// Otherwise the current cuts are counted. Collective.
-bool Refinement::correct(PointPasses& points, Participant& self) {
-    if (!correction_) return false;
-    refined_.rounds += correction_->run(tree_.rule, points, estimate_.brackets, estimate_.cuts,
-                                        sums_, refined_.imbalance, self);
-    tree_.rule.counted_weight = sum_of(sums_.sums());
-    return refined_.imbalance <= options_.imbalance_tolerance;
 }
 
 /// Adds up the weights of the parts over all ranks. Collective; throws if one failed.

@@ -4,7 +4,6 @@
 #include "collective/participant.hpp"
 #include "cuts/cut_limits.hpp"
 #include "passes/host_passes.hpp"
-#include "search/correction_mpi.hpp"
 #include "search/part_sums_mpi.hpp"
 #include "search/tree_search.hpp"
 #include "search/workspace_mpi.hpp"
@@ -71,8 +70,8 @@ struct Refined {
 
 /// Moves estimated cuts until all parts are as even as requested; rank 0 decides.
 ///
-/// To a tolerance, all cuts are first corrected at once, see Correction. If that is not enough,
-/// they are searched, see TreeSearch. Buffers are made before the first message.
+/// The cuts are searched, see TreeSearch, unless the estimated ones are within the tolerance.
+/// Buffers are made before the first message.
 class Refinement {
   public:
     /// Takes complete options. `options` and `sums` are borrowed. Not collective. Throws Error or
@@ -81,18 +80,17 @@ class Refinement {
 
     /// Refines the cuts of `estimate`, once.
     ///
-    /// Collective. `box` is that of the points. Gives each point its part. A
-    /// tolerance can be missed because upper levels used slack that lower ones need.
-    /// Then, and if equal parts are empty although there are as many points, it searches once more,
-    /// exactly, and keeps the better cuts. Limited cuts are all
-    /// searched in their places, and the estimate is kept if it is better. Without weight the cuts
-    /// are kept. A failure on one rank, before or here, is thrown on all.
+    /// Collective. `box` is that of the points. Gives each point its part. A tolerance can be
+    /// missed because upper levels used slack that lower ones need. Then, and if equal parts are
+    /// empty although there are as many points, it searches once more, exactly, and keeps the
+    /// better cuts. Limited cuts are all searched in their places, and the estimate is kept if it
+    /// is better. Without weight the cuts are kept. A failure on one rank, before or here, is
+    /// thrown on all.
     Refined refine(Estimate&& estimate, PointPasses& points, const Box& box, Participant& self);
 
   private:
     void start(Estimate&& estimate, Participant& self);
     bool accept_estimate(PointPasses& points, Participant& self);
-    bool correct(PointPasses& points, Participant& self);
     void search(PointPasses& points, Participant& self);
     void search_exactly(PointPasses& points, Participant& self);
     void search_once(PointPasses& points, Participant& self);
@@ -105,10 +103,9 @@ class Refinement {
     Workspace& memory_;
     PartTree tree_;
     Estimate estimate_;
-    Box box_;                               ///< of this rank's points
-    bool has_parts_ = false;                ///< the points have the parts of the cuts
-    std::optional<CutLimits> limits_;       ///< empty if cuts are not limited
-    std::optional<Correction> correction_;  ///< with a tolerance, if cuts are not limited
+    Box box_;                          ///< of this rank's points
+    bool has_parts_ = false;           ///< the points have the parts of the cuts
+    std::optional<CutLimits> limits_;  ///< empty if cuts are not limited
     TreeRounds rounds_;
     bool fills_parts_ = false;  ///< points suffice for all parts, which are to be equal
     Refined refined_;

@@ -58,12 +58,6 @@ bool TargetRule::is_attainable() const {
     return heaviest <= (tolerance - 1) * smallest_weight(top);
 }
 
-bool TargetRule::are_points_light() const {
-    constexpr double several = 4;
-    const Descent top = root_of(static_cast<int>(part_sizes.size()), {});
-    return several * heaviest <= (tolerance - 1) * smallest_weight(top);
-}
-
 bool TargetRule::may_stay(const Descent& at, std::span<const double> part_weights) const {
     const auto may = [&](const Descent& side) {
         return are_within(side, part_weights) || weight_of(side, part_weights) <= most_weight(side);

@@ -37,10 +37,6 @@ struct TargetRule {
     /// Returns whether the smallest part may have any of the points more than it should.
     bool is_attainable() const;
 
-    /// Returns whether the smallest part holds several of the heaviest points within the tolerance,
-    /// so that weights in bins determine the cuts.
-    bool are_points_light() const;
-
     /// Returns whether a cut may be kept: each side is within the tolerance, or weighs so little
     /// that the cuts below can meet it.
     bool may_stay(const Descent& at, std::span<const double> part_weights) const;

@@ -53,10 +53,7 @@ void TreeSearch::decide(Butterfly& butterfly) {
         });
     };
     for_each_owned([&](const Record& record, Node& node) {
-        const bool searches = node.question == Question::cut && !node.at.is_part();
-        node.decided = searches                         ? decide_on(node, record.payload)
-                       : node.question == Question::lot ? decide_on_lot(node, record.payload)
-                                                        : node.search;
+        node.decided = node.at.is_part() ? node.search : decide_on(node, record.payload);
     });
     limit_gathering();
     for_each_owned([&](const Record& record, const Node& node) {
@@ -69,7 +66,7 @@ void TreeSearch::decide(Butterfly& butterfly) {
 void TreeSearch::limit_gathering() {
     GlobalCount num_points = 0;
     for (Node& node : nodes_) {
-        if (node.decided.stage != CutSearch::gathering || node.question != Question::cut) continue;
+        if (node.decided.stage != CutSearch::gathering) continue;
         const GlobalCount more = node.target.num_candidates;
         if (num_points + more <= most_gathered_at_once) {
             num_points += more;
@@ -82,17 +79,15 @@ void TreeSearch::limit_gathering() {
 std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node) const {
     std::vector<double> answer;
     Answer told{node.decided, node.content.weight};
-    if (node.at.is_part() && node.question == Question::cut) {
+    if (node.at.is_part()) {
         told.weight = 0;
         for (const auto& [rank, weight] : weights_in(record.payload)) told.weight += weight;
     }
     append(told, answer);
-    if (node.question == Question::parts) {
-        const auto sums = record.payload.subspan(record.payload.empty() ? 0 : 1);
+    if (node.counts_parts) {
+        const auto sums = guide_->sums.sums().subspan(node.at.first_part, node.at.num_parts);
         answer.insert(answer.end(), sums.begin(), sums.end());
-        if (sums.empty())
-            answer.resize(answer.size() + static_cast<std::size_t>(node.at.num_parts));
-    } else if (node.question == Question::lot) {
+    } else if (node.search.stage == CutSearch::dividing) {
         append(node.lot, answer);
     } else if (node.search.stage == CutSearch::over_points && !is_central()) {
         append(node.content.box, answer);
@@ -104,6 +99,7 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
 /// leaves them there without dividing, because look-ups find the upper side of a cut that divides.
 CutSearch TreeSearch::decide_on_lot(Node& node, std::span<const double> payload) const {
     CutSearch search = node.search;
+    search.stage = CutSearch::done;
     const std::vector<LotRecord> row = lots_in<LotRecord>(payload);
     Lot lot = lot_at(node.at, search);
     const auto dividing = std::ranges::find_if(row, [&](const LotRecord& record) {
@@ -127,6 +123,7 @@ CutSearch TreeSearch::decide_on_lot(Node& node, std::span<const double> payload)
 /// left.
 CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     CutSearch search = node.search;
+    if (search.stage == CutSearch::dividing) return decide_on_lot(node, payload);
     if (search.stage == CutSearch::centring) {
         search.stage = CutSearch::done;
         if (!payload.empty()) centre(search.cut, search.num_axes, payload.subspan(1));
@@ -138,6 +135,8 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
         if (is_central())
             search.cut = cut_unsearched(node.at, node.content, tree_.rule.share_below(node.at));
         node.content.weight = 0;
+        const std::vector<double> nothing(static_cast<std::size_t>(node.at.num_parts));
+        if (node.counts_parts) take_sums(node, nothing);
         return search;
     }
     const auto records = payload.subspan(1);
@@ -149,8 +148,12 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     } else {
         is_centred = decide_among(search, node.target, records, dimension_);
     }
-    const bool is_done = search.stage == CutSearch::done && !(search.lot_below > 0);
-    if (tree_.centres_cuts && is_done && !is_centred) search.stage = CutSearch::centring;
+    if (search.stage != CutSearch::done) return search;
+    if (search.lot_below > 0) {
+        search.stage = CutSearch::dividing;
+    } else if (tree_.centres_cuts && !is_centred) {
+        search.stage = CutSearch::centring;
+    }
     return search;
 }
 
@@ -166,6 +169,7 @@ void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histo
             return;
         }
     }
+    if (node.counts_parts && take_sums(node, histogram.subspan(layout_.length()))) return;
     node.target = tree_.rule.target_of(node.at, weight, node.below);
     node.target.places = node.places;
     node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;

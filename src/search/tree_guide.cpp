@@ -83,12 +83,10 @@ Bracket TreeSearch::bracket_of(const Descent& at, int depth, double weight, doub
 }
 
 /// Appends the weights of the parts below a node by the current cuts on this rank.
-void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
-    if (!has_points(node)) return;
+void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) const {
     const auto weights = guide_->sums.here().subspan(node.at.first_part, node.at.num_parts);
     std::ranges::fill(weights, 0.0);
     points_.count_parts(node.at, node.content.entries, guide_->cuts, guide_->sums.here());
-    payload.push_back(mark_of_parts);
     payload.insert(payload.end(), weights.begin(), weights.end());
 }
 
@@ -115,11 +113,11 @@ void TreeSearch::collect_more() {
     }
 }
 
-/// Goes on with a node, given the weights of its parts over all ranks.
-void TreeSearch::take_sums(Node&& node, std::span<const double> sums) {
+/// Takes the weights of a node's parts over all ranks. Returns whether its cut may stay.
+bool TreeSearch::take_sums(Node& node, std::span<const double> sums) const {
     guide_->sums.set_sums(node.at.first_part, sums);
-    node.content.are_parts_counted = true;
-    enter(node.at, std::move(node.content));
+    node.below = weight_of(node.at.lower(), guide_->sums.sums());
+    return tree_.rule.may_stay(node.at, guide_->sums.sums());
 }
 
 }  // namespace rrcb

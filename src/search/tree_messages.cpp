@@ -24,7 +24,6 @@ void TreeSearch::ask(Butterfly& butterfly) {
 
 /// Appends the record of this rank for a node.
 void TreeSearch::count(const Node& node, std::vector<double>& payload) {
-    if (node.question == Question::parts) return count_parts(node, payload);
     if (node.search.stage == CutSearch::centring) {
         if (std::ranges::max(node.gap) == -infinity) return;
         payload.push_back(mark_of_gap);
@@ -33,7 +32,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
         return;
     }
     if (!has_points(node)) return;
-    if (node.question == Question::lot) return add_lot(node, payload);
+    if (node.search.stage == CutSearch::dividing) return add_lot(node, payload);
     if (node.at.is_part()) {
         const double weight = points_.weight_of(node.content.entries);
         if (weight > 0) payload = {mark_of_weights, 1.0 * rank_, weight};
@@ -47,6 +46,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     payload.resize(1 + layout_.length());
     payload[0] = mark_of_histogram;
     count_points(node, std::span(payload).subspan(1));
+    if (node.counts_parts) count_parts(node, payload);
 }
 
 /// Returns whether this rank has points in a node.
@@ -81,7 +81,7 @@ void TreeSearch::join(std::span<const double> a, std::span<const double> b,
                       std::vector<double>& joined) {
     const bool is_alike = a.empty() || b.empty() || a[0] == b[0];
     const bool adds = !a.empty() && !b.empty() && a.size() == b.size() &&
-                      (a[0] == mark_of_histogram || a[0] == mark_of_parts || a[0] == mark_of_gap);
+                      (a[0] == mark_of_histogram || a[0] == mark_of_gap);
     joined.insert(joined.end(), a.begin(), a.end());
     // Records differ only because of a failure, which all ranks learn of after the pass.
     if (!is_alike) return;
@@ -122,12 +122,15 @@ void TreeSearch::follow(const Butterfly& butterfly) {
 void TreeSearch::follow(Node&& node, std::span<const double> payload) {
     const auto answer = read<Answer>(payload);
     const auto more = payload.subspan(sizeof answer / sizeof(double));
-    if (node.question == Question::parts) return take_sums(std::move(node), more);
     node.content.weight = answer.weight;
     if (node.at.is_part()) return weigh_part(node.at, node.content);
-    if (node.question == Question::lot) {
+    if (node.search.stage == CutSearch::dividing) {
         node.search = answer.search;
         return end_at_cut(std::move(node), read<LotAnswer>(more));
+    }
+    if (std::exchange(node.counts_parts, false) && take_sums(node, more)) {
+        node.content.are_parts_counted = true;
+        return enter(node.at, std::move(node.content));
     }
     follow_search(std::move(node), answer.search, more);
 }
@@ -142,18 +145,15 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     }
     if (next.stage == CutSearch::centring) {
         // The parts below do not depend on where in its gap the cut is.
-        Node centred{node.at, {}, Question::cut, next};
+        Node centred{node.at, {}, next};
         centred.gap = points_.gap_about(node.at, node.content.entries, next.cut);
         nodes_.push_back(std::move(centred));
         return end_at_cut(std::move(node), {});
     }
-    const bool is_done = next.stage == CutSearch::done;
-    if (is_done && !(next.lot_below > 0)) return end_at_cut(std::move(node), {});
-    if (is_done) {
-        node.question = Question::lot;
-    } else if (next.stage != CutSearch::over_points) {
-        keep_chosen(before, node);
-    }
+    if (next.stage == CutSearch::done) return end_at_cut(std::move(node), {});
+    const bool narrows =
+        next.stage == CutSearch::over_candidates || next.stage == CutSearch::gathering;
+    if (narrows) keep_chosen(before, node);
     nodes_.push_back(std::move(node));
 }
 

@@ -56,13 +56,11 @@ bool TreeSearch::holds_own_parts(const Descent& at) const {
 void TreeSearch::enter(const Descent& at, Content&& content) {
     if (is_central()) content.entries = points_.admit(at, content.entries);
     if (ends_at(at, content)) return;
-    if (recounts() && !content.are_parts_counted)
-        return add_node(at, std::move(content), Question::parts);
     const double share = at.is_part() ? 1 : tree_.rule.share_below(at);
     const bool divides = share > 0 && share < 1;
     const bool stays = content.are_parts_counted && tree_.rule.may_stay(at, guide_->sums.sums());
     if (at.is_part() || (content.weight > 0 && divides && !stays))
-        return add_node(at, std::move(content), Question::cut);
+        return add_node(at, std::move(content));
     content.are_parts_counted = content.are_parts_counted && divides;
     const double below = content.are_parts_counted ? weight_of(at.lower(), guide_->sums.sums())
                          : share > 0               ? content.weight
@@ -101,11 +99,13 @@ Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double
     return guide_->limits->nearest(cut, guide_->limits->places(at, content.box, cut.axis));
 }
 
-void TreeSearch::add_node(const Descent& at, Content&& content, Question question) {
-    Node& node = nodes_.emplace_back(Node{at, std::move(content), question});
-    if (is_central()) take_known(node);
-    if (question != Question::cut) return;
-    if (is_central()) return start_from_guide(node);
+void TreeSearch::add_node(const Descent& at, Content&& content) {
+    Node& node = nodes_.emplace_back(Node{at, std::move(content)});
+    if (is_central()) {
+        take_known(node);
+        node.counts_parts = recounts() && !node.content.are_parts_counted;
+        return start_from_guide(node);
+    }
     node.search = first_search(at, node.content.box, node.content.weight);
 }
 

@@ -66,7 +66,7 @@ struct Guide {
 ///
 /// Central: rank 0 owns all nodes, in which all ranks take part. Cuts start from a Guide, which
 /// fixes their axes, and may be limited. If the counted parts of a node are good enough, its cuts
-/// are kept. If an earlier cut moves, the parts below are counted once more.
+/// are kept. If an earlier cut moves, the first count of a node below includes its parts.
 class TreeSearch {
   public:
     /// Starts a spread search of `all` points of this rank; those of all ranks are in `box`. The
@@ -116,20 +116,13 @@ class TreeSearch {
     OpenPoints take_memory() { return points_.take(); }
 
   private:
-    /// First entry of a node's record from a rank with points there: it contains a histogram, the
-    /// candidates, the weights of ranks, those of the parts below, or the gap around the cut.
+    /// First entry of a node's record from a rank with points there: it contains a histogram and
+    /// perhaps the weights of the parts below, the candidates, the weights of ranks, or the gap
+    /// around the cut.
     static constexpr double mark_of_histogram = 0;
     static constexpr double mark_of_candidates = 1;
     static constexpr double mark_of_weights = 2;
-    static constexpr double mark_of_parts = 3;
-    static constexpr double mark_of_gap = 4;
-
-    /// Quantity that a round finds for a node.
-    enum class Question {
-        cut,  ///< the position of its cut or, if the node is a part, its weight
-        lot,  ///< for each rank the weight of its coincident points at the cut, which divides them
-        parts,  ///< the weights of the parts below by the current cuts
-    };
+    static constexpr double mark_of_gap = 3;
 
     /// Points of a rank in a lot.
     struct LotRecord {
@@ -157,13 +150,13 @@ class TreeSearch {
     struct Node {
         Descent at;
         Content content;
-        Question question = Question::cut;
         CutSearch search{};
         Entries candidates{};        ///< of its entries, once it was counted
         Total below_here{};          ///< central: points of this rank known to be below the cut
         Total above_here{};          ///< and above
         Gap gap{};                   ///< while it is centred
         bool is_wide = false;        ///< central: the cut has left its interval
+        bool counts_parts = false;   ///< the first count includes the parts of the current cuts
         CutTarget target{};          ///< at the owner only
         CutSearch decided{};         ///< likewise
         LotAnswer lot{};             ///< likewise
@@ -176,8 +169,8 @@ class TreeSearch {
         Cut cut;
     };
 
-    /// Answer of an owner, followed by the weights of the parts below, a LotAnswer, or the box of a
-    /// node that was first counted in a spread search.
+    /// Answer of an owner, followed by a LotAnswer, or after the first count of a node by the
+    /// weights of the parts below, if these were counted, or its box in a spread search.
     struct Answer {
         CutSearch search;
         double weight = 0;
@@ -192,7 +185,7 @@ class TreeSearch {
     bool has_points(const Node& node) const;
     void enter(const Descent& at, Content&& content);
     bool ends_at(const Descent& at, Content& content);
-    void add_node(const Descent& at, Content&& content, Question question);
+    void add_node(const Descent& at, Content&& content);
     Cut cut_unsearched(const Descent& at, const Content& content, double share);
     void divide(const Descent& at, Content&& content, const Cut& cut, const Lot& lot, double below);
     void note(std::size_t node, const Cut& cut);
@@ -206,7 +199,7 @@ class TreeSearch {
     Bracket bracket_of(const Descent& at, int depth, double weight, double below) const;
     void take_known(Node& node) const;
     void count(const Node& node, std::vector<double>& payload);
-    void count_parts(const Node& node, std::vector<double>& payload);
+    void count_parts(const Node& node, std::vector<double>& payload) const;
     void add_lot(const Node& node, std::vector<double>& payload) const;
     void count_points(const Node& node, std::span<double> histogram) const;
     void keep_chosen(const CutSearch& before, Node& node);
@@ -219,7 +212,7 @@ class TreeSearch {
     void limit_gathering();
     void follow(Node&& node, std::span<const double> payload);
     void follow_search(Node&& node, const CutSearch& next, std::span<const double> more);
-    void take_sums(Node&& node, std::span<const double> sums);
+    bool take_sums(Node& node, std::span<const double> sums) const;
 
     PartTree tree_;
     const Guide* guide_ = nullptr;  ///< of a central search

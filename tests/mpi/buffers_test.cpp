@@ -110,7 +110,7 @@ TEST(Buffers, serve_all_calls_but_the_first) {
     }
 }
 
-TEST(Buffers, serve_corrections_and_second_searches) {
+TEST(Buffers, serve_second_searches) {
     const Cloud cloud(many);
     expect_no_memory(cloud, options_of(Refine::tolerance, 1.0001), false);
     Options options = options_of(Refine::tolerance);

@@ -13,15 +13,18 @@ namespace rrcb {
 /// bracket.
 ///
 /// The first num_extents entries are joined by their maximum: minus the lower ends of the extent,
-/// and its upper ends. They are followed by 2 * num_slots entries to be summed.
+/// and its upper ends. They are followed by the weights, unless points count as 1, and the counts of
+/// all slots, to be summed.
 struct HistogramLayout {
     int num_bins = 64;
+    bool is_weighted = true;
     std::array<AxisLimits, max_dimension> limits{};  ///< of the grids on whose lines bins have
                                                      ///< their edges
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
     static constexpr std::size_t num_extents = std::size_t{2} * max_dimension;
-    std::size_t length() const { return num_extents + 2 * num_slots(); }
+    std::size_t first_count() const { return num_extents + (is_weighted ? num_slots() : 0); }
+    std::size_t length() const { return first_count() + num_slots(); }
 };
 
 void clear_histogram(std::span<double> histogram);
@@ -33,7 +36,7 @@ inline std::span<const double> weights_in(std::span<const double> histogram,
 
 inline std::span<const double> counts_in(std::span<const double> histogram,
                                          const HistogramLayout& layout) {
-    return histogram.subspan(HistogramLayout::num_extents + layout.num_slots(), layout.num_slots());
+    return histogram.subspan(layout.first_count(), layout.num_slots());
 }
 
 /// Joins the histogram of other ranks. Any order gives the same bits if weights

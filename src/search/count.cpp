@@ -32,7 +32,7 @@ void count(const Collected& collected, const Entries& entries, int axis, const B
             box.upper[a] = std::max(box.upper[a], x[a]);
         }
         const auto slot = static_cast<std::size_t>(bins.slot_of(x[axis]));
-        weights[slot] += collected.weight(i);
+        if (layout.is_weighted) weights[slot] += collected.weight(i);
         counts[slot] += 1;
     }
     widen(histogram, box);
@@ -53,8 +53,8 @@ void count_settled(const Total& total, const Box& box, int slot, const Histogram
                    std::span<double> histogram) {
     if (!(total.count > 0)) return;
     widen(histogram, box);
-    sums_of(histogram)[static_cast<std::size_t>(slot)] += total.weight;
-    sums_of(histogram)[layout.num_slots() + static_cast<std::size_t>(slot)] += total.count;
+    if (layout.is_weighted) sums_of(histogram)[static_cast<std::size_t>(slot)] += total.weight;
+    histogram[layout.first_count() + static_cast<std::size_t>(slot)] += total.count;
 }
 
 void round_weights(double quantum, const HistogramLayout& layout, std::span<double> histogram) {

@@ -21,6 +21,7 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Box& box, PointPass
       rank_(rank),
       dimension_(points.dimension()),
       all_sizes_(tree.rule.size_of(root_of(tree.num_parts, tree.shape))),
+      layout_{.is_weighted = tree.rule.common_weight != 1},
       points_(points, std::move(all)) {
     const PartRange own = parts_on(rank, tree.num_parts, tree.num_ranks);
     first_own_ = own.first;
@@ -36,7 +37,7 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, Point
       rank_(rank),
       dimension_(guide.cuts.dimension),
       all_sizes_(tree.rule.size_of(root_of(guide.cuts))),
-      layout_{.limits = tree.limits},
+      layout_{.is_weighted = tree.rule.common_weight != 1, .limits = tree.limits},
       points_(points, guide.cuts, intervals(), guide.has_parts, std::move(memory)) {
     Content content{{}, Box{}, tree.weight};
     if (guide.limits) content.box = guide.limits->region();

@@ -1,4 +1,4 @@
-#include "passes/histogram.hpp"
+#include "search/count.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,6 +41,22 @@ TEST(Histogram, is_joined_by_the_largest_extent_and_the_sums_of_all_slots) {
     EXPECT_EQ(one[1], -std::numeric_limits<double>::infinity()) << "nobody told of this axis";
     for (std::size_t k = layout.num_extents; k < layout.length(); ++k)
         EXPECT_EQ(one[k], static_cast<double>(k) + 100);
+}
+
+TEST(Histogram, of_points_that_count_as_one_holds_each_number_once) {
+    const HistogramLayout counted{.num_bins = 2, .is_weighted = false};
+    Collected points;
+    points.dimension = 1;
+    points.coordinates = {0.1, 0.6, 0.7, 1.5};
+    std::vector<double> histogram(counted.length());
+    EXPECT_EQ(histogram.size() + counted.num_slots(), layout.length());
+    clear_histogram(histogram);
+    const Entries all{0, 1, 2, 3};
+    count(points, all, 0, Bins(0, 1, false, 2), counted, histogram);
+    count_settled({5, 5}, Box{}, 0, counted, histogram);
+    EXPECT_EQ((std::vector<double>{5, 1, 2, 1}),
+              std::vector<double>(histogram.end() - 4, histogram.end()));
+    EXPECT_EQ(weights_in(histogram, counted).data(), counts_in(histogram, counted).data());
 }
 
 }  // namespace

@@ -18,22 +18,22 @@ constexpr double largest = std::numeric_limits<double>::max();
 
 void TreeSearch::start_from_guide(Node& node) {
     const Descent& at = node.at;
+    const Cut& cut = guide_->cuts.tree[at.node];
+    Bracket bracket = guide_->brackets[at.node];
     if (node.content.are_parts_counted) node.below = weight_of(at.lower(), guide_->sums.sums());
-    const int axis = guide_->cuts.tree[at.node].axis;
-    Bracket bracket = bracket_of(at, node.content.depth, node.content.weight, node.below);
     if (guide_->limits) {
-        node.places = guide_->limits->places(at, node.content.box, axis);
-        const AxisLimits& limits = guide_->limits->across(axis);
+        node.places = guide_->limits->places(at, node.content.box, cut.axis);
+        const AxisLimits& limits = guide_->limits->across(cut.axis);
         bracket.lower = limits.nearest(bracket.lower, node.places.first, node.places.last);
         bracket.upper = limits.nearest(bracket.upper, bracket.lower, node.places.last);
     } else {
-        const Bracket& interval = points_.interval(at.node);
-        const bool is_inside = bracket.lower < interval.upper && bracket.upper > interval.lower;
-        if (!is_inside) bracket = {-largest, infinity};
-        bracket.lower = std::max(bracket.lower, interval.lower);
-        bracket.upper = std::min(bracket.upper, interval.upper);
+        bracket = points_.interval(at.node);
+        const double missing = missing_below(at, node.content.weight, node.below);
+        if (missing > 0) bracket.lower = std::max(bracket.lower, cut.at[cut.axis]);
+        if (missing < 0)
+            bracket.upper = std::min(bracket.upper, std::nextafter(cut.at[cut.axis], infinity));
     }
-    node.search = search_across(axis, bracket, node.content.weight);
+    node.search = search_across(cut.axis, bracket, node.content.weight);
 }
 
 /// Takes the points of this rank that are known to be on either side of a node's cut.
@@ -45,41 +45,49 @@ void TreeSearch::take_known(Node& node) const {
 /// Returns intervals in which the cuts are looked for first. Limits may move cuts anywhere.
 std::vector<Bracket> TreeSearch::intervals() const {
     std::vector<Bracket> found(guide_->cuts.tree.size(), {-infinity, infinity});
-    const auto find = [&](const auto& self, const Descent& at, int depth) -> void {
+    const auto find = [&](const auto& self, const Descent& at, int depth, double shifted) -> void {
         if (at.is_part()) return;
-        self(self, at.lower(), depth + 1);
-        self(self, at.upper(), depth + 1);
         const double share = tree_.rule.share_below(at);
-        if (!(share > 0 && share < 1)) return;
-        const auto sums = guide_->sums.sums();
-        Bracket& interval = found[at.node];
-        interval = bracket_of(at, depth, weight_of(at, sums),
-                              guide_->is_counted ? weight_of(at.lower(), sums) : not_counted);
-        // The cut may stay, and points at it may be on either side.
-        const Cut& cut = guide_->cuts.tree[at.node];
-        const double value = cut.at[cut.axis];
-        interval.lower = std::min(interval.lower, value);
-        interval.upper = std::max(interval.upper, std::nextafter(value, infinity));
+        if (share > 0 && share < 1) found[at.node] = interval_of(at, depth, shifted);
+        self(self, at.lower(), depth + 1, shifted);
+        self(self, at.upper(), depth + 1, shifted);
     };
-    if (!guide_->limits) find(find, root_of(guide_->cuts), 0);
+    if (!guide_->limits) find(find, root_of(guide_->cuts), 0, 0);
     return found;
 }
 
-/// Returns the bracket of a node's cut. If the cut is known to be off in one direction, because the
-/// weight below was counted, the bracket is on that side, and wide enough to find it.
-Bracket TreeSearch::bracket_of(const Descent& at, int depth, double weight, double below) const {
-    constexpr double caution = 2;
-    Bracket bracket = guide_->brackets[at.node];
-    if (tree_.rule.is_exact || guide_->limits || below == not_counted || !(weight > 0))
-        return bracket;
+/// Returns the interval of a node's cut, into which or out of which cuts above may have `shifted`
+/// weight; adds what this cut may shift. If the weight below was counted, the interval is wide
+/// enough for what is missing there.
+Bracket TreeSearch::interval_of(const Descent& at, int depth, double& shifted) const {
+    constexpr double caution = 3;
+    constexpr double least = 0.25;
     const Cut& cut = guide_->cuts.tree[at.node];
-    const double value = std::clamp(cut.at[cut.axis], bracket.lower, bracket.upper);
-    const double error = (tree_.rule.target_of(at, weight, below).target - below) / weight;
-    const double widths = std::max(1.0, caution * std::abs(error) / expected_error(depth));
-    if (error < 0) bracket.upper = std::nextafter(value, infinity);
-    if (error > 0) bracket.lower = value;
-    return {std::max(std::lerp(value, bracket.lower, widths), -largest),
-            std::lerp(value, bracket.upper, widths)};
+    Bracket interval = guide_->brackets[at.node];
+    const auto sums = guide_->sums.sums();
+    const double in_half = guide_->is_counted ? expected_error(depth) * weight_of(at, sums) : 0;
+    if (in_half > 0) {
+        const bool stays = shifted == 0 && tree_.rule.may_stay(at, sums);
+        const double missing =
+            stays ? 0 : missing_below(at, weight_of(at, sums), weight_of(at.lower(), sums));
+        const double open = stays ? 0 : shifted / 2 / in_half + least;
+        const double widths = caution * std::abs(missing) / in_half;
+        const double value = std::clamp(cut.at[cut.axis], interval.lower, interval.upper);
+        interval = {
+            std::max(std::lerp(value, interval.lower, open + (missing < 0 ? widths : 0)), -largest),
+            std::lerp(value, interval.upper, open + (missing > 0 ? widths : 0))};
+        shifted = std::abs(missing) + shifted / 2;
+    }
+    // The cut may stay, and points at it may be on either side.
+    const double value = cut.at[cut.axis];
+    return {std::min(interval.lower, value),
+            std::max(interval.upper, std::nextafter(value, infinity))};
+}
+
+/// Returns the weight that is to come below a node's cut; 0 if the present weight is not known.
+double TreeSearch::missing_below(const Descent& at, double weight, double below) const {
+    const bool is_known = !tree_.rule.is_exact && below != not_counted && weight > 0;
+    return is_known ? tree_.rule.target_of(at, weight, below).target - below : 0;
 }
 
 /// Appends the weights of the parts below a node by the current cuts on this rank.

@@ -196,7 +196,8 @@ class TreeSearch {
     std::span<const int> axes() const;
     CutSearch first_search(const Descent& at, const Box& box, double weight) const;
     void start_from_guide(Node& node);
-    Bracket bracket_of(const Descent& at, int depth, double weight, double below) const;
+    Bracket interval_of(const Descent& at, int depth, double& shifted) const;
+    double missing_below(const Descent& at, double weight, double below) const;
     void take_known(Node& node) const;
     void count(const Node& node, std::vector<double>& payload);
     void count_parts(const Node& node, std::vector<double>& payload) const;

@@ -4,6 +4,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "gather/extent.hpp"
 #include "gather/keeping.hpp"
 #include "options/call_kind.hpp"
 #include "options/request.hpp"
@@ -39,8 +40,7 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     call.settlement.prepare(options, call.is_spread, reads_kept, self);
     call.decision.bisects = !call.is_spread;
     if (call.is_spread) return;
-    if (reads_kept && may_keep)
-        append_extent(extent_of(summary), points.dimension(), call.mine.extents);
+    if (reads_kept && may_keep) append_extent(summary, points.dimension(), call.mine.extents);
     make_buffers(call.decision, options, points.dimension(), reads_kept);
     add_records(points, summary.box, options, call.mine);
 }

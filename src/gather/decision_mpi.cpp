@@ -7,6 +7,7 @@
 #include "collective/meeting_mpi.hpp"
 #include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
+#include "gather/extent.hpp"
 #include "gather/keeping.hpp"
 #include "options/rejection.hpp"
 #include "options/stage_scope.hpp"
@@ -170,11 +171,11 @@ bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contributio
 /// Reads the parts that the ranks hold from the extents of their points.
 void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.bisection.cuts;
-    std::vector<Extent> extents = read_extents(all.extents, estimate.dimension);
+    std::vector<PointSummary> extents = read_extents(all.extents, estimate.dimension);
     if (extents.empty() || extents.size() != decision.kept.parts.size()) return;
     if (all.summary.num_points == 0) return;
     if (decision.verdict.is_counted())
-        for (Extent& extent : extents) extent.weight = extent.count;
+        for (PointSummary& extent : extents) extent.weight = static_cast<double>(extent.count);
     auto kept = read_kept_tree(extents, estimate, options);
     if (!kept || !crosses_good_axes(kept->cuts, estimate, all, options)) return;
     decision.verdict.kept_imbalance = kept->imbalance;

@@ -24,11 +24,11 @@ using Positions = std::vector<Vector>;
 /// What each rank holds.
 using Distribution = std::vector<Positions>;
 
-Extent extent_of(const Positions& positions, int dimension) {
+PointSummary extent_of(const Positions& positions, int dimension) {
     std::vector<double> coordinates;
     for (const Vector& x : positions)
         coordinates.insert(coordinates.end(), x.begin(), x.begin() + dimension);
-    return extent_of(summary_of(interleaved_points(coordinates, dimension)));
+    return summary_of(interleaved_points(coordinates, dimension));
 }
 
 Options options_for(std::size_t num_parts) {
@@ -49,7 +49,7 @@ Cuts across(std::vector<int> axes, int dimension) {
 
 std::optional<KeptTree> read(const Distribution& held, const Cuts& estimate,
                              const Options& options) {
-    std::vector<Extent> extents;
+    std::vector<PointSummary> extents;
     for (const Positions& positions : held)
         extents.push_back(extent_of(positions, estimate.dimension));
     return read_kept_tree(extents, estimate, options);
@@ -343,7 +343,7 @@ TEST(KeptTree, leave_parts_of_size_zero_empty) {
 }
 
 TEST(KeptTree, weigh_as_much_as_the_ranks) {
-    std::vector<Extent> extents{extent_of({{0, 0}}, 2), extent_of({{1, 0}, {2, 0}}, 2)};
+    std::vector<PointSummary> extents{extent_of({{0, 0}}, 2), extent_of({{1, 0}, {2, 0}}, 2)};
     extents[0].weight = 3.5;
     EXPECT_EQ(read_kept_tree(extents, across({0}, 2), options_for(2))->part_weights,
               (std::vector<double>{3.5, 2}));

@@ -163,8 +163,7 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
 /// Returns true if new cuts might be across the axes of the cuts between the ranks.
 bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contribution& all,
                        const Options& options) {
-    const bool compares = !options.axes.order.is_longest() && !are_cuts_limited(options);
-    return !compares || axes_of(kept.tree) == axes_of(estimate.tree) ||
+    return options.axes.order.is_longest() || axes_of(kept.tree) == axes_of(estimate.tree) ||
            are_axes_good(build_domain(all, estimate.dimension), kept, estimate.near);
 }
 

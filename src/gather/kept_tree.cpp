@@ -2,12 +2,10 @@
 
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/position_order.hpp"
-#include "bisection/limited_bisection.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
 #include "gather/extent.hpp"
 #include "options/allowed_axes.hpp"
-#include "options/call_kind.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -20,29 +18,18 @@ namespace rrcb {
 
 namespace {
 
-Box box_of(const PointSummary& extent) {
-    Box box;
-    for (std::size_t a = 0; a < max_dimension; ++a) {
-        box.lower[a] = extent.first[a][a];
-        box.upper[a] = extent.last[a][a];
-    }
-    return box;
-}
-
 class Reader {
   public:
     Reader(std::span<const PointSummary> extents, const Cuts& estimate, const Options& options)
         : extents_(extents), estimate_(estimate), options_(options), ends_(extents.size()) {
         std::iota(ends_.begin(), ends_.end(), 0);
         kept_.cuts = estimate;
-        gaps_.resize(estimate.tree.size());
         kept_.parts.resize(extents.size());
         kept_.part_weights.resize(extents.size());
     }
 
     std::optional<KeptTree> read() {
         if (!read_node(root_of(estimate_), ends_, true)) return std::nullopt;
-        if (are_cuts_limited(options_) && !move_into_places()) return std::nullopt;
         kept_.imbalance = imbalance(kept_.part_weights, options_.part_sizes);
         return std::move(kept_);
     }
@@ -86,35 +73,14 @@ class Reader {
         if (!may_cross(axis, estimate_.tree[at.node].axis, as_expected, joined(ends))) return false;
         const auto cut = cut_between(below, above, axis, by_number);
         if (!cut) return false;
-        if (are_cuts_limited(options_)) gaps_[at.node] = gap_between(below, above, axis);
         kept_.cuts.tree[at.node] = *cut;
-        return !gaps_[at.node].empty();
-    }
-
-    /// Returns the positions of a cut between the points of two groups: above the last below, up to
-    /// the first above.
-    Places gap_between(const PointSummary& below, const PointSummary& above, int axis) const {
-        const double last = below.last[axis][axis];
-        const double first = above.first[axis][axis];
-        const AxisLimits limits = axis_limits(options_)[axis];
-        if (last == first) return {last, last};
-        return {std::isinf(last) ? last : limits.place_behind(last),
-                std::isinf(first) ? first : limits.place_before(std::nextafter(first, infinity))};
-    }
-
-    /// Moves the cuts to allowed positions in their gaps; returns false if these are not enough.
-    bool move_into_places() {
-        CutLimits limits(options_, box_of(joined(ends_)), estimate_.dimension,
-                         {axes_of(kept_.cuts.tree), gaps_});
-        if (!limits.has_room()) return false;
-        rrcb::move_into_places(limits, kept_.cuts);
         return true;
     }
 
     bool may_cross(int axis, int usual, bool as_expected, const PointSummary& all) const {
         const AxisOrder& order = options_.axes.order;
         if (order.is_given() || order.is_grouped()) return axis == usual;
-        if (are_cuts_limited(options_) || !order.is_longest())
+        if (!order.is_longest())
             return std::ranges::count(allowed_axes(order, estimate_.dimension), axis) > 0;
         return as_expected || is_long(all, axis);
     }
@@ -198,8 +164,7 @@ class Reader {
     std::span<const PointSummary> extents_;
     const Cuts& estimate_;
     const Options& options_;
-    std::vector<Part> ends_;    ///< in the order of the parts that were read
-    std::vector<Places> gaps_;  ///< between the points on both sides of each cut
+    std::vector<Part> ends_;  ///< in the order of the parts that were read
     KeptTree kept_;
 };
 

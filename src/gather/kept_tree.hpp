@@ -32,8 +32,7 @@ bool is_in_order(const KeptTree& kept);
 /// - that of the same cut in `estimate`, if all cuts above it are across those of `estimate` too,
 /// - or a long axis of the points that it divides. Slabs of a cube are therefore no bisection.
 ///
-/// Limited cuts, and those of fewest_ghosts(), may be across any allowed axis. For the latter the
-/// caller calls are_axes_good().
+/// Cuts of fewest_ghosts() may be across any allowed axis; the caller calls are_axes_good().
 std::optional<KeptTree> read_kept_tree(std::span<const PointSummary> extents, const Cuts& estimate,
                                        const Options& options);
 

@@ -289,20 +289,6 @@ TEST(KeptTree, are_cut_in_the_middle_of_a_gap_and_at_the_first_point_above_where
     EXPECT_EQ(wide->cuts.tree[0].at[0], 0);
 }
 
-// The gap between the first two ranks holds no line; cuts above it have theirs.
-TEST(KeptTree, on_lines_are_read_only_where_each_gap_holds_one) {
-    Options options = options_for(4);
-    options.axes.plain = true;
-    options.axes.grid = {{0, 1}, {0, 1}};
-    for (const double first : {1.7, 2.1}) {
-        const Distribution held{
-            {{0.2, 0}, {1.6, 0}}, {{first, 0}, {2.9, 0}}, {{3.1, 0}, {4.5, 0}}, {{5.2, 0}, {6, 0}}};
-        const auto current = read(held, across({0, 0, 0}, 2), options);
-        ASSERT_EQ(current.has_value(), first > 2) << first;
-        if (current) expect_cuts_give_every_rank_its_part(held, *current);
-    }
-}
-
 TEST(KeptTree, in_one_place_are_read_only_where_a_search_may_divide_them) {
     const Distribution held{{{0, 0}, {1, 1}}, {{1, 1}, {2, 0}}};
     EXPECT_FALSE(read(held, across({0}, 2)));

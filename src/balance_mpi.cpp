@@ -4,11 +4,11 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/stage_scope.hpp"
 #include "gather/extent.hpp"
 #include "gather/keeping.hpp"
 #include "options/call_kind.hpp"
 #include "options/request.hpp"
-#include "options/stage_scope.hpp"
 #include "verbose_mpi.hpp"
 
 #include <algorithm>

@@ -2,11 +2,10 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/cuts_mpi.hpp"
-#include "cuts/tier_search_mpi.hpp"
+#include "collective/stage_scope.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/tier_search_mpi.hpp"
 #include "options/call_kind.hpp"
-#include "options/stage_scope.hpp"
 #include "passes/assignment.hpp"
 
 #include <algorithm>

@@ -121,10 +121,4 @@ Cut CutLimits::nearest(const Cut& cut, const Places& places) const {
     return place == value ? cut : plane(cut.axis, place);
 }
 
-Cut plane(int axis, double value) {
-    Cut cut{axis, 0, {-infinity, -infinity, -infinity}};
-    cut.at[axis] = value;
-    return cut;
-}
-
 }  // namespace rrcb

@@ -75,7 +75,4 @@ class CutLimits {
     const char* limiting_;  ///< options, with a verb
 };
 
-/// Returns a cut without ties.
-Cut plane(int axis, double value);
-
 }  // namespace rrcb

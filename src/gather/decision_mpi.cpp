@@ -3,14 +3,16 @@
 #include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/limited_bisection.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/meeting_mpi.hpp"
+#include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/extent.hpp"
 #include "gather/keeping.hpp"
+#include "options/call_kind.hpp"
 #include "options/rejection.hpp"
-#include "options/stage_scope.hpp"
 
 #include <rrcb/quality.hpp>
 

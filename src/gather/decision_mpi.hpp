@@ -1,9 +1,8 @@
 #pragma once
 
-#include "collective/agreement_mpi.hpp"
+#include "collective/participant.hpp"
 #include "gather/contribution.hpp"
 #include "gather/kept_tree.hpp"
-#include "options/call_kind.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/method/bisection.hpp>

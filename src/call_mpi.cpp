@@ -62,7 +62,7 @@ void report_near(Call& call) {
     ReportDetails& details = call.result.report.details;
     call.result.cuts.near = {near.reach, 0};
     details.near_after = near.share;
-    if (!call.decision.bisects) details.near_before = near.share;
+    if (call.decision.verdict.answer == Answer::weights) details.near_before = near.share;
 }
 
 }  // namespace

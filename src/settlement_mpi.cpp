@@ -71,7 +71,7 @@ void Settlement::refine(PointPasses& points, const Box& box, Decision& decision,
                       verdict.kept_imbalance,
                       !decision.part_weights.empty(),
                       verdict.heaviest,
-                      !decision.bisects,
+                      verdict.answer == Answer::weights,
                       verdict.box,
                       report.details.num_points};
     Refined refined = refinement_->refine(std::move(estimate), points, box, self);

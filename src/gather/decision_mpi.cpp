@@ -99,16 +99,20 @@ void check_together(const Summary& summary) {
         reject("the sum of the weights of all ranks overflows; scale them down");
 }
 
-/// Calls `visit` with each array of the message: the kept parts if points are kept, the weights of
-/// the parts of earlier cuts if rank 0 makes no cuts, otherwise the new cuts.
+/// Calls `visit` with each array of the message, by the answer.
 template <class Visit>
 void for_each_array(Decision& decision, Visit&& visit) {
-    if (!decision.bisects) return visit(std::span(decision.part_weights));
-    const bool keeps = decision.verdict.keeps != 0;
-    visit(std::span(keeps ? decision.kept.cuts.tree : decision.bisection.cuts.tree));
-    if (keeps) visit(std::span(decision.kept.part_weights));
-    if (keeps) visit(std::span(decision.kept.parts));
-    if (!keeps) visit(std::span(decision.bisection.brackets));
+    switch (decision.verdict.answer) {
+        case Answer::weights:
+            return visit(std::span(decision.part_weights));
+        case Answer::cuts:
+            visit(std::span(decision.bisection.cuts.tree));
+            return visit(std::span(decision.bisection.brackets));
+        case Answer::kept:
+            visit(std::span(decision.kept.cuts.tree));
+            visit(std::span(decision.kept.part_weights));
+            visit(std::span(decision.kept.parts));
+    }
 }
 
 /// Returns the message, as long as its arrays.
@@ -180,7 +184,8 @@ void weigh_kept(const Contribution& all, const Options& options, Decision& decis
     auto kept = read_kept_tree(extents, estimate, options);
     if (!kept || !crosses_good_axes(kept->cuts, estimate, all, options)) return;
     decision.verdict.kept_imbalance = kept->imbalance;
-    decision.verdict.keeps = keeps_at_once(kept->imbalance, options.imbalance_tolerance) ? 1 : 0;
+    if (keeps_at_once(kept->imbalance, options.imbalance_tolerance))
+        decision.verdict.answer = Answer::kept;
     decision.kept = std::move(*kept);
 }
 
@@ -213,7 +218,7 @@ bool counts_earlier_parts(const Options& options) {
 const Cuts& take_earlier(Decision& decision, const Options& options, bool spread,
                          const Cuts& previous) {
     Cuts& cuts = decision.bisection.cuts;
-    decision.bisects = false;
+    decision.verdict.answer = Answer::weights;
     cuts = fitted(previous, options);
     if (spread && is_whole(cuts)) {
         cuts.nodes.resize(cuts.tree.size());
@@ -249,13 +254,15 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
 void decide(const Contribution& all, const Options& options, Decision& decision) {
     check_together(all.summary);
     Bisection& bisection = decision.bisection;
-    if (decision.bisects) {
+    const Answer answer = decision.verdict.answer;
+    if (answer == Answer::cuts) {
         const bool with_brackets = is_refined(options);
         bisection = bisect_gathered(all, options, bisection.cuts.dimension, with_brackets);
         bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
     }
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
-    if (!decision.bisects) weigh_parts(all, options, decision);
+    decision.verdict.answer = answer;
+    if (answer == Answer::weights) weigh_parts(all, options, decision);
     weigh_kept(all, options, decision);
 }
 
@@ -302,7 +309,7 @@ Box box_together(Box box, const Participant& self) {
 }
 
 void broadcast_kept(Decision& decision, const Participant& self) {
-    decision.verdict.keeps = 1;
+    decision.verdict.answer = Answer::kept;
     if (mpi::rank_of(self.comm) == root) pack(decision);
     mpi::broadcast(message_of(decision), root, self.comm);
     unpack(decision);

@@ -4,10 +4,11 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/stage_scope.hpp"
+#include "gather/extent.hpp"
 #include "gather/keeping.hpp"
 #include "options/call_kind.hpp"
 #include "options/request.hpp"
-#include "options/stage_scope.hpp"
 #include "verbose_mpi.hpp"
 
 #include <algorithm>
@@ -37,10 +38,9 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     const bool reads_kept = !call.is_spread && reads_kept_tree(options, mpi::size_of(self.comm));
     call.box = summary.box;
     call.settlement.prepare(options, call.is_spread, reads_kept, self);
-    call.decision.bisects = !call.is_spread;
+    if (call.is_spread) call.decision.verdict.answer = Answer::weights;
     if (call.is_spread) return;
-    if (reads_kept && may_keep)
-        append_extent(extent_of(summary), points.dimension(), call.mine.extents);
+    if (reads_kept && may_keep) append_extent(summary, points.dimension(), call.mine.extents);
     make_buffers(call.decision, options, points.dimension(), reads_kept);
     add_records(points, summary.box, options, call.mine);
 }
@@ -61,7 +61,7 @@ void settle(Call& call, Participant& self) {
 /// Makes the parts that the ranks hold the result. Collective.
 void keep(Call& call, Participant& self) {
     Decision& decision = call.decision;
-    const bool is_known = decision.verdict.keeps != 0;
+    const bool is_known = decision.verdict.answer == Answer::kept;
     const StageScope stage(call.options.observer, is_known ? Stage::assignment : Stage::broadcast,
                            self.arithmetic);
     if (is_known) {

@@ -2,12 +2,12 @@
 
 #include "collective/communicator.hpp"
 #include "collective/machines_mpi.hpp"
+#include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
-#include "options/stage_scope.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -62,7 +62,7 @@ void report_near(Call& call) {
     ReportDetails& details = call.result.report.details;
     call.result.cuts.near = {near.reach, 0};
     details.near_after = near.share;
-    if (!call.decision.bisects) details.near_before = near.share;
+    if (call.decision.verdict.answer == Answer::weights) details.near_before = near.share;
 }
 
 }  // namespace

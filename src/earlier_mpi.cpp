@@ -1,13 +1,13 @@
 #include "bisection/limited_bisection.hpp"
 #include "call_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
+#include "collective/stage_scope.hpp"
 #include "cuts/cut_limits.hpp"
 #include "gather/better_mpi.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
-#include "gather/spread_reuse_mpi.hpp"
 #include "options/call_kind.hpp"
-#include "options/stage_scope.hpp"
+#include "spread_reuse_mpi.hpp"
 
 #include <cmath>
 #include <optional>

@@ -2,11 +2,10 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/cuts_mpi.hpp"
-#include "cuts/tier_search_mpi.hpp"
+#include "collective/stage_scope.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/tier_search_mpi.hpp"
 #include "options/call_kind.hpp"
-#include "options/stage_scope.hpp"
 #include "passes/assignment.hpp"
 
 #include <algorithm>
@@ -72,7 +71,7 @@ void Settlement::refine(PointPasses& points, const Box& box, Decision& decision,
                       verdict.kept_imbalance,
                       !decision.part_weights.empty(),
                       verdict.heaviest,
-                      !decision.bisects,
+                      verdict.answer == Answer::weights,
                       verdict.box,
                       report.details.num_points};
     Refined refined = refinement_->refine(std::move(estimate), points, box, self);

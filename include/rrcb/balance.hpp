@@ -40,7 +40,7 @@ struct Report {
                                     ///< 1 without points
     bool within_tolerance = false;  ///< `imbalance` is at most Options::imbalance_tolerance
     bool kept = false;  ///< nothing moves: the points of rank r are part r; not noticed if many
-                        ///< ranks make the parts
+                        ///< ranks make the parts, or with limits of cuts
     std::vector<double> part_weights;  ///< over all ranks, one per part, by count if all weights
                                        ///< are 0; empty if not counted, or if ranks get their own
                                        ///< cuts only

@@ -143,8 +143,8 @@ Bisection bisect_within(const Box& points, StatisticalDomain domain, const Optio
                         bool with_brackets) {
     const int dimension = domain.dimension;
     const AxisChoice axis_choice(options, points, dimension);
-    const std::vector<int> given = axis_choice.given(root_of(options.num_parts, options.tree));
-    CutLimits limits(options, points, dimension, {given, {}});
+    CutLimits limits(options, points, dimension,
+                     axis_choice.given(root_of(options.num_parts, options.tree)));
     limits.require_room();
     return bisect(std::move(domain), options, with_brackets, axis_choice, &limits);
 }

@@ -2,7 +2,6 @@
 
 #include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
-#include "bisection/bisection.hpp"
 #include "bisection/near_weight.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/slice.hpp"

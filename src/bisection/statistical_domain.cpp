@@ -1,6 +1,5 @@
 #include "bisection/cell_density.hpp"
 #include "bisection/patches.hpp"
-#include "collective/failure.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 

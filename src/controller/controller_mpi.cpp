@@ -1,4 +1,3 @@
-#include "arithmetic/non_stop.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"

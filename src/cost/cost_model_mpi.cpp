@@ -1,4 +1,3 @@
-#include "arithmetic/non_stop.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/saved_state_mpi.hpp"
 #include "controller/controller_state_mpi.hpp"

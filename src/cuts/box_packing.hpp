@@ -19,6 +19,9 @@ using Room = std::array<int, max_dimension>;
 /// others above. A node fits if some axis and division fit both children. More room never harms, so
 /// there is a least room along one axis for given room along the others. It is found by recursion
 /// over the shapes of nodes, of which halving makes two per level if no part has size 0.
+///
+/// A closed formula, halvings across two axes and then a row along the third, would refuse 10 % in
+/// 2-D and 16 % in 3-D of the rooms that fit if they have up to 1.5 units for each part.
 class BoxPacking {
   public:
     /// Takes the relative sizes of the parts; those of size 0 take no room.

@@ -20,7 +20,8 @@ std::array<AxisLimits, max_dimension> axis_limits(const Options& options) {
     return axes;
 }
 
-CutLimits::CutLimits(const Options& options, const Box& points, int dimension, GivenAxes given)
+CutLimits::CutLimits(const Options& options, const Box& points, int dimension,
+                     std::vector<int> given)
     : axes_(axis_limits(options)),
       region_(points),
       dimension_(dimension),
@@ -44,8 +45,7 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension, G
 }
 
 bool CutLimits::has_room() {
-    if (given_.axes.empty())
-        return packing_.fits(whole_, room_in(region_, packing_.num_parts(whole_)));
+    if (given_.empty()) return packing_.fits(whole_, room_in(region_, packing_.num_parts(whole_)));
     for (int axis = 0; axis < dimension_; ++axis)
         if (!has_room_across(whole_, axis)) return false;
     return true;
@@ -54,7 +54,7 @@ bool CutLimits::has_room() {
 /// Returns true if the first cut across `axis` on each way down the tree has places.
 bool CutLimits::has_room_across(const Descent& at, int axis) {
     if (at.is_part()) return true;
-    if (divides(at) && given_.axes[at.node] == axis) return !places(at, region_, axis).empty();
+    if (divides(at) && given_[at.node] == axis) return !places(at, region_, axis).empty();
     return has_room_across(at.lower(), axis) && has_room_across(at.upper(), axis);
 }
 
@@ -63,7 +63,7 @@ void CutLimits::require_room() {
     const int num_parts = packing_.num_parts(whole_);
     const Room room = room_in(region_, num_parts);
     const std::string limited(limiting_);
-    if (given_.axes.empty())
+    if (given_.empty())
         reject(limited + " room for " + std::to_string(most_parts(room, whole_.shape, num_parts)) +
                " parts, but " + std::to_string(num_parts) +
                " are asked for; ask for fewer, or set narrower limits");
@@ -88,11 +88,9 @@ double CutLimits::first_face_behind(const Descent& at, int axis, double face) co
     if (at.is_part()) return across(axis).first_behind(face, 1);
     if (!divides(at)) return first_face_behind(with_parts(at), axis, face);
     const double behind_lower = first_face_behind(at.lower(), axis, face);
-    if (axis != given_.axes[at.node])
+    if (axis != given_[at.node])
         return std::max(behind_lower, first_face_behind(at.upper(), axis, face));
-    const Places gap = given_.gaps.empty() ? Places{} : given_.gaps[at.node];
-    if (behind_lower > gap.last) return infinity;
-    return first_face_behind(at.upper(), axis, std::max(behind_lower, gap.first));
+    return first_face_behind(at.upper(), axis, behind_lower);
 }
 
 /// Returns the greatest place of a cut across `axis` with room for a node between it and `face`.
@@ -100,19 +98,15 @@ double CutLimits::last_face_before(const Descent& at, int axis, double face) con
     if (at.is_part()) return across(axis).last_before(face, 1);
     if (!divides(at)) return last_face_before(with_parts(at), axis, face);
     const double before_upper = last_face_before(at.upper(), axis, face);
-    if (axis != given_.axes[at.node])
+    if (axis != given_[at.node])
         return std::min(before_upper, last_face_before(at.lower(), axis, face));
-    const Places gap = given_.gaps.empty() ? Places{} : given_.gaps[at.node];
-    if (before_upper < gap.first) return -infinity;
-    return last_face_before(at.lower(), axis, std::min(before_upper, gap.last));
+    return last_face_before(at.lower(), axis, before_upper);
 }
 
 Places CutLimits::places(const Descent& at, const Box& region, int axis) {
-    if (!given_.axes.empty()) {
-        const Places gap = given_.gaps.empty() ? Places{} : given_.gaps[at.node];
-        return {std::max(gap.first, first_face_behind(at.lower(), axis, region.lower[axis])),
-                std::min(gap.last, last_face_before(at.upper(), axis, region.upper[axis]))};
-    }
+    if (!given_.empty())
+        return {first_face_behind(at.lower(), axis, region.lower[axis]),
+                last_face_before(at.upper(), axis, region.upper[axis])};
     const Room room = room_in(region, packing_.num_parts(at));
     const int below = packing_.least_room(at.lower(), axis, room, room[axis]);
     const int above = packing_.least_room(at.upper(), axis, room, room[axis]);
@@ -125,12 +119,6 @@ Cut CutLimits::nearest(const Cut& cut, const Places& places) const {
     const double value = cut.at[cut.axis];
     const double place = across(cut.axis).nearest(value, places.first, places.last);
     return place == value ? cut : plane(cut.axis, place);
-}
-
-Cut plane(int axis, double value) {
-    Cut cut{axis, 0, {-infinity, -infinity, -infinity}};
-    cut.at[axis] = value;
-    return cut;
 }
 
 }  // namespace rrcb

@@ -19,28 +19,22 @@ struct Places {
     bool all() const { return first < -std::numeric_limits<double>::max(); }
 };
 
-/// Axes of the cuts of a tree in preorder, and the places allowed to each by itself: all if `gaps`
-/// is empty. Both are empty if axes are free.
-struct GivenAxes {
-    std::vector<int> axes{};
-    std::vector<Places> gaps{};
-};
-
 /// Allowed places of the cuts of a tree: all parts have the least width, and all cuts are on lines.
 ///
 /// If the complete tree has room, a cut leaves places to all cuts below it exactly if it is at one
 /// of its own.
 class CutLimits {
   public:
-    /// Takes complete options that limit the cuts, and the box of the points. Throws Error if the
-    /// grid is too fine.
-    CutLimits(const Options& options, const Box& points, int dimension, GivenAxes given = {});
+    /// Takes complete options that limit the cuts, the box of the points, and the axes of the cuts
+    /// in preorder, none if they are free. Throws Error if the grid is too fine.
+    CutLimits(const Options& options, const Box& points, int dimension,
+              std::vector<int> given = {});
 
     /// Returns the box that the cuts divide.
     const Box& region() const { return region_; }
 
     int dimension() const { return dimension_; }
-    bool are_axes_given() const { return !given_.axes.empty(); }
+    bool are_axes_given() const { return !given_.empty(); }
 
     bool has_room();
 
@@ -77,11 +71,8 @@ class CutLimits {
     std::vector<int> allowed_;
     Descent whole_;
     BoxPacking packing_;
-    GivenAxes given_;
+    std::vector<int> given_;
     const char* limiting_;  ///< options, with a verb
 };
-
-/// Returns a cut without ties.
-Cut plane(int axis, double value);
 
 }  // namespace rrcb

@@ -62,6 +62,12 @@ void visit_touching(const Cuts& cuts, const Descent& at, const Box& box, Visit&&
 
 }  // namespace
 
+Cut plane(int axis, double value) {
+    Cut cut{axis, 0, {-infinity, -infinity, -infinity}};
+    cut.at[axis] = value;
+    return cut;
+}
+
 bool is_plane(const Cut& cut, int dimension) {
     for (int a = 0; a < dimension; ++a)
         if (a != cut.axis && cut.at[a] != -infinity) return false;

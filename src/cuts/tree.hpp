@@ -74,6 +74,9 @@ bool knows_path(const Cuts& cuts, Part part);
 /// Throws the Error of a look-up that needs an unknown cut.
 [[noreturn]] void reject_unknown();
 
+/// Returns a cut without ties.
+Cut plane(int axis, double value);
+
 /// Returns true if a cut is a plane, without ties by position.
 bool is_plane(const Cut& cut, int dimension);
 

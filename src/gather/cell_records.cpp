@@ -12,22 +12,16 @@ namespace rrcb {
 
 namespace {
 
-/// Content of a block of records: cells of a lattice, of a mesh, or of one with another frame.
-enum class Form { lattice, lean, framed };
-
 /// Head of a block of records.
 struct BlockOfCells {
-    double num_cells = 0;
-    double form = 0;
-    double exponent = 0;    ///< of the lattice, or of lean weights
-    double unit = 1;        ///< of the weights
-    double num_packed = 0;  ///< doubles of lean cells
+    double num_cells;
+    double exponent;    ///< of the lattice, or of lean weights
+    double unit;        ///< of the weights
+    double num_packed;  ///< doubles of lean cells; 0 if the cells are those of a lattice
 };
 
-template <class T>
-void append_block(const T& block, std::vector<double>& records) {
-    const auto* first = reinterpret_cast<const double*>(&block);
-    records.insert(records.end(), first, first + sizeof(T) / sizeof(double));
+void append_block(const BlockOfCells& block, std::vector<double>& records) {
+    records.insert(records.end(), {block.num_cells, block.exponent, block.unit, block.num_packed});
 }
 
 void append_vector(const Vector& x, int dimension, std::vector<double>& records) {
@@ -38,14 +32,6 @@ std::span<const double> take(std::span<const double>& records, std::size_t count
     const auto taken = records.first(count);
     records = records.subspan(count);
     return taken;
-}
-
-template <class T>
-T take_block(std::span<const double>& records) {
-    T block;
-    const auto taken = take(records, sizeof(T) / sizeof(double));
-    std::copy(taken.begin(), taken.end(), reinterpret_cast<double*>(&block));
-    return block;
 }
 
 Vector take_vector(std::span<const double>& records, int dimension) {
@@ -91,17 +77,16 @@ Box box_of_merged(const Moments& moments, int dimension, int exponent) {
     return box;
 }
 
-void append_mesh(const SupportMesh& mesh, bool is_framed, std::vector<double>& records) {
+void append_mesh(const SupportMesh& mesh, std::vector<double>& records) {
     append_vector(mesh.box.lower, mesh.dimension, records);
     append_vector(mesh.box.upper, mesh.dimension, records);
     records.insert(records.end(), mesh.cells.begin(), mesh.cells.begin() + mesh.dimension);
-    if (!is_framed) return;
     append_vector(mesh.frame.lower, mesh.dimension, records);
     append_vector(mesh.frame.upper, mesh.dimension, records);
 }
 
 /// Reads a mesh, or the part of it that the boxes of its cells need.
-SupportMesh take_mesh(std::span<const double>& records, int dimension, bool is_framed) {
+SupportMesh take_mesh(std::span<const double>& records, int dimension) {
     Box box;
     box.lower = take_vector(records, dimension);
     box.upper = take_vector(records, dimension);
@@ -109,7 +94,6 @@ SupportMesh take_mesh(std::span<const double>& records, int dimension, bool is_f
     const auto cells = take(records, dimension);
     std::ranges::transform(cells, mesh.cells.begin(),
                            [](double number) { return static_cast<int>(number); });
-    if (!is_framed) return mesh;
     mesh.frame.lower = take_vector(records, dimension);
     mesh.frame.upper = take_vector(records, dimension);
     return mesh;
@@ -137,36 +121,33 @@ void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& me
                        std::vector<double>& records) {
     const LeanCells lean = pack_cells(cells, mesh);
     const std::size_t num_packed = (lean.bytes.size() + sizeof(double) - 1) / sizeof(double);
-    const bool is_framed = mesh.frame.lower != mesh.box.lower || mesh.frame.upper != mesh.box.upper;
-    const Form form = is_framed ? Form::framed : Form::lean;
-    append_block(
-        BlockOfCells{static_cast<double>(cells.size()), double(form),
-                     static_cast<double>(lean.exponent), unit, static_cast<double>(num_packed)},
-        records);
-    append_mesh(mesh, is_framed, records);
+    append_block({static_cast<double>(cells.size()), static_cast<double>(lean.exponent), unit,
+                  static_cast<double>(num_packed)},
+                 records);
+    append_mesh(mesh, records);
     records.resize(records.size() + num_packed);
     std::ranges::copy(lean.bytes,
                       std::as_writable_bytes(std::span(records).last(num_packed)).begin());
 }
 
 void append_cells(const CellSet& merged, int dimension, double unit, std::vector<double>& records) {
-    append_block(BlockOfCells{static_cast<double>(merged.cells.size()), double(Form::lattice),
-                              static_cast<double>(merged.exponent), unit},
-                 records);
+    append_block(
+        {static_cast<double>(merged.cells.size()), static_cast<double>(merged.exponent), unit, 0},
+        records);
     for (const CellMoments& cell : merged.cells) append_cell(cell, dimension, records);
 }
 
 CellSet read_cells(std::span<const double> records, int dimension, bool in_units) {
     CellSet all;
     while (!records.empty()) {
-        const auto block = take_block<BlockOfCells>(records);
-        const auto form = static_cast<Form>(block.form);
+        const auto head = take(records, sizeof(BlockOfCells) / sizeof(double));
+        const BlockOfCells block{head[0], head[1], head[2], head[3]};
         const auto count = static_cast<std::size_t>(block.num_cells);
         const auto exponent = static_cast<int>(block.exponent);
-        if (form == Form::lattice) {
+        if (block.num_packed == 0) {
             take_lattice(records, count, dimension, exponent, all);
         } else {
-            const SupportMesh mesh = take_mesh(records, dimension, form == Form::framed);
+            const SupportMesh mesh = take_mesh(records, dimension);
             const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
             unpack_cells(exponent, std::as_bytes(packed), count, mesh, all.cells);
         }

@@ -3,13 +3,16 @@
 #include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/limited_bisection.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/meeting_mpi.hpp"
+#include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
+#include "gather/extent.hpp"
 #include "gather/keeping.hpp"
+#include "options/call_kind.hpp"
 #include "options/rejection.hpp"
-#include "options/stage_scope.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -96,16 +99,20 @@ void check_together(const Summary& summary) {
         reject("the sum of the weights of all ranks overflows; scale them down");
 }
 
-/// Calls `visit` with each array of the message: the kept parts if points are kept, the weights of
-/// the parts of earlier cuts if rank 0 makes no cuts, otherwise the new cuts.
+/// Calls `visit` with each array of the message, by the answer.
 template <class Visit>
 void for_each_array(Decision& decision, Visit&& visit) {
-    if (!decision.bisects) return visit(std::span(decision.part_weights));
-    const bool keeps = decision.verdict.keeps != 0;
-    visit(std::span(keeps ? decision.kept.cuts.tree : decision.bisection.cuts.tree));
-    if (keeps) visit(std::span(decision.kept.part_weights));
-    if (keeps) visit(std::span(decision.kept.parts));
-    if (!keeps) visit(std::span(decision.bisection.brackets));
+    switch (decision.verdict.answer) {
+        case Answer::weights:
+            return visit(std::span(decision.part_weights));
+        case Answer::cuts:
+            visit(std::span(decision.bisection.cuts.tree));
+            return visit(std::span(decision.bisection.brackets));
+        case Answer::kept:
+            visit(std::span(decision.kept.cuts.tree));
+            visit(std::span(decision.kept.part_weights));
+            visit(std::span(decision.kept.parts));
+    }
 }
 
 /// Returns the message, as long as its arrays.
@@ -162,23 +169,23 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
 /// Returns true if new cuts might be across the axes of the cuts between the ranks.
 bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contribution& all,
                        const Options& options) {
-    const bool compares = !options.axes.order.is_longest() && !are_cuts_limited(options);
-    return !compares || axes_of(kept.tree) == axes_of(estimate.tree) ||
+    return options.axes.order.is_longest() || axes_of(kept.tree) == axes_of(estimate.tree) ||
            are_axes_good(build_domain(all, estimate.dimension), kept, estimate.near);
 }
 
 /// Reads the parts that the ranks hold from the extents of their points.
 void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.bisection.cuts;
-    std::vector<Extent> extents = read_extents(all.extents, estimate.dimension);
+    std::vector<PointSummary> extents = read_extents(all.extents, estimate.dimension);
     if (extents.empty() || extents.size() != decision.kept.parts.size()) return;
     if (all.summary.num_points == 0) return;
     if (decision.verdict.is_counted())
-        for (Extent& extent : extents) extent.weight = extent.count;
+        for (PointSummary& extent : extents) extent.weight = static_cast<double>(extent.count);
     auto kept = read_kept_tree(extents, estimate, options);
     if (!kept || !crosses_good_axes(kept->cuts, estimate, all, options)) return;
     decision.verdict.kept_imbalance = kept->imbalance;
-    decision.verdict.keeps = keeps_at_once(kept->imbalance, options.imbalance_tolerance) ? 1 : 0;
+    if (keeps_at_once(kept->imbalance, options.imbalance_tolerance))
+        decision.verdict.answer = Answer::kept;
     decision.kept = std::move(*kept);
 }
 
@@ -211,7 +218,7 @@ bool counts_earlier_parts(const Options& options) {
 const Cuts& take_earlier(Decision& decision, const Options& options, bool spread,
                          const Cuts& previous) {
     Cuts& cuts = decision.bisection.cuts;
-    decision.bisects = false;
+    decision.verdict.answer = Answer::weights;
     cuts = fitted(previous, options);
     if (spread && is_whole(cuts)) {
         cuts.nodes.resize(cuts.tree.size());
@@ -247,13 +254,15 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
 void decide(const Contribution& all, const Options& options, Decision& decision) {
     check_together(all.summary);
     Bisection& bisection = decision.bisection;
-    if (decision.bisects) {
+    const Answer answer = decision.verdict.answer;
+    if (answer == Answer::cuts) {
         const bool with_brackets = is_refined(options);
         bisection = bisect_gathered(all, options, bisection.cuts.dimension, with_brackets);
         bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
     }
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
-    if (!decision.bisects) weigh_parts(all, options, decision);
+    decision.verdict.answer = answer;
+    if (answer == Answer::weights) weigh_parts(all, options, decision);
     weigh_kept(all, options, decision);
 }
 
@@ -300,7 +309,7 @@ Box box_together(Box box, const Participant& self) {
 }
 
 void broadcast_kept(Decision& decision, const Participant& self) {
-    decision.verdict.keeps = 1;
+    decision.verdict.answer = Answer::kept;
     if (mpi::rank_of(self.comm) == root) pack(decision);
     mpi::broadcast(message_of(decision), root, self.comm);
     unpack(decision);

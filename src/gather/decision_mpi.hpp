@@ -1,9 +1,8 @@
 #pragma once
 
-#include "collective/agreement_mpi.hpp"
+#include "collective/participant.hpp"
 #include "gather/contribution.hpp"
 #include "gather/kept_tree.hpp"
-#include "options/call_kind.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/method/bisection.hpp>
@@ -21,10 +20,17 @@ inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// Imbalance of the parts that the ranks hold, if they cannot be kept.
 inline constexpr double not_kept = std::numeric_limits<double>::infinity();
 
+/// What rank 0 decides on.
+enum class Answer : std::int32_t {
+    cuts,     ///< it makes the cuts
+    weights,  ///< of the parts of earlier cuts, if counted: all ranks have the cuts, or make them
+    kept      ///< the points are kept
+};
+
 /// Beginning of the decision of rank 0: whether there are cuts, and the totals.
 struct Verdict {
     std::int32_t failing_rank = no_rank;
-    std::int32_t keeps = 0;    ///< 1: the points are kept
+    Answer answer = Answer::cuts;
     double heaviest = 0;       ///< weight of the heaviest point, 1 by count
     double common_weight = 0;  ///< > 0: points are counted, all having this weight or none
     std::int64_t num_points = 0;
@@ -52,8 +58,6 @@ struct Decision {
     Verdict verdict;
     Bisection bisection;
     KeptTree kept{};                     ///< on all ranks once the points are kept
-    bool bisects = true;                 ///< rank 0 makes the cuts; else all ranks have earlier
-                                         ///< ones, or many ranks make them
     std::vector<double> part_weights{};  ///< of the parts of earlier cuts, if counted
     std::vector<std::byte> message;      ///< the cuts, or the kept parts, as sent
 };

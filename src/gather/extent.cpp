@@ -8,10 +8,10 @@ namespace rrcb {
 
 namespace {
 
-/// Calls `visit` with each of the doubles that make up an extent.
-template <class AnyExtent, class Visit>
-void for_each_double(AnyExtent& extent, int dimension, Visit&& visit) {
-    visit(extent.count);
+/// Calls `visit` with each of the doubles that make up an extent; its count is in `count`.
+template <class Visit>
+void for_each_double(PointSummary& extent, double& count, int dimension, Visit&& visit) {
+    visit(count);
     visit(extent.weight);
     for (int a = 0; a < dimension; ++a) {
         for (int b = 0; b < dimension; ++b) {
@@ -23,20 +23,7 @@ void for_each_double(AnyExtent& extent, int dimension, Visit&& visit) {
 
 }  // namespace
 
-Box Extent::box() const {
-    Box box;
-    for (std::size_t a = 0; a < max_dimension; ++a) {
-        box.lower[a] = first[a][a];
-        box.upper[a] = last[a][a];
-    }
-    return box;
-}
-
-Extent extent_of(const PointSummary& summary) {
-    return {static_cast<double>(summary.count), summary.weight, summary.first, summary.last};
-}
-
-void join(Extent& extent, const Extent& other, int dimension) {
+void join(PointSummary& extent, const PointSummary& other, int dimension) {
     extent.count += other.count;
     extent.weight += other.weight;
     for (int a = 0; a < dimension; ++a) {
@@ -46,15 +33,18 @@ void join(Extent& extent, const Extent& other, int dimension) {
     }
 }
 
-void append_extent(const Extent& extent, int dimension, std::vector<double>& doubles) {
-    for_each_double(extent, dimension, [&](double value) { doubles.push_back(value); });
+void append_extent(PointSummary extent, int dimension, std::vector<double>& doubles) {
+    auto count = static_cast<double>(extent.count);
+    for_each_double(extent, count, dimension, [&](double value) { doubles.push_back(value); });
 }
 
-std::vector<Extent> read_extents(std::span<const double> doubles, int dimension) {
-    std::vector<Extent> extents;
+std::vector<PointSummary> read_extents(std::span<const double> doubles, int dimension) {
+    std::vector<PointSummary> extents;
     for (auto from = doubles.begin(); from != doubles.end();) {
-        Extent& extent = extents.emplace_back();
-        for_each_double(extent, dimension, [&](double& value) { value = *from++; });
+        PointSummary& extent = extents.emplace_back();
+        double count = 0;
+        for_each_double(extent, count, dimension, [&](double& value) { value = *from++; });
+        extent.count = static_cast<LocalIndex>(count);
     }
     return extents;
 }

@@ -8,13 +8,10 @@
 
 namespace rrcb {
 
-bool may_keep_parts(const Options& options, int num_ranks) {
-    return options.refine != Refine::exact && num_ranks > 1 && options.num_parts == num_ranks;
-}
-
 bool reads_kept_tree(const Options& options, int num_ranks) {
     // As many as rank 0 divides by default.
-    return num_ranks <= Tuning{}.central_parts && may_keep_parts(options, num_ranks);
+    return num_ranks > 1 && num_ranks <= Tuning{}.central_parts && options.num_parts == num_ranks &&
+           options.refine != Refine::exact && !are_cuts_limited(options);
 }
 
 bool keeps_at_once(double kept, double tolerance) {
@@ -28,11 +25,8 @@ bool is_worth_moving(double kept, double offered, const Options& options) {
     if (kept > tolerance && std::islessequal(offered, tolerance)) return true;
     const bool gains = std::isgreater(kept - offered, std::max((tolerance - 1) / 20, rounding));
     const bool is_half = std::islessequal(offered - 1, (kept - 1) / 2);
-    // A search finds the best imbalance. An estimate, and the axes of limited cuts, depend on
-    // chance.
-    const bool was_searched =
-        kept > tolerance && options.refine != Refine::none && !are_cuts_limited(options);
-    return gains && (is_half || was_searched);
+    // A search finds the best imbalance. An estimate depends on chance.
+    return gains && (is_half || (kept > tolerance && is_refined(options)));
 }
 
 bool may_be_poor(double imbalance, double least, const Options& options) {

@@ -4,12 +4,9 @@
 
 namespace rrcb {
 
-/// Returns true if points may be kept in the parts that the ranks hold, one each. `options` are
-/// complete.
-bool may_keep_parts(const Options& options, int num_ranks);
-
-/// Returns true if rank 0 reads the extents and weights of the points of all ranks, and so the
-/// imbalance of the parts that they hold. Only up to some number of ranks.
+/// Returns true if points may be kept in the parts that the ranks hold, one each: rank 0 then reads
+/// the extents and weights of the points of all ranks. Only up to some number of ranks, and without
+/// limits of cuts. `options` are complete.
 bool reads_kept_tree(const Options& options, int num_ranks);
 
 /// Returns true if no better parts are searched for.

@@ -81,18 +81,16 @@ std::size_t take_number(std::span<const std::byte>& bytes) {
     return number;
 }
 
-/// Appends the numbers as runs: cells left out, cells in the run, and so on. A gap for each cell
-/// would make the cells of a full mesh 10 to 16 % longer.
-void append_numbers(std::span<const CellMoments> cells, std::vector<std::byte>& bytes) {
-    LocalIndex next = 0;
-    for (std::size_t first = 0; first < cells.size();) {
-        std::size_t last = first + 1;
-        while (last < cells.size() && cells[last].cell == cells[last - 1].cell + 1) ++last;
-        append_number(cells[first].cell - next, bytes);
-        append_number(last - first, bytes);
-        next = cells[last - 1].cell + 1;
-        first = last;
-    }
+void append_float(float number, std::vector<std::byte>& bytes) {
+    const auto of_number = std::as_bytes(std::span(&number, 1));
+    bytes.insert(bytes.end(), of_number.begin(), of_number.end());
+}
+
+float take_float(std::span<const std::byte>& bytes) {
+    float number;
+    std::memcpy(&number, bytes.data(), sizeof number);
+    bytes = bytes.subspan(sizeof number);
+    return number;
 }
 
 /// Returns a weight in units of 2^exponent.
@@ -107,7 +105,8 @@ int exponent_of(std::span<const CellMoments> cells) {
     return greatest > 0 ? std::ilogb(greatest) : 0;
 }
 
-/// Faces of a mesh across each axis, bit-identical to those of cell_box().
+/// Faces of a mesh across each axis, bit-identical to those of cell_box(). Saves 2 to 7 % of rank
+/// 0's instructions in few parts.
 class Faces {
   public:
     explicit Faces(const SupportMesh& mesh) : mesh_(mesh) {
@@ -147,12 +146,13 @@ LeanCells pack_cells(std::span<const CellMoments> cells, const SupportMesh& mesh
     lean.exponent = exponent_of(cells);
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     lean.bytes.reserve(cells.size() * (sizeof(float) + 2 * dimension + 2));
-    append_numbers(cells, lean.bytes);
+    LocalIndex next = 0;
     for (const CellMoments& cell : cells) {
-        std::array<std::byte, sizeof(float)> weight;
-        const float number = lean_weight(cell.moments.weight, lean.exponent);
-        std::memcpy(weight.data(), &number, sizeof number);
-        lean.bytes.insert(lean.bytes.end(), weight.begin(), weight.end());
+        const LocalIndex gap = cell.cell - next;
+        const float weight = lean_weight(cell.moments.weight, lean.exponent);
+        append_float(gap > 0 ? -weight : weight, lean.bytes);
+        if (gap > 0) append_number(gap, lean.bytes);
+        next = cell.cell + 1;
         for (std::size_t a = 0; a < dimension; ++a) {
             const auto [lower, upper] = std::pair(cell.box.lower[a], cell.box.upper[a]);
             lean.bytes.push_back(code_of_mean(cell.moments.mean[a], lower, upper));
@@ -166,20 +166,16 @@ void unpack_cells(int exponent, std::span<const std::byte> packed, std::size_t c
                   const SupportMesh& mesh, std::vector<CellMoments>& cells) {
     const std::size_t first = cells.size();
     cells.resize(first + count);
-    LocalIndex number = 0;
-    for (std::size_t i = first; i < first + count;) {
-        number += take_number(packed);
-        for (std::size_t left = take_number(packed); left > 0; --left) cells[i++].cell = number++;
-    }
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     const Faces faces(mesh);
     std::array<double, 256> shares;
     for (int code = 0; code < 256; ++code) shares[code] = share_of_deviation(code);
+    LocalIndex next = 0;
     for (CellMoments& cell : std::span(cells).subspan(first)) {
-        float lean;
-        std::memcpy(&lean, packed.data(), sizeof lean);
-        cell.moments.weight = std::ldexp(static_cast<double>(lean), exponent);
-        packed = packed.subspan(sizeof lean);
+        const float weight = take_float(packed);
+        cell.cell = next + (std::signbit(weight) ? take_number(packed) : 0);
+        next = cell.cell + 1;
+        cell.moments.weight = std::ldexp(static_cast<double>(std::abs(weight)), exponent);
         cell.box = faces.box(cell.cell);
         for (std::size_t a = 0; a < dimension; ++a) {
             const auto [lower, upper] = std::pair(cell.box.lower[a], cell.box.upper[a]);

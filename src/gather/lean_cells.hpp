@@ -8,8 +8,8 @@
 
 namespace rrcb {
 
-/// Packs the cells of a support mesh, in the order of their numbers: 8 bytes each in 2-D, and a few
-/// for every gap in the numbers.
+/// Packs the cells of a support mesh, in the order of their numbers: 8 bytes each in 2-D, and one
+/// or more for every gap in the numbers. The weight before a gap has its sign changed.
 ///
 /// Along each axis one byte holds the mean, in 255ths of the cell. Another holds the deviation, in
 /// half extents of the cell: its root in 255ths, or below 1/16 its logarithm, down to 3e-13. Only a

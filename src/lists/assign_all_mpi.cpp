@@ -1,8 +1,7 @@
-#include "lists/assign_all_mpi.hpp"
-
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
-#include "cuts/tier_search_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
+#include "lists/tier_search_mpi.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
 #include "passes/assignment.hpp"

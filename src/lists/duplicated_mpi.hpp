@@ -2,6 +2,7 @@
 
 #include "collective/participant.hpp"
 
+#include <rrcb/cuts.hpp>
 #include <rrcb/ghosts.hpp>
 #include <rrcb/groups.hpp>
 #include <rrcb/quality.hpp>
@@ -14,6 +15,9 @@
 // one rank is thrown on all. Collective.
 
 namespace rrcb {
+
+Cuts gather_cuts(const Cuts& cuts, Participant& self);
+std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self);
 
 Plan plan(std::span<const Part> parts, int num_parts, Participant& self);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cuts/ball_search.hpp"
+#include "lists/ball_search.hpp"
 
 #include <rrcb/ghosts.hpp>
 

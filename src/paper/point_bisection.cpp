@@ -1,8 +1,6 @@
 #include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
-#include "collective/failure.hpp"
-#include "cuts/cut_limits.hpp"
 #include "options/allowed_axes.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"

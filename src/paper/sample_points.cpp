@@ -1,5 +1,4 @@
 #include "bisection/patches.hpp"
-#include "collective/failure.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 #include "paper/point_selection.hpp"

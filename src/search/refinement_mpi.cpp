@@ -107,7 +107,7 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
     if (is_limited)
         self.attempt([&] {
             limits_.emplace(options_, estimate_.box, estimate_.cuts.dimension,
-                            GivenAxes{axes_of(estimate_.cuts.tree), {}});
+                            axes_of(estimate_.cuts.tree));
         });
     if (estimate_.is_counted) {
         refined_.rounds = 1;

@@ -1,4 +1,3 @@
-#include "options/option_table.hpp"
 #include "paper/paper_words.hpp"
 
 #include <rrcb/error.hpp>

@@ -219,38 +219,6 @@ TEST(Limits, move_earlier_cuts_that_break_them) {
     }
 }
 
-TEST(Limits, hold_between_parts_that_stay) {
-    if (num_ranks() == 1) GTEST_SKIP();
-    // A strip for each rank, 1 wide, with a gap of 0.5 behind it.
-    std::mt19937_64 engine(static_cast<unsigned>(rank()));
-    std::vector<double> coordinates;
-    for (int i = 0; i < 500; ++i) {
-        coordinates.push_back(1.5 * rank() + test::uniform(engine));
-        coordinates.push_back(test::uniform(engine));
-    }
-    const Points points = interleaved_points(coordinates, 2);
-    const Box box = box_of_all(points);
-    Options options;
-    options.refine = Refine::tolerance;
-    // More than the middles of the gaps leave to the first and the last.
-    const double width = num_ranks() > 2 ? 1.3 : 1.2;
-    options.axes.min_width = {width, 1e-3};
-    const Balance kept = balance(points, options, {}, MPI_COMM_WORLD);
-    EXPECT_TRUE(kept.report.kept);
-    EXPECT_GE(least_width(kept.cuts, box, 0), width);
-    options.axes.grid = {{-0.2, 0.75}, {0, 0.1}};
-    options.axes.min_width.clear();
-    const Balance on_lines = balance(points, options, {}, MPI_COMM_WORLD);
-    EXPECT_TRUE(on_lines.report.kept);
-    for (const Cut& cut : on_lines.cuts.tree) {
-        const double k = std::round((cut.at[0] + 0.2) / 0.75);
-        EXPECT_EQ(cut.at[0], -0.2 + k * 0.75);
-    }
-    // No line lies in the gaps: something has to move.
-    options.axes.grid = {{0.5, 1.5}, {0, 0.1}};
-    EXPECT_FALSE(balance(points, options, {}, MPI_COMM_WORLD).report.kept);
-}
-
 TEST(Limits, hold_where_nothing_has_weight) {
     for (unsigned seed = 1; seed <= 40; ++seed) {
         const auto coordinates = dense_corner(200, seed);
@@ -291,25 +259,6 @@ TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
         const Cuts again = balance(points, options, cuts, MPI_COMM_WORLD).cuts;
         EXPECT_GE(least_width(again, box_of_all(points), 0), width) << larger_below;
     }
-}
-
-TEST(Limits, leave_a_kept_part_of_no_size_nothing) {
-    // Ranks 2 and 3 are those of one node, between others.
-    if (num_ranks() != 8) return;
-    const bool is_empty = rank() == 2 || rank() == 3;
-    std::vector<double> coordinates;
-    for (int i = 0; i < 50 && !is_empty; ++i) coordinates.push_back(rank() + 0.019 * i);
-    Options options;
-    options.imbalance_tolerance = 20;
-    options.part_sizes.assign(8, 1);
-    options.part_sizes[3] = 0;
-    options.axes.min_width = {0.01};
-    const Points points = interleaved_points(coordinates, 1);
-    const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
-    EXPECT_TRUE(result.report.kept);
-    const Box region = box_of(result.cuts, 2);
-    EXPECT_GE(region.upper[0] - region.lower[0], 0.01);
-    EXPECT_EQ(part_of(result.cuts, {std::midpoint(region.lower[0], region.upper[0]), 0, 0}), 2);
 }
 
 TEST(Limits, need_no_points) {

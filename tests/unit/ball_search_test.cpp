@@ -1,4 +1,4 @@
-#include "cuts/ball_search.hpp"
+#include "lists/ball_search.hpp"
 
 #include "../support/clouds.hpp"
 #include "../support/distance.hpp"

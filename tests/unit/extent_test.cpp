@@ -25,11 +25,7 @@ std::vector<double> lattice_cloud(std::size_t count, int dimension, int width) {
     return coordinates;
 }
 
-Extent extent_of_all(const Points& points) {
-    return extent_of(summary_of(points));
-}
-
-void expect_ends(const Points& points, const Extent& extent) {
+void expect_ends(const Points& points, const PointSummary& extent) {
     for (int axis = 0; axis < points.dimension; ++axis) {
         std::vector<Vector> positions;
         for (LocalIndex i = 0; i < points.count; ++i) positions.push_back(points.position(i));
@@ -47,7 +43,7 @@ TEST(Extent, has_the_first_and_last_position_in_the_order_across_each_axis) {
             for (const int width : {1, 3, 100}) {
                 const auto coordinates = lattice_cloud(count, dimension, width);
                 const Points points = interleaved_points(coordinates, dimension);
-                expect_ends(points, extent_of_all(points));
+                expect_ends(points, summary_of(points));
             }
         }
     }
@@ -57,19 +53,19 @@ TEST(Extent, is_the_same_for_columns_and_members_of_structs) {
     const auto coordinates = lattice_cloud(600, 3, 5);
     Points of_structs = interleaved_points(coordinates, 3);
     of_structs.dimension = 2;
-    expect_ends(of_structs, extent_of_all(of_structs));
+    expect_ends(of_structs, summary_of(of_structs));
     const std::array<std::span<const double>, 2> columns{std::span(coordinates).first(600),
                                                          std::span(coordinates).last(600)};
     const Points of_columns = column_points(columns);
-    expect_ends(of_columns, extent_of_all(of_columns));
+    expect_ends(of_columns, summary_of(of_columns));
 }
 
 TEST(Extent, of_two_is_that_of_their_points_together) {
     const auto coordinates = lattice_cloud(90, 3, 4);
     const std::span all(coordinates);
-    Extent both = extent_of_all(interleaved_points(all.first(120), 3));
-    join(both, extent_of_all(interleaved_points(all.subspan(120), 3)), 3);
-    join(both, Extent{}, 3);
+    PointSummary both = summary_of(interleaved_points(all.first(120), 3));
+    join(both, summary_of(interleaved_points(all.subspan(120), 3)), 3);
+    join(both, PointSummary{}, 3);
     EXPECT_EQ(both.count, 90);
     EXPECT_EQ(both.weight, 90);
     expect_ends(interleaved_points(all, 3), both);
@@ -77,19 +73,19 @@ TEST(Extent, of_two_is_that_of_their_points_together) {
 
 TEST(Extent, travels_as_doubles) {
     const auto coordinates = lattice_cloud(50, 2, 9);
-    Extent extent = extent_of_all(interleaved_points(coordinates, 2));
+    PointSummary extent = summary_of(interleaved_points(coordinates, 2));
     extent.weight = 12.5;
     std::vector<double> doubles;
     append_extent(extent, 2, doubles);
-    append_extent(Extent{}, 2, doubles);
+    append_extent(PointSummary{}, 2, doubles);
     EXPECT_EQ(doubles.size(), 20u);
-    const std::vector<Extent> extents = read_extents(doubles, 2);
+    const std::vector<PointSummary> extents = read_extents(doubles, 2);
     ASSERT_EQ(extents.size(), 2u);
     EXPECT_EQ(extents[0].count, 50);
     EXPECT_EQ(extents[0].weight, 12.5);
     expect_ends(interleaved_points(coordinates, 2), extents[0]);
     EXPECT_EQ(extents[1].count, 0);
-    Extent still_empty = extents[1];
+    PointSummary still_empty = extents[1];
     join(still_empty, extents[0], 2);
     expect_ends(interleaved_points(coordinates, 2), still_empty);
 }

@@ -24,11 +24,11 @@ using Positions = std::vector<Vector>;
 /// What each rank holds.
 using Distribution = std::vector<Positions>;
 
-Extent extent_of(const Positions& positions, int dimension) {
+PointSummary extent_of(const Positions& positions, int dimension) {
     std::vector<double> coordinates;
     for (const Vector& x : positions)
         coordinates.insert(coordinates.end(), x.begin(), x.begin() + dimension);
-    return extent_of(summary_of(interleaved_points(coordinates, dimension)));
+    return summary_of(interleaved_points(coordinates, dimension));
 }
 
 Options options_for(std::size_t num_parts) {
@@ -49,7 +49,7 @@ Cuts across(std::vector<int> axes, int dimension) {
 
 std::optional<KeptTree> read(const Distribution& held, const Cuts& estimate,
                              const Options& options) {
-    std::vector<Extent> extents;
+    std::vector<PointSummary> extents;
     for (const Positions& positions : held)
         extents.push_back(extent_of(positions, estimate.dimension));
     return read_kept_tree(extents, estimate, options);
@@ -289,20 +289,6 @@ TEST(KeptTree, are_cut_in_the_middle_of_a_gap_and_at_the_first_point_above_where
     EXPECT_EQ(wide->cuts.tree[0].at[0], 0);
 }
 
-// The gap between the first two ranks holds no line; cuts above it have theirs.
-TEST(KeptTree, on_lines_are_read_only_where_each_gap_holds_one) {
-    Options options = options_for(4);
-    options.axes.plain = true;
-    options.axes.grid = {{0, 1}, {0, 1}};
-    for (const double first : {1.7, 2.1}) {
-        const Distribution held{
-            {{0.2, 0}, {1.6, 0}}, {{first, 0}, {2.9, 0}}, {{3.1, 0}, {4.5, 0}}, {{5.2, 0}, {6, 0}}};
-        const auto current = read(held, across({0, 0, 0}, 2), options);
-        ASSERT_EQ(current.has_value(), first > 2) << first;
-        if (current) expect_cuts_give_every_rank_its_part(held, *current);
-    }
-}
-
 TEST(KeptTree, in_one_place_are_read_only_where_a_search_may_divide_them) {
     const Distribution held{{{0, 0}, {1, 1}}, {{1, 1}, {2, 0}}};
     EXPECT_FALSE(read(held, across({0}, 2)));
@@ -343,7 +329,7 @@ TEST(KeptTree, leave_parts_of_size_zero_empty) {
 }
 
 TEST(KeptTree, weigh_as_much_as_the_ranks) {
-    std::vector<Extent> extents{extent_of({{0, 0}}, 2), extent_of({{1, 0}, {2, 0}}, 2)};
+    std::vector<PointSummary> extents{extent_of({{0, 0}}, 2), extent_of({{1, 0}, {2, 0}}, 2)};
     extents[0].weight = 3.5;
     EXPECT_EQ(read_kept_tree(extents, across({0}, 2), options_for(2))->part_weights,
               (std::vector<double>{3.5, 2}));

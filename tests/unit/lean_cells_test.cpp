@@ -54,10 +54,10 @@ TEST(LeanCells, take_eight_bytes_in_2d_and_ten_in_3d) {
         const SupportMesh mesh = make_support_mesh(cube(0, 1, dimension), dimension, 20);
         const auto cells = random_cells(mesh, 1, 1);
         const std::size_t each = 4 + 2 * static_cast<std::size_t>(dimension);
-        EXPECT_LE(pack_cells(cells, mesh).bytes.size(), cells.size() * each + 3);
-        // A gap costs two bytes.
+        EXPECT_LE(pack_cells(cells, mesh).bytes.size(), cells.size() * each);
+        // A gap costs a byte.
         const auto apart = random_cells(mesh, 3, 1);
-        EXPECT_LE(pack_cells(apart, mesh).bytes.size(), apart.size() * (each + 2));
+        EXPECT_LE(pack_cells(apart, mesh).bytes.size(), apart.size() * (each + 1));
     }
 }
 

@@ -1,7 +1,7 @@
 // The search of paths by many ranks in one process.
 #include "../support/clouds.hpp"
 #include "../support/virtual_butterfly.hpp"
-#include "cuts/tier_search.hpp"
+#include "lists/tier_search.hpp"
 #include "passes/assignment.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 #include "zoltan/call/layout_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "zoltan/real/message.hpp"
 
 #include <algorithm>
 #include <array>

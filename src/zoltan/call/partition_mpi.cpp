@@ -3,7 +3,7 @@
 #include "balance_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/cuts_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/validation.hpp"
 #include "paper/paper_mpi.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cuts/owned_cuts.hpp"
 #include "zoltan/handle/last_partition.hpp"
 #include "zoltan/handle/parameters.hpp"
 #include "zoltan/handle/workspace.hpp"

@@ -2,7 +2,7 @@
 
 #include "collective/butterfly_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/tier_search.hpp"
+#include "lists/tier_search.hpp"
 
 #include <utility>
 

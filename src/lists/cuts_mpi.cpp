@@ -1,9 +1,8 @@
-#include "cuts/cuts_mpi.hpp"
-
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "cuts/owned_cuts.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
 
@@ -13,6 +12,10 @@
 
 namespace rrcb {
 
+namespace {
+
+/// Gives every rank of `comm` all cuts; at the call one rank has each cut, the others zeros.
+/// Collective over `comm`; `self` holds errors back.
 void join_cuts(std::span<Cut> tree, MPI_Comm comm, Participant& self) {
     static_assert(sizeof(Cut) % sizeof(std::uint64_t) == 0);
     auto* words = reinterpret_cast<std::uint64_t*>(tree.data());
@@ -26,6 +29,8 @@ void join_cuts(std::span<Cut> tree, MPI_Comm comm, Participant& self) {
         left -= count;
     }
 }
+
+}  // namespace
 
 Cuts gather_cuts(const Cuts& cuts, Participant& self) {
     Cuts whole;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/butterfly.hpp"
-#include "cuts/owned_cuts.hpp"
+#include "cuts/tree.hpp"
 
 #include <rrcb/points.hpp>
 

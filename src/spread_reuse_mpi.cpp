@@ -1,8 +1,9 @@
-#include "gather/spread_reuse_mpi.hpp"
+#include "spread_reuse_mpi.hpp"
 
 #include "arithmetic/part_share.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "cuts/owned_cuts.hpp"
 #include "cuts/packed_tree.hpp"
 #include "gather/decision_mpi.hpp"
 

@@ -1,5 +1,6 @@
-#include "cuts/tier_search.hpp"
+#include "lists/tier_search.hpp"
 
+#include "cuts/owned_cuts.hpp"
 #include "cuts/packed_tree.hpp"
 
 #include <rrcb/error.hpp>

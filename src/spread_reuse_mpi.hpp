@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cuts/tier_search_mpi.hpp"
+#include "lists/tier_search_mpi.hpp"
 #include "passes/assignment.hpp"
 
 #include <rrcb/balance.hpp>

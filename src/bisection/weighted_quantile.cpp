@@ -99,7 +99,6 @@ bool passes(double below, double target) {
 /// Returns the intervals of a range, or of all values if the range does not contain the crossing.
 Crossing crossing_in(const Subset& subset, const Profile::Range& range, double target) {
     Crossing crossing{range.lower, range.upper, 0, {}};
-    if (!range.is_limited()) crossing.active.reserve(subset.size());
     subset.for_each([&](const Patch& patch, std::size_t number) {
         if (subset.ends_before(patch, range.lower)) {
             crossing.below += patch.weight;
@@ -108,7 +107,7 @@ Crossing crossing_in(const Subset& subset, const Profile::Range& range, double t
         }
     });
     const bool is_held =
-        !range.is_limited() ||
+        (range.lower == -infinity && range.upper == infinity) ||
         (!passes(weight_below(crossing, range.lower), target) &&
          (range.upper == infinity || passes(weight_below(crossing, range.upper), target)));
     if (!is_held) return crossing_in(subset, {}, target);
@@ -252,7 +251,14 @@ Cut weighted_quantile(const Profile& profile, double target, bool plain) {
         if (a != profile.axis()) axes[num_axes++] = a;
     Cut cut{profile.axis(), {}};
     cut.at.fill(-infinity);
-    divide({domain, static_cast<std::size_t>(profile.axis())}, profile.range_of(target),
+    double& value = cut.at[profile.axis()];
+    Profile::Range range = profile.range_of(target, negligible(target));
+    if (range.is_value() && profile.grows_at(range.lower, negligible(target))) {
+        value = range.lower;
+        return cut;
+    }
+    if (range.is_value()) range = {};
+    divide({domain, static_cast<std::size_t>(profile.axis())}, range,
            std::span(axes).first(num_axes), target, cut.at);
     return cut;
 }

@@ -1,6 +1,7 @@
 #include "bisection/bisection.hpp"
 
 #include "arithmetic/infinity.hpp"
+#include "arithmetic/non_stop.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "bisection/patches.hpp"
@@ -48,8 +49,13 @@ void choose_fewest(const Piece& piece, std::span<const int> axes, double target,
     double fewest = near(best);
     for (const int axis : axes) {
         if (axis == best.axis || !(extent.lower[axis] < extent.upper[axis])) continue;
-        task.profiles[axis].take(piece.domain, axis);
-        const Cut cut = weighted_quantile(task.profiles[axis], target, task.options.axes.plain);
+        Profile& profile = task.profiles[axis];
+        profile.take(piece.domain, axis);
+        // A coarse cut rules out most axes.
+        const double coarse = profile.range_of(target, profile.weight() / 64).value;
+        const bool is_known = std::isfinite(coarse);
+        if (is_known && profile.weight_near(coarse, reach) > (1 + enough) / 2 * fewest) continue;
+        const Cut cut = weighted_quantile(profile, target, task.options.axes.plain);
         const double fewer = near(cut);
         if (!(fewer < enough * fewest)) continue;
         best = cut;
@@ -74,9 +80,12 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     // First: a side of size 0 is empty even if the domain has no weight.
     if (below >= 1) return plane(longest, infinity);
     if (below <= 0 || !(weight > 0)) return plane(longest, -infinity);
+    // Coincident patches go to one side.
+    if (extent.lower == extent.upper) return plane(longest, below < 0.5 ? -infinity : infinity);
     const double target = below * weight;
     Cut cut = weighted_quantile(profile, target, task.options.axes.plain);
-    if (axes.size() > 1 && !task.options.axes.order.is_longest())
+    const bool has_sides = task.result.cuts.near.reach > 0;
+    if (has_sides && axes.size() > 1 && !task.options.axes.order.is_longest())
         choose_fewest(piece, axes, target, extent, task, cut);
     return cut;
 }
@@ -86,10 +95,13 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
 Bracket bracket_of(const Profile& profile, double cut, double below, int depth) {
     if (profile.domain().patches.empty()) return {};
     const double margin = expected_error(depth);
-    const double error = margin / 16 * profile.weight();
+    const double error = margin / 8 * profile.weight();
     const auto range_of = [&](double share) {
-        if (!(share > 0 && share < 1 && error > 0)) return Profile::Range{};
-        return profile.range_of(share * profile.weight(), error);
+        Profile::Range range;
+        if (!(share > 0 && share < 1 && error > 0)) return range;
+        range = profile.range_of(share * profile.weight(), error);
+        if (std::isfinite(range.value)) range.lower = range.upper = range.value;
+        return range;
     };
     const double value = std::clamp(cut, profile.lower(), profile.upper());
     const double lower = std::clamp(range_of(below - margin).lower, profile.lower(), value);
@@ -132,6 +144,7 @@ double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts
 /// Bisects with all cuts at allowed places, if there are limits.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
                  const AxisChoice& axis_choice, CutLimits* limits) {
+    const NonStop arithmetic;
     Task task{options, axis_choice, limits, with_brackets};
     task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
     const Box region = limits ? limits->region() : everywhere;
@@ -163,6 +176,7 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
 
 bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const NearCuts& fresh) {
     constexpr double enough = 0.85;
+    const NonStop arithmetic;
     const double allowed = fresh.share * weight_of(domain);
     return !(fresh.reach > 0) ||
            enough * weight_near(std::move(domain), root_of(cuts), cuts, fresh.reach) <= allowed;

@@ -43,11 +43,12 @@ double mean_half_side(const StatisticalDomain& domain) {
     double sum = 0;
     double weight = 0;
     for (const Patch& patch : domain.patches) {
+        double sides = 0;
+        for (int a = 0; a < domain.dimension; ++a) sides += patch.upper[a] / 2 - patch.lower[a] / 2;
         weight += patch.weight;
-        for (int a = 0; a < domain.dimension; ++a)
-            sum += patch.weight * (patch.upper[a] / 2 - patch.lower[a] / 2) / domain.dimension;
+        sum += patch.weight * sides;
     }
-    return weight > 0 && std::isfinite(sum) ? sum / weight : 0;
+    return weight > 0 && std::isfinite(sum) ? sum / domain.dimension / weight : 0;
 }
 
 Halves split_domain(StatisticalDomain domain, const Cut& cut) {

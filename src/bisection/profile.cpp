@@ -98,16 +98,24 @@ Profile::Range Profile::range_of(double target, double error) const {
     Range range;
     double left = lower_ / 2;
     double right = upper_ / 2;
+    double from = 0;
+    double to = weight_;
     double half = std::lerp(left, right, target / weight_);
     for (int step = 0; step < most_steps && left < half && half < right; ++step) {
         const auto [below, density] = read(blocks_, half);
         const double excess = below - target;
-        const double value = 2 * half;
-        if (std::abs(excess) <= error && density > 0) return {value, value};
-        (excess < 0 ? left : right) = half;
-        (excess < 0 ? range.lower : range.upper) = value;
+        if (std::abs(excess) <= error) {
+            range.value = 2 * half;
+            break;
+        }
+        const bool is_left = excess < 0;
+        (is_left ? left : right) = half;
+        (is_left ? from : to) = below;
+        (is_left ? range.lower : range.upper) = 2 * half;
         half -= excess / std::max(density, std::numeric_limits<double>::min());
-        if (!(left < half && half < right)) half = left / 2 + right / 2;
+        if (left < half && half < right) continue;
+        half = step % 2 == 0 ? std::lerp(left, right, (target - from) / (to - from))
+                             : left / 2 + right / 2;
     }
     return range;
 }

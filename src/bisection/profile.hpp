@@ -37,12 +37,12 @@ class Profile {
     struct Range {
         double lower = -std::numeric_limits<double>::infinity();
         double upper = std::numeric_limits<double>::infinity();
-
-        bool is_value() const { return lower == upper; }
+        /// With the target below it; NaN if none was found.
+        double value = std::numeric_limits<double>::quiet_NaN();
     };
 
-    /// Returns the value with the target below it, give or take `error`, by Newton's method; or a
-    /// range, if the weight does not grow steadily there.
+    /// Looks for the value with the target below it, give or take `error`, by Newton's method, or
+    /// false position if the weight jumps.
     Range range_of(double target, double error) const;
 
     /// Returns true if the weight grows by more than `error` just below a value, and just above.

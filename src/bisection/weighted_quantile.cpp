@@ -251,13 +251,11 @@ Cut weighted_quantile(const Profile& profile, double target, bool plain) {
         if (a != profile.axis()) axes[num_axes++] = a;
     Cut cut{profile.axis(), {}};
     cut.at.fill(-infinity);
-    double& value = cut.at[profile.axis()];
-    Profile::Range range = profile.range_of(target, negligible(target));
-    if (range.is_value() && profile.grows_at(range.lower, negligible(target))) {
-        value = range.lower;
+    const Profile::Range range = profile.range_of(target, negligible(target));
+    if (std::isfinite(range.value) && profile.grows_at(range.value, negligible(target))) {
+        cut.at[profile.axis()] = range.value;
         return cut;
     }
-    if (range.is_value()) range = {};
     divide({domain, static_cast<std::size_t>(profile.axis())}, range,
            std::span(axes).first(num_axes), target, cut.at);
     return cut;

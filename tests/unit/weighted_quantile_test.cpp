@@ -180,11 +180,11 @@ TEST(Profile, finds_a_value_only_where_the_weight_grows) {
     const StatisticalDomain domain = domain_of(patches);
     const Profile profile(domain, 0);
     const Profile::Range inside = profile.range_of(1.5, 1e-9);
-    EXPECT_TRUE(inside.is_value());
-    EXPECT_TRUE(profile.grows_at(inside.lower, 1e-9));
+    EXPECT_NEAR(inside.value, 0.5, 1e-9);
+    EXPECT_TRUE(profile.grows_at(inside.value, 1e-9));
     EXPECT_FALSE(profile.grows_at(1, 1e-9)) << "a gap begins";
     const Profile::Range jump = profile.range_of(5, 1e-9);
-    EXPECT_LT(jump.lower, jump.upper);
+    EXPECT_TRUE(std::isnan(jump.value));
     EXPECT_LE(jump.lower, 2);
     EXPECT_GE(jump.upper, 2);
 }

@@ -124,6 +124,13 @@ void bisect_piece(Piece piece, Task& task) {
         task.near_weight += profile.weight_within(value, task.result.cuts.near.reach);
     if (task.with_brackets)
         task.result.brackets.push_back(bracket_of(profile, value, below, depth));
+    // Parts need weights only.
+    if (at.num_parts == 2 && is_plane(cut, domain.dimension) && std::isfinite(value)) {
+        const double weight_below = profile.weight_below(value);
+        task.result.part_weights.push_back(weight_below);
+        task.result.part_weights.push_back(std::max(0.0, profile.weight() - weight_below));
+        return;
+    }
     Halves halves = split_domain(std::move(piece.domain), cut);
     bisect_piece({std::move(halves.lower), at.lower(), box_below(region, cut), depth + 1}, task);
     bisect_piece({std::move(halves.upper), at.upper(), box_above(region, cut), depth + 1}, task);

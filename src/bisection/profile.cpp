@@ -60,32 +60,41 @@ RRCB_ARITHMETIC_CLONES Reading read(std::span<const Profile::Block> blocks, doub
 
 void Profile::take(const StatisticalDomain& domain, int axis) {
     constexpr double largest = std::numeric_limits<double>::max();
-    domain_ = &domain;
-    axis_ = axis;
-    lower_ = infinity;
-    upper_ = -infinity;
-    weight_ = 0;
+    const auto a = static_cast<std::size_t>(axis);
     const std::size_t size = domain.patches.size();
     blocks_.resize((size + lanes - 1) / lanes);
     if (size % lanes > 0) blocks_.back() = Block{};
-    for (std::size_t i = 0; i < size; ++i) {
-        const Patch& patch = domain.patches[i];
-        Block& block = blocks_[i / lanes];
-        const std::size_t k = i % lanes;
-        const double half = patch.upper[axis] / 2 - patch.lower[axis] / 2;
-        block.half_lower[k] = patch.lower[axis] / 2;
-        block.inverse[k] = half > 0 ? std::min(1 / half, largest) : largest;
-        block.weight[k] = patch.weight;
-        block.slope[k] = patch.slope[axis];
-        block.bow[k] = patch.bow[axis];
-        weight_ += patch.weight;
-        lower_ = std::min(lower_, patch.lower[axis]);
-        upper_ = std::max(upper_, patch.upper[axis]);
+    double lower = infinity;
+    double upper = -infinity;
+    double weight = 0;
+    auto block = blocks_.begin();
+    std::size_t k = 0;
+    for (const Patch& patch : domain.patches) {
+        const double half = patch.upper[a] / 2 - patch.lower[a] / 2;
+        block->half_lower[k] = patch.lower[a] / 2;
+        block->inverse[k] = half > 0 ? std::min(1 / half, largest) : largest;
+        block->weight[k] = patch.weight;
+        block->slope[k] = patch.slope[a];
+        block->bow[k] = patch.bow[a];
+        weight += patch.weight;
+        lower = std::min(lower, patch.lower[a]);
+        upper = std::max(upper, patch.upper[a]);
+        k = (k + 1) % lanes;
+        if (k == 0) ++block;
     }
+    domain_ = &domain;
+    axis_ = axis;
+    lower_ = lower;
+    upper_ = upper;
+    weight_ = weight;
+}
+
+double Profile::weight_below(double value) const {
+    return read(blocks_, value / 2).below;
 }
 
 double Profile::weight_within(double value, double reach) const {
-    return read(blocks_, (value + reach) / 2).below - read(blocks_, (value - reach) / 2).below;
+    return weight_below(value + reach) - weight_below(value - reach);
 }
 
 double Profile::weight_near(double value, double reach) const {

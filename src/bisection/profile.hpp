@@ -23,7 +23,8 @@ class Profile {
     double lower() const { return lower_; }  ///< end of the patches
     double upper() const { return upper_; }  ///< end of the patches
 
-    /// Returns the weight within `reach` of a value.
+    /// Returns the weight below a value, and within `reach` of one.
+    double weight_below(double value) const;
     double weight_within(double value, double reach) const;
 
     /// Estimates the ghosts that a cut costs, by the weight near it; all weight if all of it is on

@@ -26,6 +26,7 @@ struct Task {
     const AxisChoice& axis_choice;
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
+    double light;  ///< weight of points too few to show the weight near a cut
     Bisection result{};
     double near_weight = 0;                         ///< within the reach of the result
     std::array<Profile, max_dimension> profiles{};  ///< of the piece being cut
@@ -84,8 +85,8 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     if (extent.lower == extent.upper) return plane(longest, below < 0.5 ? -infinity : infinity);
     const double target = below * weight;
     Cut cut = weighted_quantile(profile, target, task.options.axes.plain);
-    const bool has_sides = task.result.cuts.near.reach > 0;
-    if (has_sides && axes.size() > 1 && !task.options.axes.order.is_longest())
+    const bool shows_near = task.result.cuts.near.reach > 0 && weight > task.light;
+    if (shows_near && axes.size() > 1 && !task.options.axes.order.is_longest())
         choose_fewest(piece, axes, target, extent, task, cut);
     return cut;
 }
@@ -150,9 +151,12 @@ double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts
 
 /// Bisects with all cuts at allowed places, if there are limits.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
-                 const AxisChoice& axis_choice, CutLimits* limits) {
+                 GlobalCount num_points, const AxisChoice& axis_choice, CutLimits* limits) {
+    constexpr double few_points = 16;
     const NonStop arithmetic;
-    Task task{options, axis_choice, limits, with_brackets};
+    const double light =
+        num_points > 0 ? few_points / static_cast<double>(num_points) * weight_of(domain) : 0;
+    Task task{options, axis_choice, limits, with_brackets, light};
     task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
     const Box region = limits ? limits->region() : everywhere;
     const double weight = weight_of(domain);
@@ -176,9 +180,10 @@ double expected_error(int depth) {
     return std::min(0.25, 0.01 * std::exp2(depth / 2.0));
 }
 
-Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets) {
+Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
+                 GlobalCount num_points) {
     const AxisChoice axis_choice(options, extent_of(domain), domain.dimension);
-    return bisect(std::move(domain), options, with_brackets, axis_choice, nullptr);
+    return bisect(std::move(domain), options, with_brackets, num_points, axis_choice, nullptr);
 }
 
 bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const NearCuts& fresh) {
@@ -196,7 +201,7 @@ Bisection bisect_within(const Box& points, StatisticalDomain domain, const Optio
     const std::vector<int> given = axis_choice.given(root_of(options.num_parts, options.tree));
     CutLimits limits(options, points, dimension, {given, {}});
     limits.require_room();
-    return bisect(std::move(domain), options, with_brackets, axis_choice, &limits);
+    return bisect(std::move(domain), options, with_brackets, 0, axis_choice, &limits);
 }
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes) {

@@ -92,15 +92,16 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
 }
 
 /// Returns the range in which the exact cut is expected: the domain is an estimate. `below` is the
-/// share of the weight below the cut, `depth` the number of cuts above.
-Bracket bracket_of(const Profile& profile, double cut, double below, int depth) {
+/// share of the weight below the cut, `depth` the number of cuts above. It takes many steps into a
+/// small cluster.
+Bracket bracket_of(const Profile& profile, double cut, double below, int depth, int most_steps) {
     if (profile.domain().patches.empty()) return {};
     const double margin = expected_error(depth);
     const double error = margin / 8 * profile.weight();
     const auto range_of = [&](double share) {
         Profile::Range range;
         if (!(share > 0 && share < 1 && error > 0)) return range;
-        range = profile.range_of(share * profile.weight(), error);
+        range = profile.range_of(share * profile.weight(), error, most_steps);
         if (std::isfinite(range.value)) range.lower = range.upper = range.value;
         return range;
     };
@@ -123,8 +124,9 @@ void bisect_piece(Piece piece, Task& task) {
     const double value = cut.at[cut.axis];
     if (std::isfinite(value))
         task.near_weight += profile.weight_within(value, task.result.cuts.near.reach);
+    const int most_steps = task.result.cuts.near.reach > 0 ? 64 : 12;  // points are mere jumps
     if (task.with_brackets)
-        task.result.brackets.push_back(bracket_of(profile, value, below, depth));
+        task.result.brackets.push_back(bracket_of(profile, value, below, depth, most_steps));
     // Parts need weights only.
     if (at.num_parts == 2 && is_plane(cut, domain.dimension) && std::isfinite(value)) {
         const double weight_below = profile.weight_below(value);

@@ -102,8 +102,7 @@ double Profile::weight_near(double value, double reach) const {
     return reach > 0 ? weight_within(value, reach) : weight_ / (upper_ / 2 - lower_ / 2);
 }
 
-Profile::Range Profile::range_of(double target, double error) const {
-    constexpr int most_steps = 12;
+Profile::Range Profile::range_of(double target, double error, int most_steps) const {
     Range range;
     double left = lower_ / 2;
     double right = upper_ / 2;

@@ -43,8 +43,8 @@ class Profile {
     };
 
     /// Looks for the value with the target below it, give or take `error`, by Newton's method, or
-    /// false position if the weight jumps.
-    Range range_of(double target, double error) const;
+    /// false position if the weight jumps. Ends with a range after `most_steps`.
+    Range range_of(double target, double error, int most_steps = 12) const;
 
     /// Returns true if the weight grows by more than `error` just below a value, and just above.
     bool grows_at(double value, double error) const;

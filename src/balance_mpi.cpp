@@ -42,7 +42,7 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     if (call.is_spread) return;
     if (reads_kept && may_keep) append_extent(summary, points.dimension(), call.mine.extents);
     make_buffers(call.decision, options, points.dimension(), reads_kept);
-    add_records(points, summary.box, options, call.mine);
+    add_records(points, summary.box, mpi::size_of(self.comm), options, call.mine);
 }
 
 /// Makes the parts, from the cuts of rank 0 if it makes them. Collective.

@@ -73,7 +73,8 @@ void Settlement::refine(PointPasses& points, const Box& box, Decision& decision,
                       verdict.heaviest,
                       verdict.answer == Answer::weights,
                       verdict.box,
-                      report.details.num_points};
+                      report.details.num_points,
+                      report.details.least_imbalance};
     Refined refined = refinement_->refine(std::move(estimate), points, box, self);
     report_measured(refined.imbalance, options_->imbalance_tolerance, report);
     report.part_weights = sums_.take();

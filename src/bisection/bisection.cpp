@@ -1,10 +1,11 @@
 #include "bisection/bisection.hpp"
 
 #include "arithmetic/infinity.hpp"
+#include "arithmetic/non_stop.hpp"
 #include "bisection/axis_choice.hpp"
 #include "bisection/limited_bisection.hpp"
-#include "bisection/near_weight.hpp"
 #include "bisection/patches.hpp"
+#include "bisection/profile.hpp"
 #include "bisection/weighted_quantile.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
@@ -25,8 +26,10 @@ struct Task {
     const AxisChoice& axis_choice;
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
-    Bisection result;
-    double near_weight = 0;  ///< within the reach of the result
+    double light;  ///< weight of points too few to show the weight near a cut
+    Bisection result{};
+    double near_weight = 0;                         ///< within the reach of the result
+    std::array<Profile, max_dimension> profiles{};  ///< of the piece being cut
 };
 
 double share_below_node(const Descent& at, const Options& options) {
@@ -37,16 +40,23 @@ double share_below_node(const Descent& at, const Options& options) {
 /// Replaces a cut across the longest axis by one across another that has clearly less weight near
 /// it.
 void choose_fewest(const Piece& piece, std::span<const int> axes, double target, const Box& extent,
-                   const Options& options, const NearWeight& near, Cut& best) {
+                   Task& task, Cut& best) {
     // Few patches show the weight near a cut with a large error.
     const double enough = nearly - 1 / std::sqrt(static_cast<double>(piece.domain.patches.size()));
+    const double reach = mean_half_side(piece.domain);
+    const auto near = [&](const Cut& cut) {
+        return task.profiles[cut.axis].weight_near(cut.at[cut.axis], reach);
+    };
     double fewest = near(best);
     for (const int axis : axes) {
         if (axis == best.axis || !(extent.lower[axis] < extent.upper[axis])) continue;
-        const Profile profile(piece.domain, axis, 16);
-        // A coarse estimate rules out most axes.
-        if (!(profile.weight_near(target, near.reach()) < (1 + enough) / 2 * fewest)) continue;
-        const Cut cut = weighted_quantile(profile, target, options.axes.plain);
+        Profile& profile = task.profiles[axis];
+        profile.take(piece.domain, axis);
+        // A coarse cut rules out most axes.
+        const double coarse = profile.range_of(target, profile.weight() / 64).value;
+        const bool is_known = std::isfinite(coarse);
+        if (is_known && profile.weight_near(coarse, reach) > (1 + enough) / 2 * fewest) continue;
+        const Cut cut = weighted_quantile(profile, target, task.options.axes.plain);
         const double fewer = near(cut);
         if (!(fewer < enough * fewest)) continue;
         best = cut;
@@ -54,23 +64,51 @@ void choose_fewest(const Piece& piece, std::span<const int> axes, double target,
     }
 }
 
-/// Returns the cut that leaves the share `below` (0 ... 1) of the piece's weight below it.
+/// Returns the cut that leaves the share `below` (0 ... 1) of the piece's weight below it, and
+/// takes the profile of its axis.
 Cut choose_cut(const Piece& piece, double below, Task& task) {
-    const double weight = weight_of(piece.domain);
     const Box extent = extent_of(piece.domain);
     const auto axes = task.axis_choice(piece.at.node, piece.depth);
     const int longest = longest_axis(extent, axes, nearly);
-    if (task.limits && task.limits->divides(piece.at))
-        return cut_in_places(piece, below, longest, extent, task.options, *task.limits);
+    if (task.limits && task.limits->divides(piece.at)) {
+        const Cut cut = cut_in_places(piece, below, longest, extent, task.options, *task.limits);
+        task.profiles[cut.axis].take(piece.domain, cut.axis);
+        return cut;
+    }
+    Profile& profile = task.profiles[longest];
+    profile.take(piece.domain, longest);
+    const double weight = profile.weight();
     // First: a side of size 0 is empty even if the domain has no weight.
     if (below >= 1) return plane(longest, infinity);
     if (below <= 0 || !(weight > 0)) return plane(longest, -infinity);
+    // Coincident patches go to one side.
+    if (extent.lower == extent.upper) return plane(longest, below < 0.5 ? -infinity : infinity);
     const double target = below * weight;
-    Cut cut = weighted_quantile(Profile(piece.domain, longest), target, task.options.axes.plain);
-    if (axes.size() > 1 && !task.options.axes.order.is_longest())
-        choose_fewest(piece, axes, target, extent, task.options,
-                      NearWeight(piece.domain, extent, mean_half_side(piece.domain)), cut);
+    Cut cut = weighted_quantile(profile, target, task.options.axes.plain);
+    const bool shows_near = task.result.cuts.near.reach > 0 && weight > task.light;
+    if (shows_near && axes.size() > 1 && !task.options.axes.order.is_longest())
+        choose_fewest(piece, axes, target, extent, task, cut);
     return cut;
+}
+
+/// Returns the range in which the exact cut is expected: the domain is an estimate. `below` is the
+/// share of the weight below the cut, `depth` the number of cuts above. It takes many steps into a
+/// small cluster.
+Bracket bracket_of(const Profile& profile, double cut, double below, int depth, int most_steps) {
+    if (profile.domain().patches.empty()) return {};
+    const double margin = expected_error(depth);
+    const double error = margin / 8 * profile.weight();
+    const auto range_of = [&](double share) {
+        Profile::Range range;
+        if (!(share > 0 && share < 1 && error > 0)) return range;
+        range = profile.range_of(share * profile.weight(), error, most_steps);
+        if (std::isfinite(range.value)) range.lower = range.upper = range.value;
+        return range;
+    };
+    const double value = std::clamp(cut, profile.lower(), profile.upper());
+    const double lower = std::clamp(range_of(below - margin).lower, profile.lower(), value);
+    const double upper = std::clamp(range_of(below + margin).upper, value, profile.upper());
+    return {lower, std::nextafter(upper, infinity)};
 }
 
 void bisect_piece(Piece piece, Task& task) {
@@ -82,9 +120,20 @@ void bisect_piece(Piece piece, Task& task) {
     const double below = share_below_node(at, task.options);
     const Cut cut = choose_cut(piece, below, task);
     task.result.cuts.tree.push_back(cut);
-    if (std::isfinite(cut.at[cut.axis]))
-        task.near_weight += weight_within(domain, cut, task.result.cuts.near.reach);
-    if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
+    const Profile& profile = task.profiles[cut.axis];
+    const double value = cut.at[cut.axis];
+    if (std::isfinite(value))
+        task.near_weight += profile.weight_within(value, task.result.cuts.near.reach);
+    const int most_steps = task.result.cuts.near.reach > 0 ? 64 : 12;  // points are mere jumps
+    if (task.with_brackets)
+        task.result.brackets.push_back(bracket_of(profile, value, below, depth, most_steps));
+    // Parts need weights only.
+    if (at.num_parts == 2 && is_plane(cut, domain.dimension) && std::isfinite(value)) {
+        const double weight_below = profile.weight_below(value);
+        task.result.part_weights.push_back(weight_below);
+        task.result.part_weights.push_back(std::max(0.0, profile.weight() - weight_below));
+        return;
+    }
     Halves halves = split_domain(std::move(piece.domain), cut);
     bisect_piece({std::move(halves.lower), at.lower(), box_below(region, cut), depth + 1}, task);
     bisect_piece({std::move(halves.upper), at.upper(), box_above(region, cut), depth + 1}, task);
@@ -94,7 +143,9 @@ void bisect_piece(Piece piece, Task& task) {
 double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts, double reach) {
     if (at.is_part() || domain.patches.empty()) return 0;
     const Cut& cut = cuts.tree[at.node];
-    double weight = std::isfinite(cut.at[cut.axis]) ? weight_within(domain, cut, reach) : 0;
+    const double value = cut.at[cut.axis];
+    double weight =
+        std::isfinite(value) ? Profile(domain, cut.axis).weight_within(value, reach) : 0;
     Halves halves = split_domain(std::move(domain), cut);
     weight += weight_near(std::move(halves.lower), at.lower(), cuts, reach);
     return weight + weight_near(std::move(halves.upper), at.upper(), cuts, reach);
@@ -102,8 +153,12 @@ double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts
 
 /// Bisects with all cuts at allowed places, if there are limits.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
-                 const AxisChoice& axis_choice, CutLimits* limits) {
-    Task task{options, axis_choice, limits, with_brackets, {}};
+                 GlobalCount num_points, const AxisChoice& axis_choice, CutLimits* limits) {
+    constexpr double few_points = 16;
+    const NonStop arithmetic;
+    const double light =
+        num_points > 0 ? few_points / static_cast<double>(num_points) * weight_of(domain) : 0;
+    Task task{options, axis_choice, limits, with_brackets, light};
     task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
     const Box region = limits ? limits->region() : everywhere;
     const double weight = weight_of(domain);
@@ -127,13 +182,15 @@ double expected_error(int depth) {
     return std::min(0.25, 0.01 * std::exp2(depth / 2.0));
 }
 
-Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets) {
+Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
+                 GlobalCount num_points) {
     const AxisChoice axis_choice(options, extent_of(domain), domain.dimension);
-    return bisect(std::move(domain), options, with_brackets, axis_choice, nullptr);
+    return bisect(std::move(domain), options, with_brackets, num_points, axis_choice, nullptr);
 }
 
 bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const NearCuts& fresh) {
     constexpr double enough = 0.85;
+    const NonStop arithmetic;
     const double allowed = fresh.share * weight_of(domain);
     return !(fresh.reach > 0) ||
            enough * weight_near(std::move(domain), root_of(cuts), cuts, fresh.reach) <= allowed;
@@ -146,7 +203,7 @@ Bisection bisect_within(const Box& points, StatisticalDomain domain, const Optio
     CutLimits limits(options, points, dimension,
                      axis_choice.given(root_of(options.num_parts, options.tree)));
     limits.require_room();
-    return bisect(std::move(domain), options, with_brackets, axis_choice, &limits);
+    return bisect(std::move(domain), options, with_brackets, 0, axis_choice, &limits);
 }
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes) {

@@ -12,8 +12,10 @@ double share_below(std::span<const double> sizes, int num_below);
 /// `depth`, the number of cuts above, because fewer cells are left.
 double expected_error(int depth);
 
-/// As the public function, with complete options and, on request, the brackets of the cuts.
-Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets);
+/// As the public function, with complete options and, on request, the brackets of the cuts. The
+/// domain stands for `num_points`; 0: for any number.
+Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
+                 GlobalCount num_points = 0);
 
 /// Returns true if the weight near all cuts is not much more than that near `fresh` cuts of the
 /// same domain. This is less strict than for a new cut, whose domain is another; otherwise cuts

@@ -2,7 +2,7 @@
 
 #include "arithmetic/infinity.hpp"
 #include "bisection/axis_choice.hpp"
-#include "bisection/near_weight.hpp"
+#include "bisection/bisection.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
@@ -96,7 +96,7 @@ Cut cut_in_places(const Piece& piece, double share, int longest, const Box& exte
     const double weight = weight_of(domain);
     const double bearable_error = bearable * std::min(share, 1 - share) * weight;
     const bool counts_near = !options.axes.order.is_longest();
-    const NearWeight near(domain, extent, counts_near ? mean_half_side(domain) : 0);
+    const double reach = counts_near ? mean_half_side(domain) : 0;
     Trial best{};
     double least = infinity;
     double fewest = infinity;
@@ -109,7 +109,7 @@ Cut cut_in_places(const Piece& piece, double share, int longest, const Box& exte
                 : trial_in(domain, way.axis, across.nearest(first / 2 + last / 2, first, last));
         const double error = std::abs(trial.below - share * weight);
         const bool is_first_bearable = least > bearable_error && error < least;
-        const double fewer = near(trial.cut);
+        const double fewer = Profile(domain, way.axis).weight_near(trial.cut.at[way.axis], reach);
         if (is_first_bearable || (error <= bearable_error && fewer < nearly * fewest)) {
             best = trial;
             fewest = fewer;

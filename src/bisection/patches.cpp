@@ -1,9 +1,6 @@
 #include "bisection/patches.hpp"
 
-#include "arithmetic/infinity.hpp"
-#include "bisection/bisection.hpp"
 #include "bisection/slice.hpp"
-#include "bisection/weighted_quantile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,23 +39,16 @@ Box extent_of(const StatisticalDomain& domain) {
     return box;
 }
 
-Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below, int depth) {
-    const double weight = weight_of(domain);
-    const int axis = cut.axis;
-    const Box box = extent_of(domain);
-    const Profile profile(domain, cut.axis);
-    const auto quantile = [&](double share, double end) {
-        if (!(share > 0 && share < 1 && weight > 0)) return end;
-        return weighted_quantile(profile, share * weight, true).at[axis];
-    };
-    if (domain.patches.empty()) return {};
-    const double margin = expected_error(depth);
-    const double value = std::clamp(cut.at[axis], box.lower[axis], box.upper[axis]);
-    const double lower =
-        std::clamp(quantile(below - margin, box.lower[axis]), box.lower[axis], value);
-    const double upper =
-        std::clamp(quantile(below + margin, box.upper[axis]), value, box.upper[axis]);
-    return {lower, std::nextafter(upper, infinity)};
+double mean_half_side(const StatisticalDomain& domain) {
+    double sum = 0;
+    double weight = 0;
+    for (const Patch& patch : domain.patches) {
+        double sides = 0;
+        for (int a = 0; a < domain.dimension; ++a) sides += patch.upper[a] / 2 - patch.lower[a] / 2;
+        weight += patch.weight;
+        sum += patch.weight * sides;
+    }
+    return weight > 0 && std::isfinite(sum) ? sum / domain.dimension / weight : 0;
 }
 
 Halves split_domain(StatisticalDomain domain, const Cut& cut) {

@@ -16,9 +16,8 @@ std::vector<double> weights_of(std::span<const CellMoments> cells);
 double weight_of(const StatisticalDomain& domain);
 Box extent_of(const StatisticalDomain& domain);
 
-/// Returns the range in which the exact cut is expected: the domain is an estimate. `below` is the
-/// share of the weight below the cut, `depth` the number of cuts above.
-Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below, int depth);
+/// Returns half the mean side of the patches, by weight.
+double mean_half_side(const StatisticalDomain& domain);
 
 /// A domain on both sides of a cut.
 struct Halves {

@@ -2,43 +2,71 @@
 
 #include <rrcb/method/statistical_domain.hpp>
 
-#include <cstddef>
+#include <array>
 #include <limits>
 #include <vector>
 
 namespace rrcb {
 
-/// Histogram of the weight of a domain along an axis; each patch adds its weight evenly.
-///
-/// It limits the patches in the search for a cut. Without it the bisection of 1,000 to 8,000
-/// patches takes 1.4 times as many instructions into 64 parts, and twice as many into 8.
+/// The weight of a domain along an axis, to be read at many values.
 class Profile {
   public:
-    /// The domain is borrowed. With fewer patches than `few` nothing is known.
-    Profile(const StatisticalDomain& domain, int axis, std::size_t few = 256);
+    Profile() = default;
+    Profile(const StatisticalDomain& domain, int axis) { take(domain, axis); }
+
+    /// Takes another domain, which is borrowed; reuses the memory.
+    void take(const StatisticalDomain& domain, int axis);
 
     const StatisticalDomain& domain() const { return *domain_; }
     int axis() const { return axis_; }
+    double weight() const { return weight_; }
+    double lower() const { return lower_; }  ///< end of the patches
+    double upper() const { return upper_; }  ///< end of the patches
 
+    /// Returns the weight below a value, and within `reach` of one.
+    double weight_below(double value) const;
+    double weight_within(double value, double reach) const;
+
+    /// Estimates the ghosts that a cut costs, by the weight near it; all weight if all of it is on
+    /// one side.
+    ///
+    /// If `reach` is 0, as of patches without sides, the domain is taken as an even box: the weight
+    /// over its extent. Then the longest axis costs the least.
+    double weight_near(double value, double reach) const;
+
+    /// Range in which the cumulative weight passes a target.
     struct Range {
         double lower = -std::numeric_limits<double>::infinity();
         double upper = std::numeric_limits<double>::infinity();
-
-        bool is_limited() const;
+        /// With the target below it; NaN if none was found.
+        double value = std::numeric_limits<double>::quiet_NaN();
     };
 
-    /// Returns a range in which the cumulative weight is likely to pass the target.
-    Range range_of(double target) const;
+    /// Looks for the value with the target below it, give or take `error`, by Newton's method, or
+    /// false position if the weight jumps. Ends with a range after `most_steps`.
+    Range range_of(double target, double error, int most_steps = 12) const;
 
-    /// Estimates the weight within `reach` of the cut with `target` below it; 0 if not known.
-    double weight_near(double target, double reach) const;
+    /// Returns true if the weight grows by more than `error` just below a value, and just above.
+    bool grows_at(double value, double error) const;
+
+    using Lanes = std::array<double, 4>;
+
+    /// Slices of four patches, in units in which they reach from 0 to 1.
+    struct Block {
+        Lanes half_lower;
+        Lanes inverse;  ///< of half the extent
+        Lanes weight;
+        Lanes slope;
+        Lanes bow;
+    };
 
   private:
-    const StatisticalDomain* domain_;
-    int axis_;
+    const StatisticalDomain* domain_ = nullptr;
+    int axis_ = 0;
     double lower_ = 0;
     double upper_ = 0;
-    std::vector<double> weights_below_;  ///< each edge of the bins; empty if there are few patches
+    double weight_ = 0;
+    std::vector<Block> blocks_;
 };
 
 }  // namespace rrcb

@@ -30,21 +30,6 @@ struct Crossing {
     std::vector<Interval> active;  ///< jumps at `left`, and intervals across it
 };
 
-/// Returns a breakpoint near the median: the median of a few, evenly picked.
-double pivot_of(std::span<const double> breakpoints) {
-    constexpr std::size_t most = 63;
-    std::array<double, most> sample;
-    const std::size_t size = std::min(most, breakpoints.size());
-    if (size < most)
-        std::ranges::copy(breakpoints, sample.begin());
-    else
-        for (std::size_t k = 0; k < size; ++k)
-            sample[k] = breakpoints[k * breakpoints.size() / size];
-    const auto middle = sample.begin() + size / 2;
-    std::nth_element(sample.begin(), middle, sample.begin() + size);
-    return *middle;
-}
-
 /// Moves one end of the crossing to `pivot` and drops the intervals outside.
 void narrow(Crossing& crossing, double pivot, double target) {
     double below = crossing.below;
@@ -99,7 +84,6 @@ bool passes(double below, double target) {
 /// Returns the intervals of a range, or of all values if the range does not contain the crossing.
 Crossing crossing_in(const Subset& subset, const Profile::Range& range, double target) {
     Crossing crossing{range.lower, range.upper, 0, {}};
-    if (!range.is_limited()) crossing.active.reserve(subset.size());
     subset.for_each([&](const Patch& patch, std::size_t number) {
         if (subset.ends_before(patch, range.lower)) {
             crossing.below += patch.weight;
@@ -108,7 +92,7 @@ Crossing crossing_in(const Subset& subset, const Profile::Range& range, double t
         }
     });
     const bool is_held =
-        !range.is_limited() ||
+        (range.lower == -infinity && range.upper == infinity) ||
         (!passes(weight_below(crossing, range.lower), target) &&
          (range.upper == infinity || passes(weight_below(crossing, range.upper), target)));
     if (!is_held) return crossing_in(subset, {}, target);
@@ -130,8 +114,11 @@ Crossing find_crossing(const Subset& subset, const Profile::Range& range, double
         std::erase_if(breakpoints,
                       [&](double b) { return b <= crossing.left || b >= crossing.right; });
     };
-    for (drop_outside(); !breakpoints.empty(); drop_outside())
-        narrow(crossing, pivot_of(breakpoints), target);
+    for (drop_outside(); !breakpoints.empty(); drop_outside()) {
+        const auto middle = breakpoints.begin() + std::ssize(breakpoints) / 2;
+        std::ranges::nth_element(breakpoints, middle);
+        narrow(crossing, *middle, target);
+    }
     return crossing;
 }
 
@@ -155,33 +142,19 @@ double middle_of_gap(const Subset& subset, double value) {
     return next == infinity ? value : value / 2 + next / 2;
 }
 
-/// Returns the value inside the crossing with the target below it, by the Illinois variant of false
-/// position (Dowell, Jarratt: A modified regula falsi method, 1971); one step if the weight is
-/// even. `from` is the weight below just behind the left end, `to` that below the right end.
-double pass(const Crossing& crossing, double target, double from, double to) {
-    constexpr int most_steps = 64;
+/// Returns the value inside the crossing with the target below it, by bisection: here Newton's
+/// method has failed. `from` is the weight below just behind the left end.
+double pass(const Crossing& crossing, double target, double from) {
+    if (!(target > from)) return crossing.left;
     double left = crossing.left;
     double right = crossing.right;
-    double short_of = target - from;
-    double beyond = to - target;
-    if (!(short_of > 0)) return left;
-    double value = std::lerp(left, right, short_of / (short_of + beyond));
-    // The value is between left and right; both differences are above 0.
-    int side = 0;
-    for (int step = 0; step < most_steps; ++step) {
-        const double error = weight_below(crossing, value) - target;
-        if (std::abs(error) <= negligible(to)) break;
-        const bool is_left = error < 0;
-        (is_left ? left : right) = value;
-        (is_left ? short_of : beyond) = std::abs(error);
-        if (side == (is_left ? -1 : 1)) (is_left ? beyond : short_of) /= 2;
-        side = is_left ? -1 : 1;
-        double next = std::lerp(left, right, short_of / (short_of + beyond));
-        if (!(next > left && next < right)) next = left / 2 + right / 2;
-        if (!(next > left && next < right)) break;
-        value = next;
+    for (;;) {
+        const double middle = left / 2 + right / 2;
+        const double error = weight_below(crossing, middle) - target;
+        const bool is_inside = left < middle && middle < right;
+        if (!is_inside || std::abs(error) <= negligible(target)) return middle;
+        (error < 0 ? left : right) = middle;
     }
-    return value;
 }
 
 /// Share of the patches below a cut.
@@ -233,7 +206,7 @@ Below divide(const Subset& subset, const Profile::Range& range, std::span<const 
         if (of_jump == Below::none && below == 0) return Below::none;
     } else if (slope > 0) {
         const double rest = target - below - jump;
-        const double inside = pass(crossing, target, below + jump, below + jump + slope);
+        const double inside = pass(crossing, target, below + jump);
         cut = slope - rest > negligible(target) ? inside : middle_of_gap(subset, crossing.right);
         if (jump > 0) cut = std::max(cut, std::nextafter(crossing.left, infinity));
     } else {
@@ -252,7 +225,12 @@ Cut weighted_quantile(const Profile& profile, double target, bool plain) {
         if (a != profile.axis()) axes[num_axes++] = a;
     Cut cut{profile.axis(), {}};
     cut.at.fill(-infinity);
-    divide({domain, static_cast<std::size_t>(profile.axis())}, profile.range_of(target),
+    const Profile::Range range = profile.range_of(target, negligible(target));
+    if (std::isfinite(range.value) && profile.grows_at(range.value, negligible(target))) {
+        cut.at[profile.axis()] = range.value;
+        return cut;
+    }
+    divide({domain, static_cast<std::size_t>(profile.axis())}, range,
            std::span(axes).first(num_axes), target, cut.at);
     return cut;
 }

@@ -116,6 +116,12 @@ void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::in
     if (!is_plane(*cut, dimension_)) is_plain_ = false;
     append_node();
     append_node();
+    if (!packing.prunes && !packing.entry_of) {
+        // Nothing reads the boxes.
+        add(packing, at.lower(), box, lower, depth + 1);
+        add(packing, at.upper(), box, lower + 1, depth + 1);
+        return;
+    }
     add(packing, at.lower(), box_below(box, *cut), lower, depth + 1);
     add(packing, at.upper(), box_above(box, *cut), lower + 1, depth + 1);
     if (!is_left_out(lower) || !is_left_out(lower + 1)) return;

@@ -38,6 +38,10 @@ CellSet read_cells(std::span<const double> records, int dimension, bool in_units
 /// Returns the cube of the lattice of `exponent` that holds a position, in units of its edge.
 Vector cube_of(const Vector& position, int dimension, int exponent);
 
+/// Returns the finest lattice worth trying: that of the last binary digits of the greatest
+/// coordinate of the means.
+int last_digit(std::span<const CellMoments> cells, int dimension);
+
 /// Merges cells on the finest lattice on which at most `most` (>= 8) are left, in its order.
 ///
 /// The lattice is never finer than one on which they were merged before. The same cells in the same

@@ -35,18 +35,6 @@ double half_extent(std::span<const CellMoments> cells, int dimension) {
     return longest;
 }
 
-/// Returns the finest lattice worth trying: that of the last binary digits of the greatest
-/// coordinate.
-int last_digit(std::span<const CellMoments> cells, int dimension) {
-    constexpr int digits = 52;
-    constexpr int smallest_exponent = -1000;
-    double greatest = 0;
-    for (const CellMoments& cell : cells)
-        for (int a = 0; a < dimension; ++a)
-            greatest = std::max(greatest, std::abs(cell.moments.mean[a]));
-    return greatest > 0 ? std::ilogb(greatest) - digits : smallest_exponent;
-}
-
 /// Finds the finest lattice that is coarse enough. The search starts at the edge at which points
 /// that fill their cube have about as many cells as wanted; other points leave most of the lattice
 /// empty.
@@ -62,6 +50,16 @@ int finest_exponent(const CellSet& set, int dimension, std::size_t most) {
 }
 
 }  // namespace
+
+int last_digit(std::span<const CellMoments> cells, int dimension) {
+    constexpr int digits = 52;
+    constexpr int smallest_exponent = -1000;
+    double greatest = 0;
+    for (const CellMoments& cell : cells)
+        for (int a = 0; a < dimension; ++a)
+            greatest = std::max(greatest, std::abs(cell.moments.mean[a]));
+    return greatest > 0 ? std::ilogb(greatest) - digits : smallest_exponent;
+}
 
 CellSet coarsen(const CellSet& set, int dimension, std::size_t most) {
     CellSet merged;

@@ -79,6 +79,27 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
     return mesh;
 }
 
+/// Returns true if the points are so few that each is a cell of its own: no more than a few for
+/// each part, and than merging leaves, were all ranks to hold as many.
+bool are_cells(LocalIndex num_points, int num_ranks, const Options& options) {
+    constexpr std::size_t points_per_part = 4;
+    const std::size_t most = points_per_part * static_cast<std::size_t>(options.num_parts);
+    return options.tuning.support_mesh == 0 &&
+           num_points * static_cast<std::size_t>(num_ranks) <= std::min(most, most_cells(options));
+}
+
+/// Returns the points as cells of the lattice on which no two of them merge.
+CellSet cells_of_points(PointPasses& points) {
+    const PointSample all = points.sample(points.count());
+    CellSet set;
+    for (std::size_t i = 0; i < all.positions.size(); ++i) {
+        const double weight = all.weights.empty() ? 1 : all.weights[i];
+        set.cells.push_back({0, {}, {1, weight, all.positions[i], {}}});
+    }
+    set.exponent = last_digit(set.cells, points.dimension());
+    return set;
+}
+
 /// Returns the support mesh of the options over the box of the points.
 SupportMesh mesh_by_options(PointPasses& points, const Box& box, const Options& options) {
     const int dimension = points.dimension();
@@ -121,13 +142,20 @@ Summary summarize(const PointSummary& points, bool are_weighted, int rank) {
     return summary;
 }
 
-void add_records(PointPasses& points, const Box& box, const Options& options, Contribution& mine) {
+void add_records(PointPasses& points, const Box& box, int num_ranks, const Options& options,
+                 Contribution& mine) {
     if (points.count() == 0) return;
     const Summary& summary = mine.summary;
     points.use_weights(!summary.is_counted());
+    const double unit = summary.is_counted() ? summary.heaviest : 1;
+    if (are_cells(points.count(), num_ranks, options)) {
+        append_cells(cells_of_points(points), points.dimension(), unit, mine.records);
+        mine.summary.num_cells = summary.num_points;
+        return;
+    }
     const SupportMesh mesh = mesh_by_options(points, box, options);
     const std::vector<CellMoments> cells = points.moments(mesh);
-    append_lean_cells(cells, mesh, summary.is_counted() ? summary.heaviest : 1, mine.records);
+    append_lean_cells(cells, mesh, unit, mine.records);
     mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
 }
 

@@ -56,8 +56,9 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
 Summary summarize(const PointSummary& points, bool are_weighted, int rank);
 
 /// Reduces checked points in a box to the moments of their cells in the support mesh of the
-/// options.
-void add_records(PointPasses& points, const Box& box, const Options& options, Contribution& mine);
+/// options. If all ranks seem to have only a few points for each part, each point is a cell.
+void add_records(PointPasses& points, const Box& box, int num_ranks, const Options& options,
+                 Contribution& mine);
 
 /// Adds the weights and counts of the parts of earlier cuts, and of the points near these.
 void add_totals(const PartTotals& totals, const NearShare& near, Contribution& mine);

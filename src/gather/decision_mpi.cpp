@@ -149,7 +149,7 @@ Bisection bisect_gathered(const Contribution& all, const Options& options, int d
     StatisticalDomain domain = build_domain(all, dimension);
     if (are_cuts_limited(options) && all.summary.num_points > 0)
         return bisect_within(all.summary.box, std::move(domain), options, with_brackets);
-    return bisect(std::move(domain), options, with_brackets);
+    return bisect(std::move(domain), options, with_brackets, all.summary.num_points);
 }
 
 /// Computes the imbalance of earlier cuts, if the ranks have counted points in their parts.

@@ -67,12 +67,14 @@ void NumberSearch::hand_in(std::span<const Overlap> overlaps, Butterfly& told) c
 void NumberSearch::start(const Records& told) {
     told.for_each([&](const Record& record) {
         const auto part = static_cast<Part>(record.key);
+        std::vector<Wish>& wishes = wishes_[index_of(part)];
+        wishes.reserve(record.payload.size() / 2 + 1);
         for (std::size_t k = 0; k < record.payload.size(); k += 2) {
             const auto origin = static_cast<std::int32_t>(record.payload[k]);
             const double count = record.payload[k + 1];
             num_points_ += static_cast<GlobalCount>(count);
             if (origin == no_origin) continue;
-            wishes_[index_of(part)].push_back({count, origin == rule_.home_of(part), origin});
+            wishes.push_back({count, origin == rule_.home_of(part), origin});
         }
     });
     for (std::size_t i = 0; i < wishes_.size(); ++i) {
@@ -119,13 +121,14 @@ bool NumberSearch::choose(Butterfly& offers) {
         std::vector<Offer> accepted;
         for (std::size_t k = 0; k < record.payload.size(); k += 3)
             accepted.push_back({record.payload[k], record.payload[k + 1], record.payload[k + 2]});
-        std::ranges::sort(accepted, std::greater<>());
         refuses_any = refuses_any || accepted.size() > length_of(numbers);
         Offer least{-1, 0, 0};
-        if (accepted.size() >= length_of(numbers)) {
-            accepted.resize(length_of(numbers));
-            if (!accepted.empty()) least = accepted.back();
+        if (accepted.size() >= length_of(numbers) && length_of(numbers) > 0) {
+            const auto last = accepted.begin() + (numbers.end - numbers.first - 1);
+            std::ranges::nth_element(accepted, last, std::greater<>());
+            least = *last;
         }
+        accepted.resize(std::min(accepted.size(), length_of(numbers)));
         std::vector<double> answer(least.begin(), least.end());
         give_numbers(accepted, numbers, answer);
         offers.answer(record.key, answer);

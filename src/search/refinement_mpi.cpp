@@ -116,8 +116,8 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
     }
 }
 
-/// Returns true if there is nothing to search: the estimated cuts are good enough, or the points
-/// are kept. Then `parts` is complete. Collective.
+/// Returns true if there is nothing to search: the estimated cuts are good enough, or as even as
+/// any, or the points are kept. Then `parts` is complete. Collective.
 bool Refinement::accept_estimate(PointPasses& points, Participant& self) {
     self.attempt([&] {
         const PartTotals totals = points.assign(estimate_.cuts, true);
@@ -126,7 +126,10 @@ bool Refinement::accept_estimate(PointPasses& points, Participant& self) {
     measure(self);
     ++refined_.rounds;
     const double tolerance = options_.imbalance_tolerance;
-    return refined_.imbalance <= tolerance || estimate_.kept_imbalance <= tolerance;
+    constexpr double round_off = 1e-12;
+    const bool is_least = refined_.imbalance <= estimate_.least_imbalance * (1 + round_off);
+    return refined_.imbalance <= tolerance || estimate_.kept_imbalance <= tolerance ||
+           (is_least && num_left_empty() == 0);
 }
 
 /// Adds up the weights of the parts over all ranks. Collective; throws if one failed.

@@ -57,6 +57,7 @@ struct Estimate {
     bool is_earlier = false;     ///< the cuts are those of an earlier call
     Box box{};                   ///< of all points, if cuts are limited
     GlobalCount num_points = 0;  ///< over all ranks
+    double least_imbalance = 1;  ///< of any partition: a bound
 };
 
 /// Refined cuts and their measured imbalance; the same on every rank. After a central refinement

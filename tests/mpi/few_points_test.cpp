@@ -81,6 +81,16 @@ TEST(FewPoints, have_the_least_imbalance_of_whole_points) {
     }
 }
 
+TEST(FewPoints, are_divided_by_the_first_cuts) {
+    const FewPoints few(40);
+    Options options;
+    options.num_parts = 32;
+    const Report report = balance(few.points(), options, {}, MPI_COMM_WORLD).report;
+    EXPECT_EQ(report.details.num_records, 40) << "each is a cell of its own";
+    EXPECT_EQ(report.imbalance, report.details.least_imbalance);
+    EXPECT_EQ(report.details.rounds, 1) << "nothing is searched";
+}
+
 TEST(FewPoints, in_one_place_raise_the_imbalance_but_not_its_bound) {
     // 10 of 20 points at the origin.
     std::vector<double> mine;

@@ -59,7 +59,7 @@ struct VirtualRanks {
         HostPasses mine(points_of(rank));
         const PointSummary summary = mine.summary(true);
         Contribution all{summarize(summary, false, 0), {}};
-        add_records(mine, summary.box, options, all);
+        add_records(mine, summary.box, num_ranks(), options, all);
         all.summary.first_rank = rank;
         MergeTree{num_ranks()}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);

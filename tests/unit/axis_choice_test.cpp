@@ -95,13 +95,14 @@ StatisticalDomain layer_with_strays() {
     return domain;
 }
 
-Cuts cuts_by(const AxisOrder& order, StatisticalDomain domain, int num_parts) {
+Cuts cuts_by(const AxisOrder& order, StatisticalDomain domain, int num_parts,
+             GlobalCount num_points = 0) {
     Options options;
     options.num_parts = num_parts;
     options.tree = TreeShape{};
     options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1);
     options.axes.order = order;
-    return bisect(std::move(domain), options, false).cuts;
+    return bisect(std::move(domain), options, false, num_points).cuts;
 }
 
 std::vector<int> axes_by(const AxisOrder& order, StatisticalDomain domain, int num_parts) {
@@ -123,6 +124,12 @@ TEST(AxisRule, crosses_the_axis_with_the_least_weight_near_the_cut) {
     EXPECT_EQ(axes_by(AxisOrder::longest(), layer, 4), (std::vector<int>{1, 0, 0}));
     EXPECT_EQ(axes_by(AxisOrder::among({1}), layer, 4), (std::vector<int>{1, 1, 1}));
     EXPECT_EQ(axes_by(AxisOrder::among({1, 0}), layer, 4), (std::vector<int>{0, 0, 0}));
+}
+
+TEST(AxisRule, crosses_the_longest_axis_of_few_points) {
+    const StatisticalDomain layer = layer_with_strays();
+    EXPECT_EQ(axes_of(cuts_by({}, layer, 4, 1000).tree), axes_by({}, layer, 4));
+    EXPECT_EQ(axes_of(cuts_by({}, layer, 4, 16).tree), axes_by(AxisOrder::longest(), layer, 4));
 }
 
 TEST(AxisRule, crosses_the_longest_axis_unless_another_saves_a_tenth) {

@@ -102,7 +102,7 @@ struct Ranks {
         HostPasses mine(points_of(rank));
         const PointSummary summary = mine.summary(true);
         Contribution all{summarize(summary, false, 0), {}};
-        add_records(mine, summary.box, options, all);
+        add_records(mine, summary.box, num_ranks, options, all);
         MergeTree{num_ranks}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);
             all.records.insert(all.records.end(), theirs.records.begin(), theirs.records.end());

@@ -1,6 +1,7 @@
 #include "bisection/weighted_quantile.hpp"
 
 #include "../support/clouds.hpp"
+#include "bisection/profile.hpp"
 #include "bisection/slice.hpp"
 
 #include <gtest/gtest.h>
@@ -151,15 +152,41 @@ TEST(WeightedQuantile, has_the_target_below_it_among_many_patches) {
     }
 }
 
-TEST(Profile, estimates_the_weight_near_a_cut) {
+TEST(Profile, reads_the_weight_near_a_cut) {
     std::vector<Patch> patches;
-    for (int i = 0; i < 300; ++i) patches.push_back({{0.01 * i}, {0.01 * i + 0.01}, 1});
+    for (int i = 0; i < 303; ++i) patches.push_back({{0.01 * i}, {0.01 * i + 0.01}, 1});
     const StatisticalDomain domain = domain_of(patches);
     const Profile profile(domain, 0);
-    EXPECT_NEAR(profile.weight_near(100, 0.2), 40, 1);
-    EXPECT_NEAR(profile.weight_near(5, 0.2), 25, 2) << "nothing is below 0";
-    EXPECT_EQ(profile.weight_near(100, 0), 0);
-    EXPECT_EQ(Profile(domain, 0, 301).weight_near(100, 0.2), 0) << "not known";
+    EXPECT_NEAR(profile.weight_near(1, 0.2), 40, 1e-9);
+    EXPECT_NEAR(profile.weight_near(0.05, 0.2), 25, 1e-9) << "nothing is below 0";
+    EXPECT_NEAR(profile.weight_near(1, 0), 200, 1e-9) << "as in an even box";
+    EXPECT_EQ(profile.weight_near(infinity, 0.2), 303) << "all is on one side";
+}
+
+TEST(Profile, has_the_weight_below_a_value_of_the_slices) {
+    std::mt19937_64 engine(10);
+    const StatisticalDomain domain = domain_of(many_patches(engine));
+    const Profile profile(domain, 0);
+    for (const double value : {1.1, 1.9, 10.5, 150.0, 1e5, 2e5}) {
+        double below = 0;
+        for (const Patch& patch : domain.patches) below += weight_below(slice_of(patch, 0), value);
+        const double reach = value + 1;  // nothing is below 0
+        EXPECT_NEAR(profile.weight_within(value - reach, reach), below, 1e-12 * profile.weight());
+    }
+}
+
+TEST(Profile, finds_a_value_only_where_the_weight_grows) {
+    const std::vector<Patch> patches{{{0}, {1}, 3}, {{2}, {2}, 4}, {{4}, {5}, 3}};
+    const StatisticalDomain domain = domain_of(patches);
+    const Profile profile(domain, 0);
+    const Profile::Range inside = profile.range_of(1.5, 1e-9);
+    EXPECT_NEAR(inside.value, 0.5, 1e-9);
+    EXPECT_TRUE(profile.grows_at(inside.value, 1e-9));
+    EXPECT_FALSE(profile.grows_at(1, 1e-9)) << "a gap begins";
+    const Profile::Range jump = profile.range_of(5, 1e-9);
+    EXPECT_TRUE(std::isnan(jump.value));
+    EXPECT_LE(jump.lower, 2);
+    EXPECT_GE(jump.upper, 2);
 }
 
 TEST(WeightedQuantile, that_is_plain_leaves_a_plane_of_patches_on_one_side) {

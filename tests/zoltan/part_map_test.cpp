@@ -51,7 +51,7 @@ TEST(PartMap, spreads_a_part_over_ranks_where_there_are_fewer) {
 
 TEST(PartMap, is_a_formula_where_many_parts_lie_evenly) {
     for (const auto& [num_parts, num_ranks] :
-         {std::pair{5000, 5000}, {5000, 7}, {4999, 5000}, {1500, 4000}}) {
+         {std::pair{5000, 5000}, {5000, 7}, {4999, 5000}, {4500, 12000}}) {
         const PartMap map = even_part_map(num_parts, num_ranks);
         EXPECT_TRUE(map.listed.empty());
         std::vector<int> counts(static_cast<std::size_t>(num_ranks));

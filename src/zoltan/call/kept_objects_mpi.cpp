@@ -45,8 +45,8 @@ std::uint64_t checksum_of(const Points& points, std::span<const Part> parts) {
     });
 }
 
-Placed find_placed(const Objects& objects, const LastPartition& last, const KeptObjects& kept,
-                   int rank, std::vector<Part>& parts) {
+Placed find_placed(const Objects& objects, LastPartition& last, const KeptObjects& kept, int rank,
+                   std::vector<Part>& parts) {
     const NonStop arithmetic;
     const PartMap& map = last.map();
     if (!map.one_each && !objects.names_parts) return {};
@@ -57,6 +57,7 @@ Placed find_placed(const Objects& objects, const LastPartition& last, const Kept
     // Only complete cuts that divide no coincident objects show that one is elsewhere.
     const bool ask_cuts = is_whole(last.cuts()) && kept.report.details.coincident_cuts == 0 &&
                           last.cuts().dimension == objects.points.dimension;
+    if (ask_cuts) last.prepare_look_ups();
     for (std::size_t i = 0; i < count; ++i) {
         const Part part = parts[i];
         if (part < 0 || part >= map.num_parts) return {};

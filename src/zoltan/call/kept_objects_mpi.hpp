@@ -24,8 +24,8 @@ struct Placed {
 /// Finds the parts of the objects of this rank, by a callback or, with a part on each rank, by the
 /// rank, and writes them into `parts`. Finds none if the last cuts put an object elsewhere. Throws
 /// std::bad_alloc. Not collective.
-Placed find_placed(const Objects& objects, const LastPartition& last, const KeptObjects& kept,
-                   int rank, std::vector<Part>& parts);
+Placed find_placed(const Objects& objects, LastPartition& last, const KeptObjects& kept, int rank,
+                   std::vector<Part>& parts);
 
 /// Returns whether an object moves on any rank, and adds up the checksums of all ranks. Collective:
 /// one reduction.

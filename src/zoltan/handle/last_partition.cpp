@@ -9,7 +9,10 @@ void LastPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noex
     cuts_ = std::move(cuts);
     map_ = std::move(map);
     numbering_ = std::move(numbering);
-    if (!shows_all()) return;
+}
+
+void LastPartition::prepare_look_ups() noexcept {
+    if (!shows_all() || tree_.num_nodes() > 0) return;
     tree_.pack(cuts_,
                [this](Part end, const Box&) { return numbering_.number_of(part_at(cuts_, end)); });
 }
@@ -17,7 +20,7 @@ void LastPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noex
 LastPartition LastPartition::copy() const {
     LastPartition copy(shows_all() ? static_cast<std::size_t>(cuts_.num_parts) : 0);
     copy.keep(Cuts(cuts_), PartMap(map_), Numbering(numbering_));
-    copy.answers_look_ups_ = answers_look_ups_;
+    copy.answer_look_ups(answers_look_ups_);
     return copy;
 }
 

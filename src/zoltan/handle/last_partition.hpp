@@ -35,9 +35,12 @@ class LastPartition {
     /// Returns true if all cuts and all numbers are on this rank.
     bool shows_all() const { return numbering_.is_whole() && is_whole(cuts_); }
 
-    /// Sets whether look-ups may use the cuts. Without KEEP_CUTS, or a parameter that implies it,
-    /// they are for the next partition only.
-    void answer_look_ups(bool answers) { answers_look_ups_ = answers; }
+    /// Sets whether look-ups may use the cuts, which they may not at first. Without KEEP_CUTS, or a
+    /// parameter that implies it, they are for the next partition only.
+    void answer_look_ups(bool answers) noexcept {
+        answers_look_ups_ = answers;
+        if (answers) prepare_look_ups();
+    }
     bool answers_look_ups() const { return answers_look_ups_ && shows_all(); }
 
     /// Cuts for the next partition. They may be distributed over the ranks unless these look up.
@@ -45,6 +48,9 @@ class LastPartition {
 
     const PartMap& map() const { return map_; }
     const Numbering& numbering() const { return numbering_; }
+
+    /// Makes part_of() and parts_touching() possible, if shows_all(), without allocating memory.
+    void prepare_look_ups() noexcept;
 
     // Look-ups, if shows_all().
 
@@ -70,8 +76,8 @@ class LastPartition {
     Cuts cuts_;
     PartMap map_;
     Numbering numbering_;
-    PackedTree tree_;  ///< of the cuts, with the numbers of parts
-    bool answers_look_ups_ = true;
+    PackedTree tree_;  ///< of the cuts, with the numbers of parts; empty until look-ups use it
+    bool answers_look_ups_ = false;
 };
 
 }  // namespace rrcb::zoltan

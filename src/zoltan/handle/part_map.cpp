@@ -12,7 +12,7 @@ namespace rrcb::zoltan {
 namespace {
 
 /// Parts up to which a list of their ranks is kept, which is faster than a formula.
-constexpr int most_listed = 1024;
+constexpr int most_listed = 4096;
 
 struct Asked {
     int parts = 0;
@@ -38,6 +38,12 @@ PartRange PartMap::parts_on(int rank) const {
 PartMap even_part_map(int num_parts, int num_ranks) {
     PartMap map{num_parts, num_ranks, num_parts == num_ranks};
     if (map.one_each || num_parts > most_listed) return map;
+    map.listed.reserve(num_parts);
+    if (num_parts > num_ranks) {
+        for (int rank = 0; rank < num_ranks; ++rank)
+            map.listed.resize(map.parts_on(rank).end, RankRange{rank, 1});
+        return map;
+    }
     for (int part = 0; part < num_parts; ++part)
         map.listed.push_back(ranks_of_part(part, num_parts, num_ranks));
     return map;

@@ -166,6 +166,7 @@ LastPartition read_last(Reader& reader) {
     std::vector<Part> room(numbers.size());
     last.keep(std::move(cuts), std::move(map),
               Numbering::of_all(std::move(numbers), std::move(room)));
+    last.answer_look_ups(true);
     return last;
 }
 

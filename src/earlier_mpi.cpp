@@ -114,10 +114,10 @@ Balance balance_from_earlier(PointPasses& points, const Options& given, const Cu
     if (!is_kept) settle_from_earlier(call, earlier, self);
     self.attempt([&] { complete(call); });
     const Report& report = call.result.report;
-    const double near_now = call.decision.verdict.near.share;
+    const double near_now = call.decision.verdict.near_per_cut;
     const bool may_save = may_save_ghosts(call.options, previous.near, near_now);
-    const double excess = is_kept ? 0 : call.decision.verdict.measured_imbalance - 1;
-    call.result.cuts.near.share = reference(previous.near, near_now, excess);
+    const double chosen = may_save ? 0 : previous.near.share;
+    call.result.cuts.near.share = reference(chosen, near_now, !is_kept);
     if (!may_save && !may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
         return std::move(call.result);
     std::vector<Part> parts;

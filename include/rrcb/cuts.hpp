@@ -33,8 +33,8 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// Points near the cuts when their axes were chosen; 0 if not known.
 struct NearCuts {
     double reach = 0;  ///< distance within which a point is near
-    double share = 0;  ///< of the weight, from a sample, since the first call from these cuts; a
-                       ///< point near two cuts counts twice
+    double share = 0;  ///< least weight near the cuts since then, from samples, over that near one
+                       ///< cut across the longest side of a part
 };
 
 /// The tree of a recursive bisection into `num_parts` parts; bit-identical on every rank, except

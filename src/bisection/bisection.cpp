@@ -163,7 +163,7 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
     const Box region = limits ? limits->region() : everywhere;
     const double weight = weight_of(domain);
     NearCuts& near = task.result.cuts.near;
-    near.reach = mean_half_side(domain);
+    near.reach = mean_half_side(domain) / 4;  // nearer to the cut-off radii of codes
     bisect_piece({std::move(domain), root_of(task.result.cuts), region, 0}, task);
     if (weight > 0) near.share = task.near_weight / weight;
     return std::move(task.result);

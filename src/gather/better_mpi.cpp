@@ -21,40 +21,33 @@ std::int64_t num_near(const Cuts& cuts, PointPasses& points, double reach) {
     return std::llround(share * static_cast<double>(points.count()));
 }
 
-/// Share of the weight near cuts, over that of reference, above which new cuts are made.
-constexpr double more = 1.15;
-
-/// Compares the points near two sets of cuts. Returns true if the new ones are worth moving points;
-/// otherwise sets the share of reference so that they are made again when they may be. Collective.
-bool saves_ghosts(Balance& reused, const Balance& anew, PointPasses& points,
+/// Compares the points near two sets of cuts. Returns true if the new ones are worth moving points.
+/// Collective.
+bool saves_ghosts(const Balance& reused, const Balance& anew, PointPasses& points,
                   const Participant& self) {
     constexpr double fewer = 0.94;
-    const double reach = anew.cuts.near.reach / 4;
+    const double reach = anew.cuts.near.reach;
     std::array<std::int64_t, 2> near{num_near(reused.cuts, points, reach),
                                      num_near(anew.cuts, points, reach)};
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, near.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");
     const auto [before, after] = near;
-    if (static_cast<double>(after) < fewer * static_cast<double>(before)) return true;
-    reused.cuts.near.share = reused.report.details.near_before;
-    return false;
+    return static_cast<double>(after) < fewer * static_cast<double>(before);
 }
 
 }  // namespace
 
 bool may_save_ghosts(const Options& options, const NearCuts& chosen, double share_now) {
+    constexpr double more = 1.15;
     const AxisOrder& order = options.axes.order;
     const bool are_free = !order.is_longest() && !order.is_given() && !order.is_grouped();
     return are_free && counts_earlier_parts(options) && chosen.reach > 0 && chosen.share > 0 &&
            share_now > more * chosen.share;
 }
 
-double reference(const NearCuts& chosen, double share_now, double excess) {
-    constexpr double sampling = 1.1;  // the share of a sample varies
-    constexpr double ageing = 4;
-    const double share =
-        chosen.share > 0 ? std::min(chosen.share, sampling * share_now) : share_now;
-    return std::isgreater(excess, 0) ? share / (1 + ageing * excess) : share;
+double reference(double chosen, double share_now, bool are_moved) {
+    const double share = chosen > 0 ? std::min(chosen, share_now) : share_now;
+    return are_moved ? 0.95 * share : share;
 }
 
 Balance better(Balance&& reused, std::span<const Part> parts, Balance&& anew, PointPasses& points,

@@ -8,14 +8,13 @@
 
 namespace rrcb {
 
-/// Returns true if so much weight is near earlier cuts, compared with the time when their axes were
-/// chosen, that others may save ghosts.
+/// Returns true if NearCuts::share has grown so much that other axes may save ghosts.
 bool may_save_ghosts(const Options& options, const NearCuts& chosen, double share_now);
 
-/// Returns the share of reference for later calls, if the axes are kept: that of the chosen axes,
-/// or less since. It falls by four times the `excess` of the imbalance that cuts were moved for,
-/// because other axes may have become better meanwhile.
-double reference(const NearCuts& chosen, double share_now, double excess);
+/// Returns NearCuts::share for later calls, if the axes are kept; `chosen` is that of the call
+/// before, 0 after a comparison. It falls by a twentieth if cuts were moved: other axes may have
+/// become better, so calls that go on moving cuts compare new ones now and then.
+double reference(double chosen, double share_now, bool are_moved);
 
 /// Returns the better balance: that from scratch if its balance is worth moving points, or if
 /// `compares_ghosts` and it has much fewer points near its cuts; otherwise the points get back

@@ -164,7 +164,9 @@ void add_totals(const PartTotals& totals, const NearShare& near, Contribution& m
     mine.part_totals.insert(mine.part_totals.end(), totals.counts.begin(), totals.counts.end());
     if (totals.counts.empty()) return;
     mine.part_totals.push_back(near.by_weight * mine.summary.weight);
-    mine.part_totals.push_back(near.by_count * static_cast<double>(mine.summary.num_points));
+    const auto count = static_cast<double>(mine.summary.num_points);
+    mine.part_totals.push_back(near.by_count * count);
+    for (const double spread : near.spread) mine.part_totals.push_back(spread * count);
 }
 
 std::size_t most_cells(const Options& options) {

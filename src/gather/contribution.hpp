@@ -44,7 +44,7 @@ struct Contribution {
     std::vector<double> records;    ///< the moments of their cells
     std::vector<double> extents{};  ///< of the points of each rank, if rank 0 reads these
     /// Weights in the parts of earlier cuts, then numbers of points in them, then weight and number
-    /// of points near the cuts, if the call counts them.
+    /// of points near the cuts and the number times their spread, if the call counts them.
     std::vector<double> part_totals{};
 };
 

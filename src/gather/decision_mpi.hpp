@@ -41,6 +41,7 @@ struct Verdict {
     double kept_imbalance = not_kept;       ///< of the parts that the ranks hold
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
     NearCuts near{};                        ///< of the new cuts, or counted for the earlier ones
+    double near_per_cut = 0;                ///< of the earlier cuts, see NearCuts::share
 
     bool is_counted() const { return common_weight > 0; }
     /// Returns the weight of all points, or their number if they are counted.

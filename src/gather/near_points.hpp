@@ -9,10 +9,11 @@ namespace rrcb {
 struct NearShare {
     double by_weight = 0;
     double by_count = 0;
+    Vector spread{};  ///< mean distance of two points of a part, along each axis
 };
 
-/// Counts the local points within `reach` of the cuts, `most` of them at random if there are more;
-/// none if `reach` is 0. Not collective.
+/// Counts the local points within `reach` of the cuts, and measures their spread in the parts, from
+/// `most` of them at random if there are more; all 0 if `reach` is 0. Not collective.
 NearShare near_share(const Cuts& cuts, PointPasses& points, double reach, LocalIndex most);
 
 }  // namespace rrcb

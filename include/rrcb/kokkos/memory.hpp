@@ -11,15 +11,20 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace rrcb::detail {
+
+[[noreturn]] inline void reject_on_device(const std::string& what) {
+    throw Error(ErrorCode::invalid_argument, what);
+}
 
 /// Throws Error unless Kokkos can run kernels.
 inline void require_kokkos() {
     if (!Kokkos::is_initialized())
-        throw Error(ErrorCode::invalid_argument,
-                    "Kokkos is not initialized; call Kokkos::initialize() before, and "
-                    "Kokkos::finalize() after all calls with views");
+        reject_on_device(
+            "Kokkos is not initialized; call Kokkos::initialize() before, and "
+            "Kokkos::finalize() after all calls with views");
 }
 
 /// True for execution spaces that run on the host.
@@ -44,18 +49,17 @@ Kokkos::View<T*, Memory> allocate(const Execution& exec, std::size_t size, bool 
 template <class T>
 using HostView = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
-/// Returns a copy of numbers of the host, once `exec` has come so far. The numbers must stay until
-/// a fence.
-template <class Memory, class Execution, class T>
-auto copy_in(const Execution& exec, std::span<const T> values) {
+/// Returns a copy of numbers of the host, which must stay until a fence.
+template <class Memory, class Execution, class Values>
+auto copy_in(const Execution& exec, const Values& values) {
+    using T = typename Values::value_type;
     const auto view = allocate<T, Memory>(exec, values.size());
-    const Kokkos::View<const T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>> from(
-        values.data(), values.size());
-    if (!values.empty()) Kokkos::deep_copy(exec, view, from);
+    if (!values.empty())
+        Kokkos::deep_copy(exec, view, HostView<const T>(values.data(), values.size()));
     return view;
 }
 
-/// Copies the first `to.size()` numbers of a view to the host, after a fence.
+/// Copies the first `to.size()` numbers of a view to the host, where they are after a fence.
 template <class Execution, class View, class T>
 void copy_out(const Execution& exec, const View& view, std::span<T> to) {
     if (to.empty()) return;
@@ -63,7 +67,7 @@ void copy_out(const Execution& exec, const View& view, std::span<T> to) {
                       Kokkos::subview(view, std::pair<std::size_t, std::size_t>(0, to.size())));
 }
 
-/// Runs a kernel for 0 ... count - 1, indices of 64 bits.
+/// Returns the indices 0 ... count - 1 for a kernel, of 64 bits.
 template <class Execution>
 auto range(const Execution& exec, std::int64_t count) {
     return Kokkos::RangePolicy<Execution, Kokkos::IndexType<std::int64_t>>(exec, 0, count);

@@ -132,18 +132,19 @@ KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySp
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &num_ranks);
     const std::size_t count = balance.parts.extent(0);
+    detail::Device<Execution, MemorySpace> device(exec);
     KokkosPlan<MemorySpace> plan;
-    plan.ranks = detail::allocate<int, MemorySpace>(exec, count);
-    plan.order = detail::allocate<LocalIndex, MemorySpace>(exec, count);
+    plan.ranks = device.template allocate<int>(count);
+    plan.order = device.template allocate<LocalIndex>(count);
     const std::vector<int> table = detail::ranks_of_parts(balance.cuts.num_parts, rank, num_ranks);
-    const auto rank_of_part = detail::copy_in<MemorySpace>(exec, table);
+    const auto rank_of_part = device.copy_in(table);
     const auto ranks = plan.ranks;
     const auto parts = balance.parts;
     Kokkos::parallel_for(
-        "rrcb::ranks", detail::range(exec, static_cast<std::int64_t>(count)),
+        "rrcb::ranks", device.range(static_cast<std::int64_t>(count)),
         KOKKOS_LAMBDA(const std::int64_t i) { ranks(i) = rank_of_part(parts(i)); });
     const std::vector<std::int64_t> ends =
-        detail::list_by_rank(exec, num_ranks, plan.ranks, plan.order);
+        detail::list_by_rank(device, num_ranks, plan.ranks, plan.order);
     for (int to = 0; to < num_ranks; ++to) {
         const std::int64_t before = to == 0 ? 0 : ends[to - 1];
         if (ends[to] > before)

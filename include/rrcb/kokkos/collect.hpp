@@ -32,16 +32,16 @@ struct Rows {
 };
 
 /// Copies points to the host; takes the marks of those with `parts`, which become no_part. A fence.
-template <class Memory, class Execution, class T, class W>
-Rows copy_points(const Execution& exec, const Positions<T>& x, const Weights<W>& weights,
-                 const Kokkos::View<LocalIndex*, Memory>& indices, Part* parts) {
+template <class Device, class T, class W>
+Rows copy_points(Device& device, const Positions<T>& x, const Weights<W>& weights,
+                 const typename Device::template Lent<LocalIndex>& indices, Part* parts) {
     Rows rows{x.dimension, weights.values != nullptr, {}};
     const std::size_t width = rows.width();
     rows.values.resize(indices.extent(0) * width);
-    const auto view = allocate<double, Memory>(exec, rows.values.size());
+    const auto view = device.template lend<double>(rows.values.size());
     double* const values = view.data();
     Kokkos::parallel_for(
-        "rrcb::copy", range(exec, static_cast<std::int64_t>(indices.extent(0))),
+        "rrcb::copy", device.range(static_cast<std::int64_t>(indices.extent(0))),
         KOKKOS_LAMBDA(const std::int64_t k) {
             const auto i = static_cast<std::int64_t>(indices(k));
             double* row = values + static_cast<std::size_t>(k) * width;
@@ -51,18 +51,18 @@ Rows copy_points(const Execution& exec, const Positions<T>& x, const Weights<W>&
             for (int a = 0; a < x.dimension; ++a) *row++ = x(i, a);
             if (weights.values != nullptr) *row = weights(i);
         });
-    copy_out(exec, view, std::span(rows.values));
-    exec.fence();
+    device.copy_out(view, std::span(rows.values));
+    device.fence();
     return rows;
 }
 
 /// Lists marked points, of which there are `number`, in ascending order of their indices.
-template <class Memory, class Execution>
-auto list_marked(const Execution& exec, std::int64_t count, std::size_t number, const Part* parts) {
-    const auto list = allocate<LocalIndex, Memory>(exec, number);
+template <class Device>
+auto list_marked(Device& device, std::int64_t count, std::size_t number, const Part* parts) {
+    const auto list = device.template lend<LocalIndex>(number);
     LocalIndex* const indices = list.data();
     Kokkos::parallel_scan(
-        "rrcb::list", range(exec, count),
+        "rrcb::list", device.range(count),
         KOKKOS_LAMBDA(const std::int64_t i, std::int64_t& before, const bool is_final) {
             if (parts[i] >= no_part) return;
             if (is_final) indices[before] = static_cast<LocalIndex>(i);
@@ -72,17 +72,17 @@ auto list_marked(const Execution& exec, std::int64_t count, std::size_t number, 
 }
 
 /// Returns the box of the points of each part. A fence.
-template <class Memory, class Execution, class T>
-std::vector<Box> boxes_of_parts(const Execution& exec, const Positions<T>& x, const Part* parts,
+template <class Device, class T>
+std::vector<Box> boxes_of_parts(Device& device, const Positions<T>& x, const Part* parts,
                                 int num_parts) {
     std::vector<Box> boxes(static_cast<std::size_t>(num_parts));
     static_assert(sizeof(Box) == 2 * max_dimension * sizeof(double));
     const std::span bounds(reinterpret_cast<double*>(boxes.data()),
                            2 * max_dimension * boxes.size());
-    const auto view = copy_in<Memory>(exec, bounds);
+    const auto view = device.copy_in(bounds);
     double* const on_device = view.data();
     Kokkos::parallel_for(
-        "rrcb::boxes", range(exec, x.count), KOKKOS_LAMBDA(const std::int64_t i) {
+        "rrcb::boxes", device.range(x.count), KOKKOS_LAMBDA(const std::int64_t i) {
             if (parts[i] < 0) return;
             double* const lower = on_device + std::int64_t{parts[i]} * 2 * max_dimension;
             double* const upper = lower + max_dimension;
@@ -95,8 +95,8 @@ std::vector<Box> boxes_of_parts(const Execution& exec, const Positions<T>& x, co
                     Kokkos::atomic_fetch_max(upper + a, value);
             }
         });
-    copy_out(exec, view, bounds);
-    exec.fence();
+    device.copy_out(view, bounds);
+    device.fence();
     return boxes;
 }
 

@@ -104,36 +104,36 @@ inline std::vector<Layer> layers_of(const SupportMesh& mesh, Layers (&layers)[ma
 
 /// Returns the sums of fields, [field][cell]: as many fields at once as a team has scratch for, all
 /// at once if it is too small for an axis. A fence.
-template <class Memory, class Execution, class T, class W>
-std::vector<double> sums_of_cells(const Execution& exec, AddMoments<T, W> body) {
+template <class Device, class T, class W>
+std::vector<double> sums_of_cells(Device& device, AddMoments<T, W> body) {
     const int fields = (body.weights.values == nullptr ? 1 : 2) + 2 * body.x.dimension;
     const auto all = static_cast<std::size_t>(fields * body.num_cells);
-    const auto sums = allocate<Word, Memory>(exec, 2 * all, true);
-    const auto fitting =
-        static_cast<int>(std::min<std::int64_t>(fields, bins_in_scratch(exec) / body.num_cells));
+    const auto sums = device.template lend_zeros<Word>(2 * all);
+    const auto fitting = static_cast<int>(
+        std::min<std::int64_t>(fields, bins_in_scratch(device.exec()) / body.num_cells));
     const int step = fitting < 3 ? fields : fitting;
     for (body.begin = 0; body.begin < fields; body.begin = body.end) {
         body.end = std::min(body.begin + step, fields);
-        add_in_bins(exec, body.x.count, (body.end - body.begin) * body.num_cells,
+        add_in_bins(device, body.x.count, (body.end - body.begin) * body.num_cells,
                     sums.data() + 2 * body.begin * body.num_cells, body);
     }
-    return totals_of_bins(exec, sums);
+    return totals_of_bins(device, sums);
 }
 
 /// Returns the moments of every cell that holds weight, as cell_moments(): mean and deviation to
 /// within 1e-6 of the sides of a cell unless its points are lighter than a millionth of the
 /// heaviest; the same bits in any order of the points. A fence.
-template <class Memory, class Execution, class T, class W>
-std::vector<CellMoments> moments_on(const Execution& exec, const Positions<T>& x,
+template <class Device, class T, class W>
+std::vector<CellMoments> moments_on(Device& device, const Positions<T>& x,
                                     const Weights<W>& weights, const SupportMesh& mesh) {
     const std::size_t num_cells = rrcb::num_cells(mesh);
     AddMoments<T, W> body{x, weights, {}, static_cast<std::int64_t>(num_cells), 0, 0};
     const std::vector<Layer> layers = layers_of(mesh, body.layers);
-    const auto on_device = copy_in<Memory>(exec, layers);
+    const auto on_device = device.copy_in(layers);
     const Layer* first = on_device.data();
     for (int a = 0; a < mesh.dimension; first += body.layers[a++].number)
         body.layers[a].first = first;
-    const std::vector<double> sums = sums_of_cells<Memory>(exec, body);
+    const std::vector<double> sums = sums_of_cells(device, body);
     const bool weighs = weights.values != nullptr;
     std::vector<CellMoments> cells;
     for (std::size_t cell = 0; cell < num_cells; ++cell) {

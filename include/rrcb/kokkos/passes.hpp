@@ -44,7 +44,7 @@ class KokkosPasses final : public PointPasses {
     /// Takes views, also of memory for parts; copies nothing. Not collective, as all of these.
     KokkosPasses(const ExecutionSpace& exec, const Views& x, const WeightView& weights,
                  const PartsView& parts = {})
-        : exec_(exec),
+        : device_(exec),
           views_(x),
           weight_view_(weights),
           x_(detail::PointViews<Views>::positions(x)),
@@ -74,7 +74,7 @@ class KokkosPasses final : public PointPasses {
         if (weighs()) {
             summary.lightest = ends.lightest;
             summary.heaviest = ends.heaviest;
-            summary.weight = detail::total_weight<Memory>(exec_, x_.count, given_);
+            summary.weight = detail::total_weight(device_, x_.count, given_);
         }
         detail::check_coordinates(ends);
         for (int a = 0; a < x_.dimension && reads_positions; ++a) {
@@ -91,10 +91,9 @@ class KokkosPasses final : public PointPasses {
         std::vector<LocalIndex> indices(std::min(size, count()));
         for (std::size_t k = 0; k < indices.size(); ++k)
             indices[k] = count() <= size ? k : detail::sampled(k, count());
-        const auto on_device = detail::copy_in<Memory>(exec_, indices);
+        const auto on_device = device_.copy_in(indices);
         Collected copies{.dimension = x_.dimension};
-        detail::copy_points<Memory>(exec_, x_, used_weights(), on_device, nullptr)
-            .append_to(copies);
+        detail::copy_points(device_, x_, used_weights(), on_device, nullptr).append_to(copies);
         PointSample sample;
         for (LocalIndex k = 0; k < copies.count(); ++k)
             sample.positions.push_back(copies.position(k));
@@ -104,8 +103,8 @@ class KokkosPasses final : public PointPasses {
 
     std::vector<CellMoments> moments(const SupportMesh& mesh) override {
         const detail::Weights<W> weights = known_weights();
-        if (!weighs() || heaviest_ > 0) return detail::moments_on<Memory>(exec_, x_, weights, mesh);
-        auto cells = detail::moments_on<Memory>(exec_, x_, detail::Weights<W>{}, mesh);
+        if (!weighs() || heaviest_ > 0) return detail::moments_on(device_, x_, weights, mesh);
+        auto cells = detail::moments_on(device_, x_, detail::Weights<W>{}, mesh);
         for (CellMoments& cell : cells) cell.moments.weight = 0;
         return cells;
     }
@@ -148,39 +147,40 @@ class KokkosPasses final : public PointPasses {
     }
 
     std::vector<Box> boxes(int num_parts) override {
-        return detail::boxes_of_parts<Memory>(exec_, x_, known_parts(), num_parts);
+        return detail::boxes_of_parts(device_, x_, known_parts(), num_parts);
     }
 
     void settle(const Collected& collected, std::span<const Part> parts) override {
-        const auto indices = detail::copy_in<Memory>(exec_, collected.original);
-        const auto values = detail::copy_in<Memory>(exec_, parts);
+        const auto indices = device_.copy_in(collected.original);
+        const auto values = device_.copy_in(parts);
         Part* const all = known_parts();
         Kokkos::parallel_for(
-            "rrcb::settle", detail::range(exec_, static_cast<std::int64_t>(parts.size())),
+            "rrcb::settle", device_.range(static_cast<std::int64_t>(parts.size())),
             KOKKOS_LAMBDA(const std::int64_t k) { all[indices(k)] = values(k); });
-        exec_.fence();
+        device_.fence();
     }
 
     void renumber(std::span<const Part> numbers) override {
-        const auto table = detail::copy_in<Memory>(exec_, numbers);
+        const auto table = device_.copy_in(numbers);
         Part* const parts = known_parts();
         const bool is_one = numbers.size() == 1;
         Kokkos::parallel_for(
-            "rrcb::renumber", detail::range(exec_, x_.count),
+            "rrcb::renumber", device_.range(x_.count),
             KOKKOS_LAMBDA(const std::int64_t i) { parts[i] = table(is_one ? 0 : parts[i]); });
-        exec_.fence();
+        device_.fence();
     }
 
     std::vector<Part> parts() const override {
         std::vector<Part> copy(parts_.extent(0));
-        detail::copy_out(exec_, parts_, std::span(copy));
-        exec_.fence();
+        device_.copy_out(parts_, std::span(copy));
+        device_.fence();
         return copy;
     }
 
     void set_parts(std::span<const Part> parts) override {
-        parts_ = detail::copy_in<Memory>(exec_, parts);
-        exec_.fence();
+        known_parts();
+        device_.copy_in(parts, parts_);
+        device_.fence();
     }
 
   private:
@@ -209,24 +209,24 @@ class KokkosPasses final : public PointPasses {
 
     /// Reads the weights, and the positions if asked for. A fence.
     detail::Ends find_ends(bool reads_positions) {
-        const detail::Ends ends =
-            detail::find_ends<Memory>(exec_, x_, used_weights(), reads_positions);
+        const detail::Ends ends = detail::find_ends(device_, x_, used_weights(), reads_positions);
         if (weighs()) given_.set_heaviest(heaviest_ = ends.heaviest);
         return ends;
     }
 
     Part* known_parts() {
-        if (parts_.extent(0) != count()) parts_ = detail::allocate<Part, Memory>(exec_, count());
+        if (parts_.extent(0) != count()) parts_ = device_.template allocate<Part>(count());
         return parts_.data();
     }
 
     /// Finds parts, unless they are given, marks open points, and counts the others. A fence.
     Assigned find_parts(const detail::PackedCuts& cuts, bool finds, detail::Opens opens,
                         bool counts) {
-        const auto nodes = detail::copy_in<Memory>(exec_, cuts.nodes);
-        const auto regions = detail::copy_in<Memory>(exec_, cuts.regions);
+        const detail::Weights<W> weights = known_weights();  // with its fence
+        const auto nodes = device_.copy_in(cuts.nodes);
+        const auto regions = device_.copy_in(cuts.regions);
         const detail::Assign<T, W> assign{x_,
-                                          known_weights(),
+                                          weights,
                                           nodes.data(),
                                           regions.data(),
                                           known_parts(),
@@ -235,7 +235,7 @@ class KokkosPasses final : public PointPasses {
                                           opens,
                                           counts};
         const std::vector<double> bins =
-            detail::sum_in_bins<Memory>(exec_, x_.count, assign.num_bins(), assign);
+            detail::sum_in_bins(device_, x_.count, assign.num_bins(), assign);
         if (bins[assign.bad] > 0) detail::check_coordinates(find_ends(true));
         Assigned found{static_cast<LocalIndex>(bins[assign.open]), {}};
         if (!counts) return found;
@@ -252,15 +252,14 @@ class KokkosPasses final : public PointPasses {
         collected.dimension = x_.dimension;
         collected.settled = std::move(found.settled);
         if (found.num_open == 0) return {};
-        const auto indices =
-            detail::list_marked<Memory>(exec_, x_.count, found.num_open, parts_.data());
+        const auto indices = detail::list_marked(device_, x_.count, found.num_open, parts_.data());
         const detail::Rows rows =
-            detail::copy_points<Memory>(exec_, x_, used_weights(), indices, parts_.data());
+            detail::copy_points(device_, x_, used_weights(), indices, parts_.data());
         rows.append_to(collected);
         return rows;
     }
 
-    ExecutionSpace exec_;
+    mutable detail::Device<ExecutionSpace, Memory> device_;
     Views views_;
     WeightView weight_view_;
     detail::Positions<T> x_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/kokkos/memory.hpp>
+#include <rrcb/kokkos/device.hpp>
 #include <rrcb/plan.hpp>
 
 #include <algorithm>
@@ -41,37 +41,36 @@ struct ListBlock {
 
 /// Fills `order` with the points by rank, each list in ascending order; returns the end of the list
 /// of each rank. A fence.
-template <class Memory, class Execution>
-std::vector<std::int64_t> list_by_rank(const Execution& exec, int num_ranks,
-                                       const Kokkos::View<int*, Memory>& ranks,
-                                       const Kokkos::View<LocalIndex*, Memory>& order) {
+template <class Device, class Ranks, class Order>
+std::vector<std::int64_t> list_by_rank(Device& device, int num_ranks, const Ranks& ranks,
+                                       const Order& order) {
     const auto count = static_cast<std::int64_t>(ranks.extent(0));
     // So that the places need less memory than the points.
     const std::int64_t length = std::max(4096, num_ranks);
     const std::int64_t num_blocks = count / length + 1;
     const std::int64_t num_places = num_ranks * num_blocks;
     const auto places =
-        allocate<std::int64_t, Memory>(exec, static_cast<std::size_t>(num_places), true);
+        device.template lend_zeros<std::int64_t>(static_cast<std::size_t>(num_places));
     ListBlock list{ranks.data(), count, length, num_blocks, places.data(), nullptr};
-    Kokkos::parallel_for("rrcb::count_by_rank", range(exec, num_blocks), list);
+    Kokkos::parallel_for("rrcb::count_by_rank", device.range(num_blocks), list);
     Kokkos::parallel_scan(
-        "rrcb::places", range(exec, num_places),
+        "rrcb::places", device.range(num_places),
         KOKKOS_LAMBDA(const std::int64_t k, std::int64_t& before, const bool is_final) {
             const std::int64_t number = places(k);
             if (is_final) places(k) = before;
             before += number;
         });
     list.order = order.data();
-    Kokkos::parallel_for("rrcb::list_by_rank", range(exec, num_blocks), list);
+    Kokkos::parallel_for("rrcb::list_by_rank", device.range(num_blocks), list);
     std::vector<std::int64_t> ends(static_cast<std::size_t>(num_ranks));
-    const auto view = allocate<std::int64_t, Memory>(exec, ends.size());
+    const auto view = device.template lend<std::int64_t>(ends.size());
     Kokkos::parallel_for(
-        "rrcb::ends", range(exec, num_ranks), KOKKOS_LAMBDA(const std::int64_t rank) {
+        "rrcb::ends", device.range(num_ranks), KOKKOS_LAMBDA(const std::int64_t rank) {
             // Each place is now the end of its list.
             view(rank) = places((rank + 1) * num_blocks - 1);
         });
-    copy_out(exec, view, std::span(ends));
-    exec.fence();
+    device.copy_out(view, std::span(ends));
+    device.fence();
     return ends;
 }
 

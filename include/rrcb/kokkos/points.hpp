@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/kokkos/memory.hpp>
+#include <rrcb/kokkos/device.hpp>
 
 #include <algorithm>
 #include <array>

@@ -99,16 +99,16 @@ struct FindEnds {
 
 /// Returns the ends of weights, and of positions if `reads_positions`. Throws Error for weights
 /// that cannot be used. A fence.
-template <class Memory, class Execution, class T, class W>
-Ends find_ends(const Execution& exec, const Positions<T>& x, const Weights<W>& weights,
+template <class Device, class T, class W>
+Ends find_ends(Device& device, const Positions<T>& x, const Weights<W>& weights,
                bool reads_positions) {
-    const auto view = allocate<Ends, Memory>(exec, 1);
-    Kokkos::parallel_reduce("rrcb::summary", range(exec, x.count),
+    const auto view = device.template lend<Ends>(1);
+    Kokkos::parallel_reduce("rrcb::summary", device.range(x.count),
                             FindEnds<T, W>{x, weights, reads_positions},
-                            Kokkos::View<Ends, Memory>(view.data()));
+                            Kokkos::View<Ends, typename Device::Memory>(view.data()));
     Ends ends;
-    copy_out(exec, view, std::span<Ends>(&ends, 1));
-    exec.fence();
+    device.copy_out(view, std::span<Ends>(&ends, 1));
+    device.fence();
     if (ends.weights.count > 0)
         reject_on_device("weight of point " + std::to_string(ends.weights.first / 4) +
                          " is negative, NaN or infinite (" + ends.weights.tally() +
@@ -125,12 +125,13 @@ inline void check_coordinates(const Ends& ends) {
 }
 
 /// Returns the sum of weights whose heaviest is set; throws Error if it overflows. A fence.
-template <class Memory, class Execution, class W>
-double total_weight(const Execution& exec, std::int64_t count, const Weights<W>& weights) {
+template <class Device, class W>
+double total_weight(Device& device, std::int64_t count, const Weights<W>& weights) {
     // As many bins as threads may meet.
     constexpr int num_bins = 64;
-    const std::vector<double> sums = sum_in_bins<Memory>(
-        exec, count, num_bins, KOKKOS_LAMBDA(const std::int64_t i, const Bins<Execution>& bins) {
+    const std::vector<double> sums = sum_in_bins(
+        device, count, num_bins,
+        KOKKOS_LAMBDA(const std::int64_t i, const Bins<typename Device::Execution>& bins) {
             bins.add(i % num_bins, weights.units(i));
         });
     const double total = weights.from_units(std::accumulate(sums.begin(), sums.end(), 0.0));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/kokkos/memory.hpp>
+#include <rrcb/kokkos/device.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,15 +61,16 @@ std::int64_t bins_in_scratch(const Execution& exec) {
 }
 
 /// Calls body(i, bins) for i = 0 ... count - 1, which adds to bins whose sums are in `of_all`.
-template <class Execution, class Body>
-void add_in_bins(const Execution& exec, std::int64_t count, std::int64_t num_bins, Word* of_all,
+template <class Device, class Body>
+void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins, Word* of_all,
                  const Body& body) {
+    using Execution = typename Device::Execution;
     using Policy = Kokkos::TeamPolicy<Execution>;
-    const bool has_scratch = num_bins <= bins_in_scratch(exec);
+    const bool has_scratch = num_bins <= bins_in_scratch(device.exec());
     const int bytes = has_scratch ? static_cast<int>(num_bins * sizeof(Word)) : 0;
     const int teams = static_cast<int>(count / block_length) + 1;
-    Policy policy(exec, teams, Kokkos::AUTO);
-    if constexpr (runs_on_host<Execution>) policy = Policy(exec, teams, 1);
+    Policy policy(device.exec(), teams, Kokkos::AUTO);
+    if constexpr (runs_on_host<Execution>) policy = Policy(device.exec(), teams, 1);
     if (has_scratch) policy.set_scratch_size(scratch_level<Execution>, Kokkos::PerTeam(bytes + 64));
     Kokkos::parallel_for(
         "rrcb::add_in_bins", policy, KOKKOS_LAMBDA(const typename Policy::member_type& team) {
@@ -94,24 +95,24 @@ void add_in_bins(const Execution& exec, std::int64_t count, std::int64_t num_bin
 }
 
 /// Returns the sums in bins. A fence.
-template <class Execution, class View>
-std::vector<double> totals_of_bins(const Execution& exec, const View& sums) {
+template <class Device, class View>
+std::vector<double> totals_of_bins(Device& device, const View& sums) {
     std::vector<Word> words(sums.extent(0));
-    copy_out(exec, sums, std::span(words));
-    exec.fence();
+    device.copy_out(sums, std::span(words));
+    device.fence();
     std::vector<double> totals(words.size() / 2);
     for (std::size_t bin = 0; bin < totals.size(); ++bin)
-        totals[bin] = Bins<Execution>::total(words[2 * bin], words[2 * bin + 1]);
+        totals[bin] = Bins<typename Device::Execution>::total(words[2 * bin], words[2 * bin + 1]);
     return totals;
 }
 
 /// Returns the sums of what body(i, bins) adds for i = 0 ... count - 1. A fence.
-template <class Memory, class Execution, class Body>
-std::vector<double> sum_in_bins(const Execution& exec, std::int64_t count, std::int64_t num_bins,
+template <class Device, class Body>
+std::vector<double> sum_in_bins(Device& device, std::int64_t count, std::int64_t num_bins,
                                 const Body& body) {
-    const auto sums = allocate<Word, Memory>(exec, 2 * static_cast<std::size_t>(num_bins), true);
-    add_in_bins(exec, count, num_bins, sums.data(), body);
-    return totals_of_bins(exec, sums);
+    const auto sums = device.template lend_zeros<Word>(2 * static_cast<std::size_t>(num_bins));
+    add_in_bins(device, count, num_bins, sums.data(), body);
+    return totals_of_bins(device, sums);
 }
 
 }  // namespace rrcb::detail

@@ -58,7 +58,8 @@ Rows copy_points(Device& device, const Positions<T>& x, const Weights<W>& weight
 
 /// Lists marked points, of which there are `number`, in ascending order of their indices.
 template <class Device>
-auto list_marked(Device& device, std::int64_t count, std::size_t number, const Part* parts) {
+typename Device::template Lent<LocalIndex> list_marked(Device& device, std::int64_t count,
+                                                       std::size_t number, const Part* parts) {
     const auto list = device.template lend<LocalIndex>(number);
     LocalIndex* const indices = list.data();
     Kokkos::parallel_scan(

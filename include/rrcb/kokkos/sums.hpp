@@ -81,7 +81,7 @@ void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins
             Bins<Execution> bins{nullptr, of_all};
             if (has_scratch)
                 bins.of_block = static_cast<Word*>(
-                    team.team_scratch(scratch_level<Execution>).get_shmem(bytes));
+                    team.team_scratch(runs_on_host<Execution> ? 1 : 0).get_shmem(bytes));
             Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block),
                                  [&](int bin) { bins.of_block[bin] = 0; });
             team.team_barrier();

@@ -16,17 +16,15 @@ namespace rrcb {
 
 namespace detail {
 
-template <class Views>
-inline constexpr bool are_views = Kokkos::is_view<typename ViewType<Views>::type>::value;
-
 template <class Execution>
 concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
 
 template <class Views>
-concept KokkosPoints = are_views<Views>;
+concept KokkosPoints = Kokkos::is_view<typename PointViews<Views>::View>::value;
 
+/// Weights of points that all weigh 1.
 template <class Views>
-using MemoryOf = typename ViewType<Views>::type::memory_space;
+using NoWeights = Kokkos::View<const double*, MemoryOf<Views>>;
 
 }  // namespace detail
 
@@ -70,10 +68,7 @@ auto balance(const Execution& exec, const Views& x, const Weights& weights, cons
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 auto balance(const Execution& exec, const Views& x, const Options& options, const Cuts& previous,
              MPI_Comm comm) {
-    const Kokkos::View<const double*, detail::MemoryOf<Views>,
-                       Kokkos::MemoryTraits<Kokkos::Unmanaged>>
-        none(nullptr, 0);
-    return balance(exec, x, none, options, previous, comm);
+    return balance(exec, x, detail::NoWeights<Views>(), options, previous, comm);
 }
 
 /// Divides points in views that all weigh 1, from scratch. Collective.
@@ -97,26 +92,21 @@ auto balance(const Execution& exec, const Views& x, const Options& options, MPI_
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 void assign(const Execution& exec, const Cuts& cuts, const Views& x,
             const Kokkos::View<Part*, detail::MemoryOf<Views>>& parts) {
-    using T = detail::ScalarOf<typename detail::ViewType<Views>::type>;
-    detail::require_kokkos();
     assign(cuts, Points{.dimension = cuts.dimension}, {});  // checks the cuts
-    const detail::Positions<T> positions = detail::positions_of(x);
-    if (positions.dimension != cuts.dimension)
+    using NoWeights = detail::NoWeights<Views>;
+    KokkosPasses<Execution, Views, NoWeights> passes(exec, x, NoWeights(), parts);
+    if (passes.dimension() != cuts.dimension)
         detail::reject_on_device("positions must have the dimension of the cuts");
-    if (!positions.are_even || static_cast<std::int64_t>(parts.extent(0)) != positions.count)
+    if (parts.extent(0) != passes.count())
         detail::reject_on_device("parts must have one entry per point");
     if (!is_whole(cuts))
         detail::reject_on_device("look-ups on a device need complete cuts; call gather_cuts()");
-    const detail::DeviceTree<detail::MemoryOf<Views>> tree(exec, cuts, true);
-    detail::assigned<detail::MemoryOf<Views>>(exec, detail::AssignBody<T, double>{positions,
-                                                                                  {},
-                                                                                  tree.get(),
-                                                                                  nullptr,
-                                                                                  parts.data(),
-                                                                                  cuts.num_parts,
-                                                                                  true,
-                                                                                  false,
-                                                                                  nullptr});
+    passes.assign(cuts, false);
+    if (cuts.shape.dealt == 0) return;
+    std::vector<Part> numbers;
+    for (Part end = 0; end < cuts.num_parts; ++end)
+        numbers.push_back(cuts.shape.part_at(end, cuts.num_parts));
+    passes.renumber(numbers);
 }
 
 /// Destinations of the points of this rank.
@@ -141,27 +131,25 @@ KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySp
     int num_ranks = 1;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &num_ranks);
-    const std::vector<std::int32_t> ranks =
-        detail::ranks_of_parts(balance.cuts.num_parts, rank, num_ranks);
-    const auto count = static_cast<std::int64_t>(balance.parts.extent(0));
+    const std::size_t count = balance.parts.extent(0);
+    detail::Device<Execution, MemorySpace> device(exec);
     KokkosPlan<MemorySpace> plan;
-    plan.ranks = detail::allocate<int, MemorySpace>(exec, balance.parts.extent(0));
-    const auto table = detail::copy_in<MemorySpace>(exec, std::span<const std::int32_t>(ranks));
+    plan.ranks = device.template allocate<int>(count);
+    plan.order = device.template allocate<LocalIndex>(count);
+    const std::vector<int> table = detail::ranks_of_parts(balance.cuts.num_parts, rank, num_ranks);
+    const auto rank_of_part = device.copy_in(table);
+    const auto ranks = plan.ranks;
+    const auto parts = balance.parts;
     Kokkos::parallel_for(
-        "rrcb::ranks", detail::range(exec, count),
-        detail::RankOfPoint{balance.parts.data(), table.data(), plan.ranks.data()});
-    // Parts ascend with their ranks.
-    std::vector<std::int32_t> slots;
-    for (const std::int32_t to : ranks) {
-        if (plan.counts.empty() || plan.counts.back().rank != to) plan.counts.push_back({to, 0});
-        slots.push_back(static_cast<std::int32_t>(plan.counts.size()) - 1);
+        "rrcb::ranks", device.range(static_cast<std::int64_t>(count)),
+        KOKKOS_LAMBDA(const std::int64_t i) { ranks(i) = rank_of_part(parts(i)); });
+    const std::vector<std::int64_t> ends =
+        detail::list_by_rank(device, num_ranks, plan.ranks, plan.order);
+    for (int to = 0; to < num_ranks; ++to) {
+        const std::int64_t before = to == 0 ? 0 : ends[to - 1];
+        if (ends[to] > before)
+            plan.counts.push_back({to, static_cast<LocalIndex>(ends[to] - before)});
     }
-    std::vector<std::int64_t> numbers(plan.counts.size());
-    plan.order =
-        detail::list_by_rank<MemorySpace>(exec, balance.parts.data(), count, slots, numbers);
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-        plan.counts[k].count = static_cast<LocalIndex>(numbers[k]);
-    std::erase_if(plan.counts, [](const RankCount& to) { return to.count == 0; });
     return plan;
 }
 

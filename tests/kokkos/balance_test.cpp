@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
 namespace rrcb::test {
 namespace {
@@ -124,22 +126,66 @@ TEST(KokkosBalance, throws_the_error_of_one_rank_on_all) {
                       "imbalance_tolerance");
 }
 
-std::uint64_t bytes_copied = 0;
+/// Copies and fences of a call, as Kokkos reports them: fences since version 4.
+struct Traffic {
+    std::uint64_t bytes = 0;
+    int copies = 0;        ///< and fills
+    int fences = 0;        ///< of the instance that was passed
+    int other_fences = 0;  ///< to free memory
+};
+Traffic traffic;
 
 void add_copy(Kokkos::Tools::SpaceHandle, const char*, const void*, Kokkos::Tools::SpaceHandle,
               const char*, const void*, std::uint64_t size) {
-    bytes_copied += size;
+    traffic.bytes += size;
+    ++traffic.copies;
 }
 
-TEST(KokkosBalance, copies_little) {
-    const Cloud cloud = smooth_cloud(200000, 3, 10 + static_cast<unsigned>(rank()), false);
-    const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
-    bytes_copied = 0;
-    Kokkos::Tools::Experimental::set_begin_deep_copy_callback(add_copy);
-    balance(Device(), x, Options{}, MPI_COMM_WORLD);
-    Kokkos::Tools::Experimental::set_begin_deep_copy_callback(nullptr);
-    EXPECT_GT(bytes_copied, 0u);
-    EXPECT_LT(bytes_copied, 1000000u);
+void add_fence(const char* name, std::uint32_t, std::uint64_t*) {
+    const bool is_unnamed = std::string_view(name).find("Unnamed") != std::string_view::npos;
+    ++(is_unnamed ? traffic.fences : traffic.other_fences);
+}
+
+template <class Call>
+Traffic traffic_of(const Call& call) {
+    namespace tools = Kokkos::Tools::Experimental;
+    traffic = {};
+    tools::set_begin_deep_copy_callback(add_copy);
+    tools::set_begin_fence_callback(add_fence);
+    call();
+    tools::set_begin_deep_copy_callback(nullptr);
+    tools::set_begin_fence_callback(nullptr);
+    return traffic;
+}
+
+TEST(KokkosBalance, copies_little_and_rarely_waits) {
+    for (const bool is_weighted : {false, true}) {
+        const Cloud cloud =
+            smooth_cloud(200000, 3, 10 + static_cast<unsigned>(rank()), is_weighted);
+        const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
+        const auto weights = on_device(cloud.weights);
+        const auto traffic_to = [&](Refine refine) {
+            const Options options{.num_parts = 8, .refine = refine};
+            return traffic_of([&] { balance(Device(), x, weights, options, {}, MPI_COMM_WORLD); });
+        };
+        // Summary, with weights also their sum; sample; moments; parts.
+        const int steps = is_weighted ? 5 : 4;
+        const Traffic tolerant = traffic_to(Refine::tolerance);
+        EXPECT_GT(tolerant.bytes, 0u);
+        EXPECT_LT(tolerant.bytes, 1000000u);
+        EXPECT_LE(tolerant.copies, 12);
+        EXPECT_LE(tolerant.fences, steps);
+        // Open points are counted with the parts, then copied and settled.
+        const Traffic exact = traffic_to(Refine::exact);
+        EXPECT_LT(exact.bytes, 2000000u);
+        EXPECT_LE(exact.copies, 15);
+        EXPECT_LE(exact.fences, steps + 2);
+#if KOKKOS_VERSION >= 40000
+        EXPECT_GT(tolerant.fences, 0);
+        EXPECT_LE(tolerant.other_fences, 1);
+        EXPECT_LE(exact.other_fences, 3);
+#endif
+    }
 }
 
 TEST(KokkosBalance, of_no_points_is_empty) {

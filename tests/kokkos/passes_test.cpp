@@ -97,14 +97,18 @@ TYPED_TEST(Passes, assign_and_count_as_the_host) {
 
 /// Returns the part that a point has wherever the cuts are in their intervals, or no_part.
 Part settled_part(const Cuts& cuts, const std::vector<Bracket>& intervals, const Vector& x) {
-    detail::TreePlace at{0, 0, cuts.num_parts};
-    while (at.num_parts > 1) {
-        const double value = x[static_cast<std::size_t>(cuts.tree[at.node].axis)];
-        if (value >= intervals[at.node].lower && value < intervals[at.node].upper) return no_part;
-        const bool is_above = value >= intervals[at.node].upper;
-        at = is_above ? detail::above(cuts, at) : detail::below(cuts, at);
+    std::size_t node = 0;
+    Part part = 0;
+    for (int num_parts = cuts.num_parts; num_parts > 1;) {
+        const double value = x[static_cast<std::size_t>(cuts.tree[node].axis)];
+        if (value >= intervals[node].lower && value < intervals[node].upper) return no_part;
+        const int lower = cuts.shape.lower_parts(num_parts);
+        const bool is_above = value >= intervals[node].upper;
+        node += is_above ? static_cast<std::size_t>(lower) : 1;
+        part += is_above ? lower : 0;
+        num_parts = is_above ? num_parts - lower : lower;
     }
-    return at.first_end;
+    return part;
 }
 
 struct CollectCase {

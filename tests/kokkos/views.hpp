@@ -55,16 +55,19 @@ inline Cloud smooth_cloud(std::size_t count, int dimension, unsigned seed, bool 
 
 template <class T>
 Kokkos::View<T*, Memory> on_device(const std::vector<T>& values) {
-    return detail::copy_in<Memory>(Device(), std::span<const T>(values));
+    const Kokkos::View<T*, Memory> view("values", values.size());
+    const auto host = Kokkos::create_mirror_view(view);
+    std::copy(values.begin(), values.end(), host.data());
+    Kokkos::deep_copy(view, host);
+    return view;
 }
 
 /// Returns a copy on the host.
 template <class View>
 auto on_host(const View& view) {
-    std::vector<typename View::non_const_value_type> values(view.extent(0));
-    detail::copy_out(Device(), view, std::span(values));
-    Device().fence();
-    return values;
+    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+    return std::vector<typename View::non_const_value_type>(host.data(),
+                                                            host.data() + host.extent(0));
 }
 
 /// Returns the points as a view of a layout; a strided one is a part of another view.

@@ -1,130 +1,104 @@
 #pragma once
 
-#include <rrcb/cuts.hpp>
-#include <rrcb/detail/uninitialized.hpp>
-#include <rrcb/kokkos/points.hpp>
+#include <rrcb/kokkos/tree.hpp>
+#include <rrcb/passes.hpp>
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 namespace rrcb::detail {
 
-/// Points of a part that are collected once more: lower <= x < upper.
-struct WantedOfPart {
-    double lower = std::numeric_limits<double>::infinity();
-    double upper = -std::numeric_limits<double>::infinity();
-    std::int32_t axis = 0;
-    std::int32_t wanted = 0;
-};
+/// Copies of points on the host: for each its index, part, coordinates, and weight if there is one.
+struct Rows {
+    int dimension = 0;
+    bool has_weights = false;
+    std::vector<double> values{};
 
-/// True for points without a part.
-struct IsOpen {
-    const Part* parts;
-    KOKKOS_INLINE_FUNCTION bool operator()(std::int64_t i) const { return parts[i] < 0; }
-};
-
-/// True for points that are collected once more.
-template <class T>
-struct IsWanted {
-    Positions<T> x;
-    const Part* parts;
-    const WantedOfPart* of_parts;
-
-    KOKKOS_INLINE_FUNCTION bool operator()(std::int64_t i) const {
-        if (parts[i] < 0) return false;
-        const WantedOfPart& of = of_parts[parts[i]];
-        const double value = x(i, of.axis);
-        return value >= of.lower && value < of.upper;
+    std::size_t width() const {
+        return static_cast<std::size_t>(dimension) + (has_weights ? 3 : 2);
+    }
+    std::size_t count() const { return values.size() / width(); }
+    Part part(std::size_t k) const { return static_cast<Part>(values[k * width() + 1]); }
+    void append_to(Collected& collected) const {
+        for (auto row = values.begin(); row != values.end();) {
+            collected.original.push_back(static_cast<LocalIndex>(*row));
+            row += 2;
+            collected.coordinates.insert(collected.coordinates.end(), row, row + dimension);
+            row += dimension;
+            if (has_weights) collected.weights.push_back(*row++);
+        }
     }
 };
 
-/// Counts points.
-template <class Test>
-struct Count {
-    Test test;
-
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, std::int64_t& number) const {
-        if (test(i)) ++number;
-    }
-};
-
-/// Lists points in ascending order of their indices.
-template <class Test>
-struct List {
-    using value_type = std::int64_t;
-
-    Test test;
-    LocalIndex* found;
-
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, std::int64_t& number,
-                                           bool is_final) const {
-        if (!test(i)) return;
-        if (is_final) found[number] = static_cast<LocalIndex>(i);
-        ++number;
-    }
-};
-
-/// Copies some points; takes their parts if `parts` is not null.
-template <class T, class W>
-struct Copy {
-    Positions<T> x;
-    Weights<W> weights;
-    const LocalIndex* indices;
-    double* coordinates;
-    double* copied_weights;
-    Part* parts;
-    Part* taken;
-
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t k) const {
-        const auto i = static_cast<std::int64_t>(indices[k]);
-        for (int a = 0; a < x.dimension; ++a) coordinates[k * x.dimension + a] = x(i, a);
-        if (weights.values != nullptr) copied_weights[k] = weights(i);
-        if (parts == nullptr) return;
-        taken[k] = parts[i];
-        parts[i] = no_part;
-    }
-};
-
-/// Copies of points on the host.
-struct Copies {
-    Uninitialized<double> coordinates{};
-    Uninitialized<double> weights{};
-    std::vector<Part> taken{};
-};
-
-/// Copies points to the host; takes their parts if `parts` is not null. A fence.
-template <class Memory, class Execution, class T, class W>
-Copies copy_points(const Execution& exec, const Positions<T>& x, const Weights<W>& weights,
-                   const LocalIndex* indices, LocalIndex number, Part* parts) {
-    Copies copies;
-    copies.coordinates.resize(number * static_cast<LocalIndex>(x.dimension));
-    copies.weights.resize(weights.values != nullptr ? number : 0);
-    copies.taken.resize(parts != nullptr ? number : 0);
-    const auto coordinates = allocate<double, Memory>(exec, copies.coordinates.size());
-    const auto copied_weights = allocate<double, Memory>(exec, copies.weights.size());
-    const auto taken = allocate<Part, Memory>(exec, copies.taken.size());
-    Kokkos::parallel_for("rrcb::copy", range(exec, static_cast<std::int64_t>(number)),
-                         Copy<T, W>{x, weights, indices, coordinates.data(), copied_weights.data(),
-                                    parts, taken.data()});
-    copy_out(exec, coordinates, std::span(copies.coordinates));
-    copy_out(exec, copied_weights, std::span(copies.weights));
-    copy_out(exec, taken, std::span(copies.taken));
-    exec.fence();
-    return copies;
+/// Copies points to the host; takes the marks of those with `parts`, which become no_part. A fence.
+template <class Device, class T, class W>
+Rows copy_points(Device& device, const Positions<T>& x, const Weights<W>& weights,
+                 const typename Device::template Lent<LocalIndex>& indices, Part* parts) {
+    Rows rows{x.dimension, weights.values != nullptr, {}};
+    const std::size_t width = rows.width();
+    rows.values.resize(indices.extent(0) * width);
+    const auto view = device.template lend<double>(rows.values.size());
+    double* const values = view.data();
+    Kokkos::parallel_for(
+        "rrcb::copy", device.range(static_cast<std::int64_t>(indices.extent(0))),
+        KOKKOS_LAMBDA(const std::int64_t k) {
+            const auto i = static_cast<std::int64_t>(indices(k));
+            double* row = values + static_cast<std::size_t>(k) * width;
+            *row++ = static_cast<double>(i);
+            *row++ = parts == nullptr ? no_part : marked(parts[i]);
+            if (parts != nullptr) parts[i] = no_part;
+            for (int a = 0; a < x.dimension; ++a) *row++ = x(i, a);
+            if (weights.values != nullptr) *row = weights(i);
+        });
+    device.copy_out(view, std::span(rows.values));
+    device.fence();
+    return rows;
 }
 
-/// Returns the number of points that pass a test. A fence.
-template <class Memory, class Execution, class Test>
-LocalIndex count_points(const Execution& exec, std::int64_t count, const Test& test) {
-    const auto number = allocate<std::int64_t, Memory>(exec, 1);
-    Kokkos::parallel_reduce("rrcb::count", range(exec, count), Count<Test>{test},
-                            Kokkos::View<std::int64_t, Memory>(number.data()));
-    std::int64_t result = 0;
-    copy_out(exec, number, std::span(&result, 1));
-    exec.fence();
-    return static_cast<LocalIndex>(result);
+/// Lists marked points, of which there are `number`, in ascending order of their indices.
+template <class Device>
+typename Device::template Lent<LocalIndex> list_marked(Device& device, std::int64_t count,
+                                                       std::size_t number, const Part* parts) {
+    const auto list = device.template lend<LocalIndex>(number);
+    LocalIndex* const indices = list.data();
+    Kokkos::parallel_scan(
+        "rrcb::list", device.range(count),
+        KOKKOS_LAMBDA(const std::int64_t i, std::int64_t& before, const bool is_final) {
+            if (parts[i] >= no_part) return;
+            if (is_final) indices[before] = static_cast<LocalIndex>(i);
+            ++before;
+        });
+    return list;
+}
+
+/// Returns the box of the points of each part. A fence.
+template <class Device, class T>
+std::vector<Box> boxes_of_parts(Device& device, const Positions<T>& x, const Part* parts,
+                                int num_parts) {
+    std::vector<Box> boxes(static_cast<std::size_t>(num_parts));
+    static_assert(sizeof(Box) == 2 * max_dimension * sizeof(double));
+    const std::span bounds(reinterpret_cast<double*>(boxes.data()),
+                           2 * max_dimension * boxes.size());
+    const auto view = device.copy_in(bounds);
+    double* const on_device = view.data();
+    Kokkos::parallel_for(
+        "rrcb::boxes", device.range(x.count), KOKKOS_LAMBDA(const std::int64_t i) {
+            if (parts[i] < 0) return;
+            double* const lower = on_device + std::int64_t{parts[i]} * 2 * max_dimension;
+            double* const upper = lower + max_dimension;
+            for (int a = 0; a < x.dimension; ++a) {
+                const double value = x(i, a);
+                // Most points need no atomic operation; an old bound costs one.
+                if (value < *static_cast<volatile double*>(lower + a))
+                    Kokkos::atomic_fetch_min(lower + a, value);
+                if (value > *static_cast<volatile double*>(upper + a))
+                    Kokkos::atomic_fetch_max(upper + a, value);
+            }
+        });
+    device.copy_out(view, bounds);
+    device.fence();
+    return boxes;
 }
 
 }  // namespace rrcb::detail

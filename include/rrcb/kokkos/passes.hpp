@@ -3,45 +3,29 @@
 #include <rrcb/detail/sample.hpp>
 #include <rrcb/kokkos/collect.hpp>
 #include <rrcb/kokkos/moments.hpp>
-#include <rrcb/kokkos/parts.hpp>
 #include <rrcb/kokkos/summary.hpp>
 #include <rrcb/kokkos/tree.hpp>
 #include <rrcb/passes.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace rrcb {
-
-namespace detail {
-
-template <class Views>
-struct ViewType {
-    using type = Views;
-};
-template <class View, std::size_t N>
-struct ViewType<std::array<View, N>> {
-    using type = View;
-};
-
-}  // namespace detail
 
 /// The points of one rank in the memory of an execution space of Kokkos, for balance(PointPasses&).
 ///
 /// Kernels run on `exec` and give the same bits in each run and for each layout. Positions: a view
 /// of points by axes, or a std::array of one view for each axis; floats or doubles at any stride.
 /// Weights: a view of floats or doubles; empty if every point weighs 1. The class allocates a part
-/// for each point; what leaves the device is the results. Functions throw Error before
-/// Kokkos::initialize().
+/// for each point; what leaves the device is the results.
 template <class ExecutionSpace, class Views, class WeightView>
 class KokkosPasses final : public PointPasses {
-    using View = typename detail::ViewType<Views>::type;
-    using Memory = typename View::memory_space;
-    using T = detail::ScalarOf<View>;
+    using Memory = detail::MemoryOf<Views>;
+    using T = detail::ScalarOf<Views>;
     using W = detail::ScalarOf<WeightView>;
     template <class Number>
     static constexpr bool is_real = std::is_same_v<Number, float> || std::is_same_v<Number, double>;
@@ -57,13 +41,18 @@ class KokkosPasses final : public PointPasses {
   public:
     using PartsView = Kokkos::View<Part*, Memory>;
 
-    /// Takes views; copies nothing. Not collective, as all of these.
-    KokkosPasses(const ExecutionSpace& exec, const Views& x, const WeightView& weights)
-        : exec_(exec),
+    /// Takes views, also of memory for parts; copies nothing. Not collective, as all of these.
+    KokkosPasses(const ExecutionSpace& exec, const Views& x, const WeightView& weights,
+                 const PartsView& parts = {})
+        : device_(exec),
           views_(x),
           weight_view_(weights),
-          x_(detail::positions_of(x)),
-          given_(detail::weights_of(weights)) {}
+          x_(detail::PointViews<Views>::positions(x)),
+          parts_(parts) {
+        if (weights.extent(0) == 0) return;
+        given_.values = weights.data();
+        given_.stride = static_cast<std::int64_t>(weights.stride(0));
+    }
 
     int dimension() const override { return x_.dimension; }
     LocalIndex count() const override { return static_cast<LocalIndex>(x_.count); }
@@ -81,16 +70,14 @@ class KokkosPasses final : public PointPasses {
         if (x_.count == 0) return summary;
         summary.lightest = summary.heaviest = 1;
         if (!reads_positions && !weighs()) return summary;
-        const detail::FoundEnds found = find_ends(reads_positions);
-        const detail::Ends& ends = found.ends;
+        const detail::Ends ends = find_ends(reads_positions);
         if (weighs()) {
             summary.lightest = ends.lightest;
             summary.heaviest = ends.heaviest;
-            summary.weight = detail::total_weight<Memory>(exec_, x_.count, given_);
+            summary.weight = detail::total_weight(device_, x_.count, given_);
         }
-        detail::check_coordinates(found.of_coordinates);
-        if (!reads_positions) return summary;
-        for (int a = 0; a < x_.dimension; ++a) {
+        detail::check_coordinates(ends);
+        for (int a = 0; a < x_.dimension && reads_positions; ++a) {
             const auto axis = static_cast<std::size_t>(a);
             std::copy_n(ends.first[a].x, max_dimension, summary.first[axis].begin());
             std::copy_n(ends.last[a].x, max_dimension, summary.last[axis].begin());
@@ -101,111 +88,105 @@ class KokkosPasses final : public PointPasses {
     }
 
     PointSample sample(LocalIndex size) override {
-        check();
         std::vector<LocalIndex> indices(std::min(size, count()));
         for (std::size_t k = 0; k < indices.size(); ++k)
             indices[k] = count() <= size ? k : detail::sampled(k, count());
-        const auto on_device = detail::copy_in<Memory>(exec_, std::span<const LocalIndex>(indices));
-        const detail::Copies copies = copied(on_device.data(), indices.size(), nullptr);
+        const auto on_device = device_.copy_in(indices);
+        Collected copies{.dimension = x_.dimension};
+        detail::copy_points(device_, x_, used_weights(), on_device, nullptr).append_to(copies);
         PointSample sample;
-        sample.positions.resize(indices.size());
-        for (std::size_t k = 0; k < indices.size(); ++k)
-            for (int a = 0; a < x_.dimension; ++a)
-                sample.positions[k][static_cast<std::size_t>(a)] =
-                    copies.coordinates[k * static_cast<std::size_t>(x_.dimension) +
-                                       static_cast<std::size_t>(a)];
+        for (LocalIndex k = 0; k < copies.count(); ++k)
+            sample.positions.push_back(copies.position(k));
         sample.weights.assign(copies.weights.begin(), copies.weights.end());
         return sample;
     }
 
     std::vector<CellMoments> moments(const SupportMesh& mesh) override {
-        check();
-        const detail::Weights<W> own = weights();
-        if (!weighs() || heaviest_ > 0) return detail::moments_on<Memory>(exec_, x_, own, mesh);
-        auto cells = detail::moments_on<Memory>(exec_, x_, detail::Weights<W>{}, mesh);
+        const detail::Weights<W> weights = known_weights();
+        if (!weighs() || heaviest_ > 0) return detail::moments_on(device_, x_, weights, mesh);
+        auto cells = detail::moments_on(device_, x_, detail::Weights<W>{}, mesh);
         for (CellMoments& cell : cells) cell.moments.weight = 0;
         return cells;
     }
 
     PartTotals assign(const Cuts& cuts, bool counts) override {
-        return assign_by(cuts, {}, true, counts).totals;
+        check();
+        return find_parts(detail::PackedCuts(cuts, {}), true, detail::Opens::none, counts).settled;
     }
 
     void collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
                  Collected& collected) override {
-        Assigned assigned = assign_by(cuts, intervals, !has_parts, true);
-        collected.dimension = x_.dimension;
-        collected.settled = std::move(assigned.totals);
-        clear(collected);
-        append(detail::IsOpen{parts_.data()}, assigned.num_open, false, collected);
+        collected.coordinates.clear();
+        collected.weights.clear();
+        collected.original.clear();
+        const detail::PackedCuts packed(cuts, intervals);
+        take(find_parts(packed, !has_parts, detail::Opens::outside, true), collected);
     }
 
     std::vector<std::size_t> collect_more(std::span<const Wanted> wanted,
                                           Collected& collected) override {
-        check();
-        const std::size_t num_parts = collected.settled.counts.size();
-        std::vector<detail::WantedOfPart> of_parts(num_parts);
-        for (std::size_t k = 0; k < wanted.size(); ++k)
-            std::fill_n(of_parts.begin() + wanted[k].first_part, wanted[k].num_parts,
-                        detail::WantedOfPart{wanted[k].interval.lower, wanted[k].interval.upper,
-                                             wanted[k].axis, static_cast<std::int32_t>(k)});
-        const auto table =
-            detail::copy_in<Memory>(exec_, std::span<const detail::WantedOfPart>(of_parts));
-        const detail::IsWanted<T> test{x_, parts_.data(), table.data()};
-        const std::vector<Part> taken =
-            append(test, detail::count_points<Memory>(exec_, x_.count, test), true, collected);
-        std::vector<std::size_t> found;
-        for (const Part part : taken) {
-            found.push_back(static_cast<std::size_t>(of_parts[part].wanted));
-            collected.settled.counts[part] -= 1;
+        detail::PackedCuts given;
+        // At first no position.
+        given.regions.assign(collected.settled.counts.size(), {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {}});
+        std::vector<std::size_t> wanted_of_part(given.regions.size());
+        for (std::size_t k = 0; k < wanted.size(); ++k) {
+            detail::Region region;
+            region.lower[wanted[k].axis] = wanted[k].interval.lower;
+            region.upper[wanted[k].axis] = wanted[k].interval.upper;
+            for (Part part = 0; part < wanted[k].num_parts; ++part) {
+                given.regions[wanted[k].first_part + part] = region;
+                wanted_of_part[wanted[k].first_part + part] = k;
+            }
         }
-        weigh_again(of_parts, collected.settled);
+        const detail::Rows rows =
+            take(find_parts(given, false, detail::Opens::inside, true), collected);
+        std::vector<std::size_t> found;
+        for (std::size_t k = 0; k < rows.count(); ++k)
+            found.push_back(wanted_of_part[rows.part(k)]);
         return found;
     }
 
     std::vector<Box> boxes(int num_parts) override {
-        check();
-        return detail::boxes_of_parts<Memory>(exec_, x_, known_parts(), num_parts);
+        return detail::boxes_of_parts(device_, x_, known_parts(), num_parts);
     }
 
     void settle(const Collected& collected, std::span<const Part> parts) override {
-        check();
-        const auto indices =
-            detail::copy_in<Memory>(exec_, std::span<const LocalIndex>(collected.original));
-        const auto from = detail::copy_in<Memory>(exec_, parts);
-        Kokkos::parallel_for("rrcb::settle",
-                             detail::range(exec_, static_cast<std::int64_t>(parts.size())),
-                             detail::SetParts{indices.data(), from.data(), known_parts()});
-        exec_.fence();
+        const auto indices = device_.copy_in(collected.original);
+        const auto values = device_.copy_in(parts);
+        Part* const all = known_parts();
+        Kokkos::parallel_for(
+            "rrcb::settle", device_.range(static_cast<std::int64_t>(parts.size())),
+            KOKKOS_LAMBDA(const std::int64_t k) { all[indices(k)] = values(k); });
+        device_.fence();
     }
 
     void renumber(std::span<const Part> numbers) override {
-        check();
-        known_parts();
-        if (numbers.size() == 1) return Kokkos::deep_copy(exec_, parts_, numbers[0]), exec_.fence();
-        const auto table = detail::copy_in<Memory>(exec_, numbers);
-        Kokkos::parallel_for("rrcb::renumber", detail::range(exec_, x_.count),
-                             detail::Renumber{table.data(), parts_.data()});
-        exec_.fence();
+        const auto table = device_.copy_in(numbers);
+        Part* const parts = known_parts();
+        const bool is_one = numbers.size() == 1;
+        Kokkos::parallel_for(
+            "rrcb::renumber", device_.range(x_.count),
+            KOKKOS_LAMBDA(const std::int64_t i) { parts[i] = table(is_one ? 0 : parts[i]); });
+        device_.fence();
     }
 
     std::vector<Part> parts() const override {
         std::vector<Part> copy(parts_.extent(0));
-        detail::copy_out(exec_, parts_, std::span(copy));
-        exec_.fence();
+        device_.copy_out(parts_, std::span(copy));
+        device_.fence();
         return copy;
     }
 
     void set_parts(std::span<const Part> parts) override {
-        check();
-        parts_ = detail::copy_in<Memory>(exec_, parts);
-        exec_.fence();
+        known_parts();
+        device_.copy_in(parts, parts_);
+        device_.fence();
     }
 
   private:
     struct Assigned {
-        PartTotals totals;
-        LocalIndex num_open = 0;
+        LocalIndex num_open;
+        PartTotals settled;
     };
 
     void check() const {
@@ -218,121 +199,74 @@ class KokkosPasses final : public PointPasses {
     }
 
     bool weighs() const { return has_weights() && uses_weights_; }
+    detail::Weights<W> used_weights() const { return weighs() ? given_ : detail::Weights<W>{}; }
 
     /// Returns the weights that count, relative to the heaviest.
-    detail::Weights<W> weights() {
-        if (!weighs()) return {};
-        if (heaviest_ < 0) find_ends(false);
-        return given_;
+    detail::Weights<W> known_weights() {
+        if (weighs() && heaviest_ < 0) find_ends(false);
+        return used_weights();
     }
 
     /// Reads the weights, and the positions if asked for. A fence.
-    detail::FoundEnds find_ends(bool reads_positions) {
-        const detail::FoundEnds found = detail::find_ends<Memory>(
-            exec_, x_, weighs() ? given_ : detail::Weights<W>{}, reads_positions);
-        if (weighs()) given_.set_heaviest(heaviest_ = found.ends.heaviest);
-        return found;
-    }
-
-    /// Copies points to the host. A fence.
-    detail::Copies copied(const LocalIndex* indices, LocalIndex number, Part* parts) const {
-        return detail::copy_points<Memory>(exec_, x_, weighs() ? given_ : detail::Weights<W>{},
-                                           indices, number, parts);
+    detail::Ends find_ends(bool reads_positions) {
+        const detail::Ends ends = detail::find_ends(device_, x_, used_weights(), reads_positions);
+        if (weighs()) given_.set_heaviest(heaviest_ = ends.heaviest);
+        return ends;
     }
 
     Part* known_parts() {
-        if (parts_.extent(0) != count()) parts_ = detail::allocate<Part, Memory>(exec_, count());
+        if (parts_.extent(0) != count()) parts_ = device_.template allocate<Part>(count());
         return parts_.data();
     }
 
-    /// Finds parts, unless they are given, and counts; those not settled become no_part if there
-    /// are intervals. A fence.
-    Assigned assign_by(const Cuts& cuts, std::span<const Bracket> intervals, bool finds,
-                       bool counts) {
-        check();
-        const detail::DeviceTree<Memory> tree(exec_, cuts, false);
-        const std::vector<detail::SettledBox> bounds =
-            intervals.empty() ? std::vector<detail::SettledBox>()
-                              : detail::settled_bounds(cuts, intervals);
-        const auto bounds_view =
-            detail::copy_in<Memory>(exec_, std::span<const detail::SettledBox>(bounds));
-        const auto of_points = weights();
-        const int num_parts = cuts.num_parts;
-        const detail::AssignBody<T, W> body{x_,
-                                            of_points,
-                                            tree.get(),
-                                            bounds.empty() ? nullptr : bounds_view.data(),
-                                            known_parts(),
-                                            num_parts,
-                                            finds,
-                                            counts,
-                                            nullptr};
-        const std::vector<double> bins = detail::assigned<Memory>(exec_, body);
-        return counts ? totals_of(bins, num_parts) : Assigned{};
-    }
-
-    Assigned totals_of(const std::vector<double>& bins, int num_parts) const {
-        Assigned assigned;
-        const auto parts = static_cast<std::ptrdiff_t>(num_parts);
-        assigned.totals.counts.assign(bins.begin(), bins.begin() + parts);
-        assigned.num_open = static_cast<LocalIndex>(bins[static_cast<std::size_t>(num_parts)]);
-        assigned.totals.weights = assigned.totals.counts;
+    /// Finds parts, unless they are given, marks open points, and counts the others. A fence.
+    Assigned find_parts(const detail::PackedCuts& cuts, bool finds, detail::Opens opens,
+                        bool counts) {
+        const detail::Weights<W> weights = known_weights();  // with its fence
+        const auto nodes = device_.copy_in(cuts.nodes);
+        const auto regions = device_.copy_in(cuts.regions);
+        const detail::Assign<T, W> assign{x_,
+                                          weights,
+                                          nodes.data(),
+                                          regions.data(),
+                                          known_parts(),
+                                          static_cast<int>(cuts.regions.size()),
+                                          finds,
+                                          opens,
+                                          counts};
+        const std::vector<double> bins =
+            detail::sum_in_bins(device_, x_.count, assign.num_bins(), assign);
+        if (bins[assign.bad] > 0) detail::check_coordinates(find_ends(true));
+        Assigned found{static_cast<LocalIndex>(bins[assign.open]), {}};
+        if (!counts) return found;
+        const auto first = bins.begin() + assign.first;
+        found.settled.counts.assign(first, first + assign.num_parts);
+        found.settled.weights.assign(bins.end() - assign.num_parts, bins.end());
         if (weighs())
-            for (std::size_t p = 0; p < assigned.totals.weights.size(); ++p)
-                assigned.totals.weights[p] =
-                    given_.from_units(bins[p + static_cast<std::size_t>(num_parts) + 1]);
-        return assigned;
+            for (double& weight : found.settled.weights) weight = given_.from_units(weight);
+        return found;
     }
 
-    /// Weighs the points in parts that some were taken from.
-    void weigh_again(std::span<const detail::WantedOfPart> of_parts, PartTotals& totals) {
-        if (!weighs()) {
-            totals.weights = totals.counts;
-            return;
-        }
-        const int num_parts = static_cast<int>(of_parts.size());
-        const detail::AssignBody<T, W> body{x_,        weights(), {},   nullptr, parts_.data(),
-                                            num_parts, false,     true, nullptr};
-        const Assigned now = totals_of(detail::assigned<Memory>(exec_, body), num_parts);
-        for (std::size_t p = 0; p < of_parts.size(); ++p)
-            if (of_parts[p].lower < of_parts[p].upper) totals.weights[p] = now.totals.weights[p];
+    /// Moves open points to the host, behind others. A fence.
+    detail::Rows take(Assigned&& found, Collected& collected) {
+        collected.dimension = x_.dimension;
+        collected.settled = std::move(found.settled);
+        if (found.num_open == 0) return {};
+        const auto indices = detail::list_marked(device_, x_.count, found.num_open, parts_.data());
+        const detail::Rows rows =
+            detail::copy_points(device_, x_, used_weights(), indices, parts_.data());
+        rows.append_to(collected);
+        return rows;
     }
 
-    static void clear(Collected& collected) {
-        collected.coordinates.clear();
-        collected.weights.clear();
-        collected.original.clear();
-    }
-
-    /// Appends the points that pass a test, `number` of them, in ascending order; if `takes`,
-    /// returns their parts, and leaves no_part. A fence.
-    template <class Test>
-    std::vector<Part> append(const Test& test, LocalIndex number, bool takes,
-                             Collected& collected) {
-        if (number == 0) return {};
-        const auto found = detail::allocate<LocalIndex, Memory>(exec_, number);
-        Kokkos::parallel_scan("rrcb::list", detail::range(exec_, x_.count),
-                              detail::List<Test>{test, found.data()});
-        const LocalIndex before = collected.count();
-        collected.original.resize(before + number);
-        detail::copy_out(exec_, found, std::span(collected.original).subspan(before));
-        detail::Copies copies = copied(found.data(), number, takes ? parts_.data() : nullptr);
-        const auto add = [](const auto& from, auto& to) {
-            to.insert(to.end(), from.begin(), from.end());
-        };
-        add(copies.coordinates, collected.coordinates);
-        add(copies.weights, collected.weights);
-        return std::move(copies.taken);
-    }
-
-    ExecutionSpace exec_;
+    mutable detail::Device<ExecutionSpace, Memory> device_;
     Views views_;
     WeightView weight_view_;
     detail::Positions<T> x_;
-    detail::Weights<W> given_;
+    detail::Weights<W> given_{};
     bool uses_weights_ = true;
     double heaviest_ = -1;  ///< weight; -1: not known
-    PartsView parts_{};
+    PartsView parts_;
 };
 
 }  // namespace rrcb

@@ -1,19 +1,19 @@
 #pragma once
 
-#include <rrcb/kokkos/memory.hpp>
+#include <rrcb/kokkos/device.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
-#include <string>
-#include <type_traits>
 
 namespace rrcb::detail {
 
-/// Integers that atomic operations of all devices add; negative numbers wrap.
-using Word = unsigned long long;
+/// Returns true if a number is neither NaN nor infinite.
+KOKKOS_INLINE_FUNCTION bool is_finite(double value) {
+    return value >= -DBL_MAX && value <= DBL_MAX;
+}
 
 /// A position in a kernel; 0 beyond the dimension.
 struct Position {
@@ -39,48 +39,54 @@ struct Positions {
             if (a < dimension) p.x[a] = (*this)(i, a);
         return p;
     }
+
+    /// Adds an axis, from a view of its coordinates.
+    template <class Axis>
+    void add(const Axis& axis) {
+        const auto length = static_cast<std::int64_t>(axis.extent(0));
+        if (dimension == 0) count = length;
+        are_even = are_even && length == count;
+        axes[dimension] = axis.data();
+        strides[dimension++] = static_cast<std::int64_t>(axis.stride(0));
+    }
 };
 
-template <class View>
-using ScalarOf = typename View::non_const_value_type;
+/// A view of points by axes.
+template <class Points>
+struct PointViews {
+    using View = Points;
 
-/// Returns the positions of a view of points by axes, or of the only axis.
-template <class View>
-auto positions_of(const View& view) {
-    Positions<ScalarOf<View>> x;
-    x.count = static_cast<std::int64_t>(view.extent(0));
-    if constexpr (static_cast<int>(View::rank) == 1) {
-        return positions_of(std::array<View, 1>{view});
-    } else {
-        x.dimension = static_cast<int>(view.extent(1));
-        for (int a = 0; a < std::min(x.dimension, max_dimension); ++a) {
-            x.axes[a] = view.data() + a * static_cast<std::int64_t>(view.stride(1));
-            x.strides[a] = static_cast<std::int64_t>(view.stride(0));
-        }
+    static auto positions(const View& view) {
+        Positions<typename View::non_const_value_type> x;
+        const int dimension = static_cast<int>(view.extent(1));
+        for (int a = 0; a < std::min(dimension, max_dimension); ++a)
+            x.add(Kokkos::subview(view, Kokkos::ALL, a));
+        x.dimension = dimension;
         return x;
     }
-}
+};
 
-/// Returns the positions of one view for each axis.
-template <class View, std::size_t N>
-auto positions_of(const std::array<View, N>& views) {
+/// One view for each axis.
+template <class Axis, std::size_t N>
+struct PointViews<std::array<Axis, N>> {
     static_assert(N >= 1 && N <= max_dimension, "give a view for each of 1 to 3 axes");
-    Positions<ScalarOf<View>> x;
-    x.count = static_cast<std::int64_t>(views[0].extent(0));
-    x.dimension = static_cast<int>(N);
-    for (std::size_t a = 0; a < N; ++a) {
-        x.axes[a] = views[a].data();
-        x.strides[a] = static_cast<std::int64_t>(views[a].stride(0));
-        x.are_even = x.are_even && views[a].extent(0) == views[0].extent(0);
-    }
-    return x;
-}
+    using View = Axis;
 
-/// Bits behind the point of sums of weights, first and second moments. A block of points holds
-/// `block_length` numbers up to 1, 1/2 and 1/4.
+    static auto positions(const std::array<Axis, N>& views) {
+        Positions<typename View::non_const_value_type> x;
+        for (const Axis& axis : views) x.add(axis);
+        return x;
+    }
+};
+
+template <class Views>
+using MemoryOf = typename PointViews<Views>::View::memory_space;
+template <class Views>
+using ScalarOf = typename PointViews<Views>::View::non_const_value_type;
+
+/// Bits behind the point of sums of weights and first moments, and of second moments.
 inline constexpr int weight_bits = 46;
 inline constexpr int square_bits = 48;
-inline constexpr int block_length = 1 << 15;
 
 /// Returns a number in units of 2^-bits.
 KOKKOS_INLINE_FUNCTION std::int64_t to_units(double value, int bits) {
@@ -115,53 +121,5 @@ struct Weights {
         return to_units(relative(i), weight_bits);
     }
 };
-
-/// Returns the weights of a view; none of an empty one.
-template <class View>
-auto weights_of(const View& view) {
-    Weights<ScalarOf<View>> weights;
-    if (view.extent(0) == 0) return weights;
-    weights.values = view.data();
-    weights.stride = static_cast<std::int64_t>(view.stride(0));
-    return weights;
-}
-
-/// Number of values that cannot be used, and the first of them. Starts as zeros.
-struct Faults {
-    Word places;  ///< 4 i + axis of the first, inverted; 0: none
-    Word count;
-
-    KOKKOS_INLINE_FUNCTION void add(std::int64_t i, int axis) {
-        Kokkos::atomic_fetch_max(&places, ~static_cast<Word>(4 * i + axis));
-        Kokkos::atomic_fetch_add(&count, Word{1});
-    }
-    std::string place() const { return std::to_string(~places / 4); }
-    std::string axis() const { return std::to_string(~places % 4); }
-    std::string tally() const {
-        return " (" + std::to_string(count) + (count == 1 ? " such value" : " such values") +
-               " on this rank)";
-    }
-};
-
-/// Returns true if a number is neither NaN nor infinite.
-KOKKOS_INLINE_FUNCTION bool is_finite(double value) {
-    return value >= -DBL_MAX && value <= DBL_MAX;
-}
-
-[[noreturn]] inline void reject_on_device(const std::string& what) {
-    throw Error(ErrorCode::invalid_argument, what);
-}
-
-inline void check_coordinates(const Faults& faults) {
-    if (faults.count > 0)
-        reject_on_device("coordinate of point " + faults.place() + " on axis " + faults.axis() +
-                         " is NaN or infinite" + faults.tally());
-}
-
-inline void check_weights(const Faults& faults) {
-    if (faults.count > 0)
-        reject_on_device("weight of point " + faults.place() + " is negative, NaN or infinite" +
-                         faults.tally() + "; give 0 or more");
-}
 
 }  // namespace rrcb::detail

@@ -1,189 +1,135 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/kokkos/points.hpp>
 #include <rrcb/kokkos/sums.hpp>
 #include <rrcb/method/bisection.hpp>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 namespace rrcb::detail {
 
-/// A cut in the memory of a device: 40 bytes.
+/// A cut in the memory of a device: 32 bytes. The cuts below it follow, then those above.
 struct TreeNode {
-    double plane;                    ///< along the axis of the cut
-    double ties[max_dimension - 1];  ///< along the other axes, ascending
-    std::int32_t axis;               ///< of the cut
-    std::int32_t lower;              ///< node below the cut; ~part if there is one part
-    std::int32_t upper;              ///< likewise above
-};
+    double at[max_dimension];
+    std::int32_t axis;
+    std::int32_t lower_parts;  ///< parts below it
 
-/// A tree of cuts that a kernel descends.
-struct Tree {
-    const TreeNode* nodes;
-    std::int32_t root;
-    int dimension;
-
-    /// Returns the part of a position, as is_above() at each cut.
-    KOKKOS_INLINE_FUNCTION Part part_of(const Position& p) const {
-        std::int32_t at = root;
-        while (at >= 0) {
-            const TreeNode& node = nodes[at];
-            const double x = node.axis == 0 ? p.x[0] : node.axis == 1 ? p.x[1] : p.x[2];
-            bool is_above = x > node.plane;
-            if (x == node.plane) is_above = is_tie_above(node, p);
-            at = is_above ? node.upper : node.lower;
-        }
-        return ~at;
-    }
-    KOKKOS_INLINE_FUNCTION bool is_tie_above(const TreeNode& node, const Position& p) const {
-        int k = 0;
-        for (int a = 0; a < max_dimension; ++a) {
-            if (a == node.axis || a >= dimension) continue;
-            const double tie = node.ties[k++];
-            if (p.x[a] != tie) return p.x[a] > tie;
-        }
+    /// Returns true if a position is not below the cut, as is_above() of the host.
+    KOKKOS_INLINE_FUNCTION bool is_above(const Position& p, int dimension) const {
+        const double x = axis == 0 ? p.x[0] : axis == 1 ? p.x[1] : p.x[2];
+        const double plane = axis == 0 ? at[0] : axis == 1 ? at[1] : at[2];
+        if (x != plane) return x > plane;
+        for (int a = 0; a < max_dimension; ++a)
+            if (a < dimension && p.x[a] != at[a]) return p.x[a] > at[a];
         return true;
     }
 };
 
-/// Node on the way down a tree on the host.
-struct TreePlace {
-    std::size_t node;
-    Part first_end;
-    int num_parts;
-};
-
-inline TreePlace below(const Cuts& cuts, const TreePlace& at) {
-    return {at.node + 1, at.first_end, cuts.shape.lower_parts(at.num_parts)};
-}
-inline TreePlace above(const Cuts& cuts, const TreePlace& at) {
-    const int lower = cuts.shape.lower_parts(at.num_parts);
-    return {at.node + static_cast<std::size_t>(lower), at.first_end + lower, at.num_parts - lower};
-}
-
-/// Packs the cuts at or below `at`; returns the number of their root. Ends are numbers of the tree,
-/// or parts.
-inline std::int32_t pack(const Cuts& cuts, const TreePlace& at, bool has_parts,
-                         std::vector<TreeNode>& nodes) {
-    if (at.num_parts == 1)
-        return ~(has_parts ? cuts.shape.part_at(at.first_end, cuts.num_parts) : at.first_end);
-    const Cut& cut = cuts.tree[at.node];
-    TreeNode node{cut.at[static_cast<std::size_t>(cut.axis)], {}, cut.axis, 0, 0};
-    int k = 0;
-    for (int a = 0; a < max_dimension; ++a)
-        if (a != cut.axis) node.ties[k++] = cut.at[static_cast<std::size_t>(a)];
-    node.lower = pack(cuts, below(cuts, at), has_parts, nodes);
-    node.upper = pack(cuts, above(cuts, at), has_parts, nodes);
-    nodes[at.node] = node;
-    return static_cast<std::int32_t>(at.node);
-}
-
-/// Bounds of the points that no cut leaves to another part.
-struct SettledBox {
-    double least[max_dimension];   ///< points at them are settled
-    double beyond[max_dimension];  ///< points below them are
+/// The positions lower <= x < upper: by default all.
+struct Region {
+    double lower[max_dimension] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double upper[max_dimension] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
 
     KOKKOS_INLINE_FUNCTION bool contains(const Position& p, int dimension) const {
         for (int a = 0; a < max_dimension; ++a)
-            if (a < dimension && (p.x[a] < least[a] || p.x[a] >= beyond[a])) return false;
+            if (a < dimension && !(p.x[a] >= lower[a] && p.x[a] < upper[a])) return false;
         return true;
     }
 };
 
-/// Appends the bounds of the parts at or below `at`, in their order.
-inline void add_bounds(const Cuts& cuts, std::span<const Bracket> intervals, const TreePlace& at,
-                       const SettledBox& box, std::vector<SettledBox>& bounds) {
-    if (at.num_parts == 1) return bounds.push_back(box);
-    const int axis = cuts.tree[at.node].axis;
-    const Bracket& interval = intervals[at.node];
-    SettledBox side = box;
-    side.beyond[axis] = std::min(box.beyond[axis], interval.lower);
-    add_bounds(cuts, intervals, below(cuts, at), side, bounds);
-    side = box;
-    side.least[axis] = std::max(box.least[axis], interval.upper);
-    add_bounds(cuts, intervals, above(cuts, at), side, bounds);
-}
+/// A tree of cuts for a device.
+struct PackedCuts {
+    std::vector<TreeNode> nodes{};
+    std::vector<Region> regions{};  ///< of each part: whose points no cut leaves to another part
 
-inline std::vector<SettledBox> settled_bounds(const Cuts& cuts,
-                                              std::span<const Bracket> intervals) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::vector<SettledBox> bounds;
-    SettledBox all{};
-    std::fill_n(all.least, max_dimension, -infinity);
-    std::fill_n(all.beyond, max_dimension, infinity);
-    add_bounds(cuts, intervals, {0, 0, cuts.num_parts}, all, bounds);
-    return bounds;
-}
-
-/// A tree of cuts and its memory on a device.
-template <class Memory>
-class DeviceTree {
-  public:
-    /// Copies whole cuts. Ends are parts if `has_parts`, else numbers of the tree.
-    template <class Execution>
-    DeviceTree(const Execution& exec, const Cuts& cuts, bool has_parts)
-        : nodes_(cuts.tree.size()), tree_{nullptr, 0, cuts.dimension} {
-        tree_.root = pack(cuts, {0, 0, cuts.num_parts}, has_parts, nodes_);
-        view_ = copy_in<Memory>(exec, std::span<const TreeNode>(nodes_));
-        tree_.nodes = view_.data();
+    PackedCuts() = default;
+    /// Packs complete cuts; without intervals they are fixed.
+    PackedCuts(const Cuts& cuts, std::span<const Bracket> intervals) {
+        add(cuts, intervals, 0, cuts.num_parts, {});
     }
-    const Tree& get() const { return tree_; }
 
   private:
-    std::vector<TreeNode> nodes_;
-    Kokkos::View<TreeNode*, Memory> view_{};
-    Tree tree_;
+    void add(const Cuts& cuts, std::span<const Bracket> intervals, std::size_t node, int num_parts,
+             const Region& region) {
+        if (num_parts == 1) return regions.push_back(region);
+        const Cut& cut = cuts.tree[node];
+        const int lower_parts = cuts.shape.lower_parts(num_parts);
+        nodes.push_back({{cut.at[0], cut.at[1], cut.at[2]}, cut.axis, lower_parts});
+        Region below = region;
+        Region above = region;
+        if (!intervals.empty()) {
+            double& upper = below.upper[cut.axis];
+            double& lower = above.lower[cut.axis];
+            upper = std::min(upper, intervals[node].lower);
+            lower = std::max(lower, intervals[node].upper);
+        }
+        add(cuts, intervals, node + 1, lower_parts, below);
+        add(cuts, intervals, node + static_cast<std::size_t>(lower_parts), num_parts - lower_parts,
+            above);
+    }
 };
 
-/// Gives each point its part, and counts.
+/// Points that become open, by the region of their part.
+enum class Opens { none, outside, inside };
+
+/// Returns the mark of open points of a part until they are copied, or the part of a mark.
+KOKKOS_INLINE_FUNCTION Part marked(Part part) {
+    return no_part - 1 - part;
+}
+
+/// Finds the parts of points, or takes those that are given; marks the open points, and counts the
+/// others.
 template <class T, class W>
-struct AssignBody {
+struct Assign {
     Positions<T> x;
     Weights<W> weights;
-    Tree tree;
-    const SettledBox* bounds;  ///< null: every part is settled
+    const TreeNode* nodes;
+    const Region* regions;
     Part* parts;
     int num_parts;
-    bool finds;   ///< the parts; otherwise they are given
-    bool counts;  ///< in bins: the number of each part and of no_part, then likewise weights
-    Faults* faults;
+    bool finds;
+    Opens opens;
+    bool counts;
 
+    // Bins: coordinates that are not finite, open points; counts of parts, then their weights.
+    static constexpr int bad = 0;
+    static constexpr int open = 1;
+    static constexpr int first = 2;
+
+    std::int64_t num_bins() const {
+        return first + (counts ? num_parts : 0) * (weights.values == nullptr ? 1 : 2);
+    }
     template <class Bins>
     KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, const Bins& bins) const {
         const Position p = x.position(i);
         for (int a = 0; a < max_dimension; ++a)
-            if (!is_finite(p.x[a])) faults->add(i, a);
-        Part part = finds ? tree.part_of(p) : parts[i];
-        if (bounds != nullptr && part >= 0 && !bounds[part].contains(p, x.dimension))
-            part = no_part;
-        parts[i] = part;
-        if (!counts) return;
-        const std::int64_t bin = part < 0 ? num_parts : part;
-        bins.add(bin, 1);
-        if (weights.values != nullptr) bins.add(bin + num_parts + 1, weights.units(i));
+            if (!is_finite(p.x[a])) bins.add(bad, 1);
+        const Part part = finds ? part_of(p) : parts[i];
+        const bool is_open = opens != Opens::none && part >= 0 &&
+                             regions[part].contains(p, x.dimension) == (opens == Opens::inside);
+        parts[i] = is_open ? marked(part) : part;
+        if (is_open) return bins.add(open, 1);
+        if (!counts || part < 0) return;
+        bins.add(first + part, 1);
+        if (weights.values != nullptr) bins.add(first + num_parts + part, weights.units(i));
+    }
+    KOKKOS_INLINE_FUNCTION Part part_of(const Position& p) const {
+        std::int32_t node = 0;
+        Part part = 0;
+        for (int below = num_parts; below > 1;) {
+            const std::int32_t lower_parts = nodes[node].lower_parts;
+            const bool is_above = nodes[node].is_above(p, x.dimension);
+            node += is_above ? lower_parts : 1;
+            part += is_above ? lower_parts : 0;
+            below = is_above ? below - lower_parts : lower_parts;
+        }
+        return part;
     }
 };
-
-/// Runs an assignment; returns its bins, none if it does not count. Throws Error for coordinates
-/// that are not finite. A fence.
-template <class Memory, class Execution, class T, class W>
-std::vector<double> assigned(const Execution& exec, AssignBody<T, W> body) {
-    static_assert(sizeof(Faults) == 2 * sizeof(Word));
-    const std::int64_t fields = body.weights.values == nullptr ? 1 : 2;
-    std::array<Word, 2> faults{};
-    std::vector<double> bins =
-        sum_in_bins<Memory>(exec, body.x.count, body.counts ? fields * (body.num_parts + 1) : 0,
-                            faults, [&](Word* extra) {
-                                body.faults = reinterpret_cast<Faults*>(extra);
-                                return body;
-                            });
-    check_coordinates({faults[0], faults[1]});
-    return bins;
-}
 
 }  // namespace rrcb::detail

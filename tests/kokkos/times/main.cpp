@@ -58,7 +58,7 @@ double least_time(const Call& call) {
 
 void print_row(std::int64_t count) {
     const Positions x("x", static_cast<std::size_t>(count));
-    Kokkos::parallel_for(rrcb::detail::range(Device(), count), Place{x});
+    Kokkos::parallel_for(Kokkos::RangePolicy<Kokkos::IndexType<std::int64_t>>(0, count), Place{x});
     const rrcb::Options options{.num_parts = 8};
     rrcb::Cuts cuts;
     bytes_out = 0;

@@ -13,8 +13,8 @@ namespace rrcb {
 /// bracket.
 ///
 /// The first num_extents entries are joined by their maximum: minus the lower ends of the extent,
-/// and its upper ends. They are followed by the weights, unless points count as 1, and the counts of
-/// all slots, to be summed.
+/// and its upper ends. They are followed by the weights, unless points count as 1, and the counts
+/// of all slots, to be summed.
 struct HistogramLayout {
     int num_bins = 64;
     bool is_weighted = true;

@@ -28,6 +28,7 @@ void TreeSearch::start_from_guide(Node& node) {
         bracket.upper = limits.nearest(bracket.upper, bracket.lower, node.places.last);
     } else {
         bracket = points_.interval(at.node);
+        bracket.lower = std::max(bracket.lower, -largest);
         const double missing = missing_below(at, node.content.weight, node.below);
         if (missing > 0) bracket.lower = std::max(bracket.lower, cut.at[cut.axis]);
         if (missing < 0)
@@ -71,11 +72,13 @@ Bracket TreeSearch::interval_of(const Descent& at, int depth, double& shifted) c
         const double missing =
             stays ? 0 : missing_below(at, weight_of(at, sums), weight_of(at.lower(), sums));
         const double open = stays ? 0 : shifted / 2 / in_half + least;
-        const double widths = caution * std::abs(missing) / in_half;
+        const auto widths = [&](double there) {
+            return std::min(open + caution * std::max(there, 0.0) / in_half,
+                            1 / expected_error(depth));  // that of all weight
+        };
         const double value = std::clamp(cut.at[cut.axis], interval.lower, interval.upper);
-        interval = {
-            std::max(std::lerp(value, interval.lower, open + (missing < 0 ? widths : 0)), -largest),
-            std::lerp(value, interval.upper, open + (missing > 0 ? widths : 0))};
+        interval = {std::lerp(value, interval.lower, widths(-missing)),
+                    std::lerp(value, interval.upper, widths(missing))};
         shifted = std::abs(missing) + shifted / 2;
     }
     // The cut may stay, and points at it may be on either side.

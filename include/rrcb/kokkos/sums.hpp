@@ -85,8 +85,9 @@ void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins
             Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block),
                                  [&](int bin) { bins.of_block[bin] = 0; });
             team.team_barrier();
+            const Body add = body;  // a copy, which stays in registers
             Kokkos::parallel_for(Kokkos::TeamThreadRange(team, length),
-                                 [&](int k) { body(first + k, bins); });
+                                 [&](int k) { add(first + k, bins); });
             team.team_barrier();
             Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block), [&](int bin) {
                 bins.add_to_all(bin, static_cast<std::int64_t>(bins.of_block[bin]));

@@ -57,12 +57,12 @@ std::vector<Bracket> TreeSearch::intervals() const {
     return found;
 }
 
-/// Returns the interval of a node's cut, into which or out of which cuts above may have `shifted`
-/// weight; adds what this cut may shift. If the weight below was counted, the interval is wide
-/// enough for what is missing there.
+/// Returns the interval of a node's cut. Cuts above may have `shifted` weight into the node or out
+/// of it; `shifted` becomes what may cross cuts further down. If the weight below was counted, the
+/// interval is wide enough for what is missing there.
 Bracket TreeSearch::interval_of(const Descent& at, int depth, double& shifted) const {
-    constexpr double caution = 3;
-    constexpr double least = 0.25;
+    constexpr double caution = 3;   // uneven points; with less, lattices are collected twice
+    constexpr double least = 0.25;  // brackets are estimates
     const Cut& cut = guide_->cuts.tree[at.node];
     Bracket interval = guide_->brackets[at.node];
     const auto sums = guide_->sums.sums();

@@ -112,7 +112,7 @@ class DocumentTest(unittest.TestCase):
                     digits = len(written.partition(".")[2])
                     self.assertEqual(f"{value:.{digits}f}", written, (name, cell))
         of = counts[counts["method"] == "rrcb"].xs(64, level="ranks")["bytes"] / exact["bytes"].xs(64, level="ranks")
-        self.assertIn(f"1.01 sends {of.median():.2f} of exact's bytes, at worst {of.max():.1f}.", text)
+        self.assertIn(f"1.01 sends {of.median():.2f} of exact's bytes, at worst {of.max():.2f}.", text)
 
 
 if __name__ == "__main__":

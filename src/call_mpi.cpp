@@ -4,8 +4,8 @@
 #include "collective/machines_mpi.hpp"
 #include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
-#include "gather/earlier_cuts.hpp"
-#include "gather/merge_tree_mpi.hpp"
+#include "estimate/earlier_cuts.hpp"
+#include "estimate/merge_tree_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "balance_mpi.hpp"
-#include "gather/contribution.hpp"
-#include "gather/decision_mpi.hpp"
+#include "estimate/contribution.hpp"
+#include "estimate/decision_mpi.hpp"
 #include "passes/host_passes.hpp"
 #include "settlement_mpi.hpp"
 

@@ -3,9 +3,9 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/stage_scope.hpp"
 #include "cuts/cut_limits.hpp"
-#include "gather/better_mpi.hpp"
-#include "gather/earlier_cuts.hpp"
-#include "gather/keeping.hpp"
+#include "estimate/better_mpi.hpp"
+#include "estimate/earlier_cuts.hpp"
+#include "estimate/keeping.hpp"
 #include "options/call_kind.hpp"
 #include "spread_reuse_mpi.hpp"
 

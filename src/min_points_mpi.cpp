@@ -1,5 +1,5 @@
 #include "balance_mpi.hpp"
-#include "gather/decision_mpi.hpp"
+#include "estimate/decision_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 
 #include <algorithm>

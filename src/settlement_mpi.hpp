@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gather/decision_mpi.hpp"
+#include "estimate/decision_mpi.hpp"
 #include "passes/host_passes.hpp"
 #include "search/refinement_mpi.hpp"
 

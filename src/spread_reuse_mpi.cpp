@@ -5,7 +5,7 @@
 #include "collective/communicator.hpp"
 #include "cuts/owned_cuts.hpp"
 #include "cuts/packed_tree.hpp"
-#include "gather/decision_mpi.hpp"
+#include "estimate/decision_mpi.hpp"
 
 #include <rrcb/plan.hpp>
 

@@ -2,8 +2,8 @@
 // the contributions merge up the tree of so many ranks, the root bisects what arrives, and the cuts
 // are refined by what all sub-domains hold.
 #include "../support/clouds.hpp"
-#include "gather/decision_mpi.hpp"
-#include "gather/merge_tree_mpi.hpp"
+#include "estimate/decision_mpi.hpp"
+#include "estimate/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
 #include "passes/host_passes.hpp"
 #include "search/refinement_mpi.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "all_collected.hpp"
-#include "gather/contribution.hpp"
+#include "estimate/contribution.hpp"
 #include "memory_layer.hpp"
 #include "passes/host_passes.hpp"
 #include "search/tree_search.hpp"

@@ -1,5 +1,5 @@
-#include "gather/cell_records.hpp"
-#include "gather/lean_cells.hpp"
+#include "estimate/cell_records.hpp"
+#include "estimate/lean_cells.hpp"
 
 #include <gtest/gtest.h>
 

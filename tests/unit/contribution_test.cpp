@@ -1,4 +1,4 @@
-#include "gather/contribution.hpp"
+#include "estimate/contribution.hpp"
 
 #include <gtest/gtest.h>
 

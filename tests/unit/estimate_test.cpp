@@ -1,8 +1,8 @@
 // How good the cuts are that the statistics alone give, before any is moved: points of many ranks
 // in one process, whose contributions merge up the tree that so many ranks have.
 #include "../support/clouds.hpp"
-#include "gather/contribution.hpp"
-#include "gather/merge_tree_mpi.hpp"
+#include "estimate/contribution.hpp"
+#include "estimate/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
 #include "passes/host_passes.hpp"
 

@@ -1,4 +1,4 @@
-#include "gather/keeping.hpp"
+#include "estimate/keeping.hpp"
 
 #include <gtest/gtest.h>
 

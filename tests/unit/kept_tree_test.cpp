@@ -1,4 +1,4 @@
-#include "gather/kept_tree.hpp"
+#include "estimate/kept_tree.hpp"
 
 #include "arithmetic/position_order.hpp"
 #include "cuts/tree.hpp"

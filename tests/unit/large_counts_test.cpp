@@ -1,7 +1,7 @@
 // More points than 32 bits count, told to the stages by numbers that no memory backs.
-#include "gather/cell_records.hpp"
-#include "gather/contribution.hpp"
-#include "gather/decision_mpi.hpp"
+#include "estimate/cell_records.hpp"
+#include "estimate/contribution.hpp"
+#include "estimate/decision_mpi.hpp"
 
 #include <rrcb/method/bisection.hpp>
 

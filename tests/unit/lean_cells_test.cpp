@@ -1,4 +1,4 @@
-#include "gather/lean_cells.hpp"
+#include "estimate/lean_cells.hpp"
 
 #include "../support/clouds.hpp"
 

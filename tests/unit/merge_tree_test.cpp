@@ -1,4 +1,4 @@
-#include "gather/merge_tree_mpi.hpp"
+#include "estimate/merge_tree_mpi.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "gather/lean_cells.hpp"
+#include "estimate/lean_cells.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 

@@ -1,6 +1,6 @@
-#include "gather/cell_records.hpp"
+#include "estimate/cell_records.hpp"
 
-#include "gather/lean_cells.hpp"
+#include "estimate/lean_cells.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 

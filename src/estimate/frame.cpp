@@ -1,4 +1,4 @@
-#include "gather/frame.hpp"
+#include "estimate/frame.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
-#include "gather/contribution.hpp"
+#include "estimate/contribution.hpp"
 
 #include "cuts/cut_limits.hpp"
-#include "gather/cell_records.hpp"
-#include "gather/frame.hpp"
+#include "estimate/cell_records.hpp"
+#include "estimate/frame.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 

@@ -1,4 +1,4 @@
-#include "gather/cell_records.hpp"
+#include "estimate/cell_records.hpp"
 
 #include <algorithm>
 #include <cmath>

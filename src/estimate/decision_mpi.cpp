@@ -1,4 +1,4 @@
-#include "gather/decision_mpi.hpp"
+#include "estimate/decision_mpi.hpp"
 
 #include "arithmetic/part_share.hpp"
 #include "bisection/bisection.hpp"
@@ -8,9 +8,9 @@
 #include "collective/meeting_mpi.hpp"
 #include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
-#include "gather/earlier_cuts.hpp"
-#include "gather/extent.hpp"
-#include "gather/keeping.hpp"
+#include "estimate/earlier_cuts.hpp"
+#include "estimate/extent.hpp"
+#include "estimate/keeping.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 

@@ -1,4 +1,4 @@
-#include "gather/near_points.hpp"
+#include "estimate/near_points.hpp"
 
 #include "cuts/tree.hpp"
 

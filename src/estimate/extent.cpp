@@ -1,4 +1,4 @@
-#include "gather/extent.hpp"
+#include "estimate/extent.hpp"
 
 #include "arithmetic/position_order.hpp"
 

@@ -1,4 +1,4 @@
-#include "gather/earlier_cuts.hpp"
+#include "estimate/earlier_cuts.hpp"
 
 #include "arithmetic/infinity.hpp"
 #include "bisection/bisection.hpp"

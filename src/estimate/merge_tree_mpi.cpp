@@ -1,4 +1,4 @@
-#include "gather/merge_tree_mpi.hpp"
+#include "estimate/merge_tree_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/meeting_mpi.hpp"

@@ -1,4 +1,4 @@
-#include "gather/keeping.hpp"
+#include "estimate/keeping.hpp"
 
 #include "cuts/cut_limits.hpp"
 #include "options/call_kind.hpp"

@@ -1,10 +1,10 @@
-#include "gather/kept_tree.hpp"
+#include "estimate/kept_tree.hpp"
 
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/position_order.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
-#include "gather/extent.hpp"
+#include "estimate/extent.hpp"
 #include "options/allowed_axes.hpp"
 
 #include <rrcb/quality.hpp>

@@ -2,7 +2,7 @@
 
 #include "collective/merge_tree.hpp"
 #include "collective/participant.hpp"
-#include "gather/contribution.hpp"
+#include "estimate/contribution.hpp"
 
 #include <cstddef>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "collective/participant.hpp"
-#include "gather/contribution.hpp"
-#include "gather/kept_tree.hpp"
+#include "estimate/contribution.hpp"
+#include "estimate/kept_tree.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/method/bisection.hpp>

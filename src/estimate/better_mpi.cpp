@@ -1,9 +1,9 @@
-#include "gather/better_mpi.hpp"
+#include "estimate/better_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "gather/decision_mpi.hpp"
-#include "gather/keeping.hpp"
-#include "gather/near_points.hpp"
+#include "estimate/decision_mpi.hpp"
+#include "estimate/keeping.hpp"
+#include "estimate/near_points.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -12,6 +13,9 @@ namespace comparisons {
 namespace {
 
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
+
+/// Steps of which the controller gets the sums: those of the scenes are short.
+constexpr int steps_a_decision = 4;
 
 /// Seconds `action` takes on this rank, all ranks starting together.
 template <typename Action>
@@ -132,13 +136,23 @@ void TimedSimulation::record_step() {
     seconds_since_record_ += seconds;
     ++steps_since_record_;
     if (!model_ && !controller_) return;
+    undecided_.seconds += seconds;
+    undecided_.points += loads_.back();
+    if (model_) {
+        const std::vector<double> columns = simulation_->work_columns();
+        undecided_.columns.resize(columns.size());
+        std::ranges::transform(undecided_.columns, columns, undecided_.columns.begin(),
+                               std::plus());
+    }
+    if ((steps_done_ + 1) % steps_a_decision != 0) return;
     const auto decide = [&] {
         if (model_)
-            model_->step(seconds, simulation_->work_columns());
+            model_->step(undecided_.seconds, undecided_.columns);
         else
-            controller_->step(seconds, loads_.back());
+            controller_->step(undecided_.seconds, undecided_.points);
     };
     run_.decide_s += timed(decide, decisions_, comm_);
+    undecided_ = {};
 }
 
 bool TimedSimulation::is_due() const {

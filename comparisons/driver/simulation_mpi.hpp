@@ -120,6 +120,11 @@ class TimedSimulation {
     PhaseLog balances_;
     PhaseLog decisions_{Waits::in_the_next};  ///< the controller reduces during the next step
     std::vector<double> loads_;               ///< points on this rank in each step
+    struct {
+        double seconds = 0;
+        double points = 0;
+        std::vector<double> columns;
+    } undecided_;              ///< sums over the steps that the controller does not know yet
     double moved_lately_ = 0;  ///< share of the points that the latest rebalance moved
     double seconds_since_record_ = 0;
     int steps_since_record_ = 0;

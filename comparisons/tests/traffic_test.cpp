@@ -164,5 +164,31 @@ TEST(Traffic, tells_waiting_from_working) {
     }
 }
 
+TEST(Traffic, counts_a_loop_that_polls_as_waiting) {
+    constexpr double busy_s = 0.02;
+    const auto work = [] {
+        const double end = processor_seconds() + busy_s;
+        while (processor_seconds() < end) {
+        }
+    };
+    MPI_Request request = MPI_REQUEST_NULL;
+    int value = 0;
+    int is_done = 1;
+    const auto measured = [&] {
+        start_counting_traffic();
+        const double start = processor_seconds();
+        MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+        work();
+        MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+        const double elapsed = processor_seconds() - start;
+        return elapsed - stop_counting_traffic().seconds_in_mpi;
+    };
+    EXPECT_GE(measured(), busy_s / 2) << "no request: the rank works between two calls";
+    MPI_Irecv(&value, 1, MPI_INT, rrcb::test::rank(), 0, MPI_COMM_WORLD, &request);
+    EXPECT_LT(measured(), busy_s / 2);
+    MPI_Cancel(&request);
+    MPI_Wait(&request, MPI_STATUS_IGNORE);
+}
+
 }  // namespace
 }  // namespace comparisons

@@ -19,13 +19,13 @@ struct ReportDetails {
             ///< is none: from earlier cuts, or if many ranks make the parts
     /// Lower bound of the imbalance of any partition: by the heaviest point, or by the number of
     /// points if all weigh the same, as 1.6 for 20 points in 16 parts. It is not raised by
-    /// coincident points that stay together: if some do, `coincident_cuts` is above 0.
+    /// coincident points kept together: `coincident_cuts` is then above 0.
     double least_imbalance = 1;
     int coincident_cuts = 0;        ///< that would divide points which no allowed cut separates;
                                     ///< counted by the refinement
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
-    int surplus_parts = 0;          ///< parts that stay empty: more than points, or by min_points
+    int surplus_parts = 0;          ///< empty parts: more than points, or by min_points
     /// Share of the weight near the earlier cuts, Cuts::near: an estimate of ghosts. 0 if not
     /// known, as without earlier cuts.
     double near_before = 0;
@@ -67,18 +67,18 @@ struct Balance {
 /// @return the cuts, the part of each point of this rank and a report
 /// Throws Error on every rank alike: for unusable coordinates, weights or arrays, options out of
 /// range or different between ranks, `previous` of another dimension or number of parts, limits
-/// without room for so many parts, or ranks that round differently. Cost: a pass over the points, a
+/// without room for so many parts, or ranks with other rounding. Cost: a pass over the points, a
 /// gathering of cells, a broadcast, and a reduction for each round of counting; while `previous` is
 /// kept a pass, a reduction and a broadcast. See docs/design/how_it_works.md.
 RRCB_API Balance balance(const Points& points, const Options& options, const Cuts& previous,
                          MPI_Comm comm);
 
-/// Replaces a result by that of balance(), and reuses the memory of its parts. Collective.
+/// Replaces a result as balance() would, and reuses the memory of its parts. Collective.
 ///
 /// @param result   has no parts if the call throws
 /// @param points   with as many as last time no memory is allocated for each
 /// @param options  the same on every rank
-/// @param previous the same on every rank, or those that each rank got from a balance on `comm`;
+/// @param previous the same on every rank, or as each rank got them from a balance on `comm`;
 /// may be `result.cuts`. They are kept while the parts are within the tolerance, and always with
 /// Refine::none; Refine::exact searches them all. Limits may move cuts to other axes than
 /// Axes::order. Report::kept and the estimate are set only if the cuts are made anew
@@ -87,11 +87,10 @@ RRCB_API Balance balance(const Points& points, const Options& options, const Cut
 RRCB_API void balance_into(Balance& result, const Points& points, const Options& options,
                            const Cuts& previous, MPI_Comm comm);
 
-/// Frees the buffers that calls on `comm` keep for the next ones; otherwise they are freed with
-/// `comm`.
+/// Frees the buffers that calls on `comm` keep for the next ones, before `comm` frees them.
 ///
-/// Not collective, and not during a call, as from a StageObserver. A call that searches cuts, as
-/// with Refine::exact, keeps a copy of the points; other calls keep less.
+/// Not collective, and not during a call, as from a StageObserver. Searches of cuts, as with
+/// Refine::exact, keep a copy of the points; other calls keep less.
 RRCB_API void release_buffers(MPI_Comm comm);
 
 }  // namespace rrcb

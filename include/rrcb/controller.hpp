@@ -41,10 +41,9 @@ class Controller {
     /// Takes over another controller; collective if this one still has a communicator.
     RRCB_API Controller& operator=(Controller&&) noexcept;
 
-    /// Records a step that took this rank `load` of its own work, without waiting for others;
-    /// returns due().
+    /// Records a step: this rank's own work took `load`, without waiting for others. Returns due().
     ///
-    /// Collective, yet it waits only for ranks that have not called it for the previous step.
+    /// Collective, yet it waits only for ranks without a call for the previous step.
     /// `load` is finite and not negative, in the unit of the costs of rebalanced(). Throws Error on
     /// every rank alike, one call later, if a rank gave an illegal number or reported another
     /// number of rebalances. Every later call then throws it, too: make a new controller. An MPI
@@ -67,8 +66,8 @@ class Controller {
     /// rebalanced(). The same on every rank. Not collective.
     RRCB_API bool due() const;
 
-    /// Records that the ranks have rebalanced since the last step, whether due or not. Called on
-    /// all ranks, without communication.
+    /// Records a rebalance since the last step, whether due or not. Called on all ranks, without
+    /// communication.
     ///
     /// @param report of the balance: no rebalance is due while heaviest load / mean load is at most
     /// its ReportDetails::least_imbalance
@@ -76,7 +75,7 @@ class Controller {
     /// migration of the points; the largest of all ranks counts
     RRCB_API void rebalanced(const Report& report, double cost);
 
-    /// Records a rebalance by a balancer that reports no least imbalance. On all ranks, without
+    /// Records a rebalance by a balancer without a report. On all ranks, without
     /// communication.
     RRCB_API void rebalanced(double cost);
 

@@ -11,7 +11,7 @@
 
 namespace rrcb {
 
-/// Learns the seconds that points cost, so that balance() divides time in place of counts.
+/// Learns what points cost in seconds, for balance() to divide time in place of counts.
 ///
 ///     rrcb::Controller controller(comm);
 ///     rrcb::CostModel model(controller, 2);
@@ -24,7 +24,7 @@ namespace rrcb {
 ///         model.step(seconds_of_work, {{points, cells}});       // after a step of the simulation
 ///     }
 ///
-/// A column is a number that a rank counts and that its time may depend on. The first is the number
+/// A column is a number counted on each rank, on which its time may depend. The first is the number
 /// of points. docs/weights.md has examples.
 class CostModel {
   public:
@@ -32,7 +32,7 @@ class CostModel {
     ///
     /// @param comm        may be freed before the model
     /// @param num_columns 1 to 16
-    /// Throws Error on every rank for other numbers and for a communicator that Controller refuses.
+    /// Throws Error on every rank for other numbers, and as Controller for its communicator.
     RRCB_API CostModel(MPI_Comm comm, int num_columns);
 
     /// Makes a model whose sums travel with a controller's reduction, before its first step.
@@ -52,8 +52,8 @@ class CostModel {
     /// Takes over another model; collective if this one still has a communicator.
     RRCB_API CostModel& operator=(CostModel&&) noexcept;
 
-    /// Records a step. Collective, yet it waits only for ranks that have not called it for the
-    /// previous step. With a controller, its due() returns whether to rebalance.
+    /// Records a step. Collective, yet it waits only for ranks without a call for the previous
+    /// step. With a controller, its due() returns whether to rebalance.
     ///
     /// @param seconds of this rank's own work; processor time if ranks share cores
     /// @param columns this rank's number of each column, from 0 to 1e100
@@ -63,7 +63,7 @@ class CostModel {
     RRCB_API void step(double seconds, std::span<const double> columns);
 
     /// Returns the seconds of a unit of each column, by the steps so far, in which late ones count
-    /// more; 0 for a column that costs nothing. Not collective; the same bits on every rank.
+    /// more; 0 for a column without a cost. Not collective; the same bits on every rank.
     RRCB_API std::vector<double> costs() const;
 
     /// Returns whether weights() uses the costs. The same on every rank. Not collective.
@@ -71,9 +71,9 @@ class CostModel {
 
     /// Returns the weight in seconds of each point, to divide the points by at once.
     ///
-    /// `columns` has a row for each point of this rank: its share of each column, so that the rows
-    /// add up to the columns of step(). For instance, each of 4 points in a cell has a quarter of
-    /// the cell. A column that belongs to no point, such as ghosts, is 0 in each row. While
+    /// `columns` has a row for each point of this rank: its share of each column. The rows add up
+    /// to the columns of step(). For instance, each of 4 points in a cell has a quarter of
+    /// the cell. A column of no point, such as ghosts, is 0 in each row. While
     /// counting is better, each point weighs 1. Called on all ranks, without communication. Throws
     /// Error on this rank if the last row is not complete.
     RRCB_API std::vector<double> weights(std::span<const double> columns);

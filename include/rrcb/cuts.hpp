@@ -18,7 +18,7 @@ namespace rrcb {
 /// plane, and every point on a plain plane is above it. A cut at -infinity has nothing below, one
 /// at +infinity nothing above.
 struct Cut {
-    std::int32_t axis = 0;     ///< that the cut is across
+    std::int32_t axis = 0;     ///< across which the cut is
     std::int32_t divides = 0;  ///< 1: some of the points exactly at it are below, see Coincident
     Vector at{};               ///< position of the plane, and of ties
 };
@@ -45,8 +45,8 @@ struct NearCuts {
 /// itself unless parts are dealt to groups.
 ///
 /// With HeldCuts::own, if many ranks make the parts, `tree` holds only the cuts above the points
-/// and the parts of this rank, and `nodes` contains their numbers, also on a rank that happens to
-/// have all. Look-ups that need other cuts then fail on this rank only. The collective assign_all()
+/// and the parts of this rank, and `nodes` their numbers, also if a rank happens to have all.
+/// Look-ups beyond these cuts then fail on this rank only. The collective assign_all()
 /// and ghosts() work with both kinds, and gather_cuts() makes the cuts complete.
 struct Cuts {
     int dimension = 0;      ///< of the points
@@ -61,18 +61,17 @@ struct Cuts {
     std::uint64_t group = 0;
     /// Hash of this rank's points of the balance, with which ghosts() recognizes them; 0: none.
     std::uint64_t points = 0;
-    /// With which balance() notices that other axes would save ghosts. Set it to {} to keep the
-    /// axes.
+    /// Tells balance() when other axes would save ghosts. Set it to {} to keep the axes.
     NearCuts near{};
 };
 
-/// Returns true if cuts are the complete tree, the same on every rank, so that look-ups work
-/// everywhere. Not collective.
+/// Returns true if cuts are the complete tree, the same on every rank: look-ups work everywhere.
+/// Not collective.
 inline bool is_whole(const Cuts& cuts) {
     return cuts.nodes.empty();
 }
 
-/// Stands for a part that the cuts do not determine.
+/// Stands for an unknown part.
 inline constexpr Part no_part = -1;
 
 /// Returns the part of a position.
@@ -80,9 +79,9 @@ inline constexpr Part no_part = -1;
 ///     const rrcb::Part part = rrcb::part_of(balance.cuts, {0.5, 0.2, 0.1});
 ///
 /// Not collective. Nothing is checked.
-/// @param cuts     of a balance, or others that fulfil the conditions at Cut and Cuts
+/// @param cuts     of a balance, or others as described at Cut and Cuts
 /// @param position in the unit of the points
-/// @return no_part if a coordinate is NaN, or if the cuts that decide are not known
+/// @return no_part if a coordinate is NaN, or if deciding cuts are not known
 /// Cost: O(depth), times a logarithm if the tree is not complete.
 RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 
@@ -99,12 +98,12 @@ RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> par
 /// Returns the region of a part; sides without a cut are +-infinity. Not collective.
 ///
 /// With Axes::plain the region is [lower, upper) along each axis, for codes with lists of cells. By
-/// other cuts, points exactly on a face, as those of a lattice, may belong to either side (see
+/// other cuts, points exactly on a face, as in a lattice, may belong to either side (see
 /// Cut).
 /// @param cuts of a balance
 /// @param part 0 ... num_parts - 1
 /// @return the empty box if the cuts leave no position to the part, as for parts of size 0
-/// Throws Error for a number that is no part and cuts that are no tree. With HeldCuts::own it also
+/// Throws Error for a number of no part and for cuts which are no tree. With HeldCuts::own it also
 /// throws, on this rank only, if the rank lacks a cut above the part: call gather_cuts() before.
 RRCB_API Box box_of(const Cuts& cuts, Part part);
 
@@ -112,10 +111,10 @@ RRCB_API Box box_of(const Cuts& cuts, Part part);
 ///
 /// @param cuts of a balance
 /// @param box  in the unit of the points; bounds are not NaN
-/// @return parts in ascending order, none for an empty box. If the box contains coincident points
-/// that a cut divides, both sides of the cut are touched
-/// Throws Error for bounds that are NaN and cuts that are no tree. With HeldCuts::own it also
-/// throws, on this rank only, if the rank lacks a cut that may cross the box: call gather_cuts().
+/// @return parts in ascending order, none for an empty box. If a cut divides coincident
+/// points in the box, both of its sides are touched
+/// Throws Error for NaN bounds and for cuts which are no tree. With HeldCuts::own it also
+/// throws, on this rank only, if the rank lacks a cut which may cross the box: call gather_cuts().
 RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
 /// Returns the part of each of any points, also by cuts of which each rank has some. Collective.
@@ -123,10 +122,10 @@ RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 /// @param cuts   of a balance
 /// @param points of this rank, or none; each rank states the dimension
 /// @param comm   of the balance
-/// Throws Error on every rank alike: for coordinates that are NaN or infinite, points of another
-/// dimension than the cuts, cuts that gather_cuts() would refuse, or no memory. Cost: with complete
-/// cuts a local look-up and one reduction; otherwise the ranks ask the owners of the cuts that they
-/// lack, see docs/design/many_ranks.md.
+/// Throws Error on every rank alike: for NaN or infinite coordinates, points of another dimension
+/// than the cuts, cuts which gather_cuts() would refuse, or no memory. Cost: with complete cuts a
+/// local look-up and one reduction; otherwise the ranks ask the owners of missing cuts, see
+/// docs/design/many_ranks.md.
 [[nodiscard]] RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points,
                                                     MPI_Comm comm);
 

@@ -45,7 +45,7 @@ struct GhostPlan {
 };
 
 /// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
-/// `radii`, which every rank that has points gives or none does.
+/// `radii`: every rank with points gives them, or none does.
 struct GhostOptions {
     /// Cut-off of all points, in the unit of the coordinates; NaN: not given.
     double radius = std::numeric_limits<double>::quiet_NaN();
@@ -97,7 +97,7 @@ struct VerifyOptions {
     double radius = std::numeric_limits<double>::quiet_NaN();
     std::optional<std::span<const double>> radii{};       ///< needed if ghosts() got some
     std::optional<std::span<const std::uint64_t>> ids{};  ///< of the points; else their indices
-    /// Ids of the points that this rank held before a transfer, of which each is still there.
+    /// Ids of this rank's points before a transfer, each of which is still there.
     std::optional<std::span<const std::uint64_t>> ids_before{};
 };
 
@@ -133,8 +133,7 @@ RRCB_API Verification verify(const GhostPlan& near, const Points& points,
                              const VerifyOptions& options, MPI_Comm comm);
 
 /// Moves fetched positions of ghosts to those of the images; does nothing without a periodic box.
-/// Images of positions in the box that rounding leaves in [lower, upper) come to the next number
-/// outside. Not collective.
+/// Images left in [lower, upper) by rounding come to the next number outside. Not collective.
 ///
 /// @param plan      of the ghosts
 /// @param positions the axes of one ghost after the other
@@ -148,14 +147,14 @@ RRCB_API void apply_shifts(const GhostPlan& plan, std::span<float> positions);
 
 namespace detail {
 
-/// Moves positions in the arrays that a view describes.
+/// Moves positions in the arrays of a view.
 RRCB_API void apply_shifts(const GhostPlan& plan, const Points& positions);
 
 RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                    const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
 
 /// Moves columns of ghosts to the ranks of their points, in the order of plan.send_indices there,
-/// and copies those of the points. Collective.
+/// and copies the points' own. Collective.
 RRCB_API void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                         std::span<const ByteColumn> of_points, const TransferLimits& limits,
                         TransferReport* report, MPI_Comm comm);
@@ -209,7 +208,7 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 
 }  // namespace detail
 
-/// Moves positions that are members of structs in the same way. Not collective.
+/// Moves positions in structs in the same way. Not collective.
 ///
 ///     rrcb::apply_shifts(near, ghosts, &Particle::position);
 ///
@@ -245,18 +244,18 @@ template <class Columns>
     return detail::moved(plan, columns, comm, limits, report);
 }
 
-/// Returns rows that the ranks of the ghosts send back, such as answers to queries. Collective.
+/// Returns the rows sent back by the ranks of the ghosts, such as answers to queries. Collective.
 ///
 ///     const std::vector<double> answers = rrcb::reply(asked, answer_to_each_ghost, comm);
 ///
-/// Ghosts by `radii` are queries: each point goes to the ranks of all parts that its ball touches.
+/// Ghosts by `radii` are queries: each point goes to the ranks of all parts touched by its ball.
 /// @param plan          of ghosts()
 /// @param ghost_columns one entry, or `components`, for each ghost, in the order of fetch()
-/// @param comm          that of the plan
+/// @param comm          of the plan
 /// @param limits        as for transfer()
 /// @param report        as for transfer()
 /// @return a row for each of plan.send_indices, in that order: row k is for point send_indices[k]
-/// Throws Error as transfer(). Cost: that of fetch().
+/// Throws Error as transfer(). Cost: as fetch().
 template <class GhostColumns>
 [[nodiscard]] auto reply(const GhostPlan& plan, const GhostColumns& ghost_columns, MPI_Comm comm,
                          const TransferLimits& limits = {}, TransferReport* report = nullptr) {
@@ -275,7 +274,7 @@ template <class GhostColumns>
 /// @param report        as for transfer()
 /// @return each point's value plus its ghosts' values by ascending rank: the same arguments give
 /// the same bits; integers must hold their sums
-/// Throws Error as transfer(). Cost: as fetch(); memory for the values that arrive.
+/// Throws Error as transfer(). Cost: as fetch(); memory for the arriving values.
 template <class GhostColumns, class Columns>
 [[nodiscard]] auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns,
                               const Columns& columns, MPI_Comm comm,

@@ -13,7 +13,7 @@
 
 namespace rrcb {
 
-/// Key of a point that is a group of its own.
+/// Key of a point which is a group of its own.
 inline constexpr std::uint64_t no_group = std::numeric_limits<std::uint64_t>::max();
 
 /// Position of a group in the balance.
@@ -21,19 +21,19 @@ enum class GroupPlace {
     centre,  ///< of weight; of the points if all of them weigh 0. Depends on the distribution over
              ///< the ranks by rounding only. In a periodic box unwrap each group for groups(), and
              ///< wrap its points for ghosts(), or use first_point
-    first_point  ///< of the lowest rank that has one. Its exact position; may change with the ranks
+    first_point  ///< of the lowest rank with one. Its exact position; may change with the ranks
 };
 
-/// Points that go to one part together, such as bonded particles or bodies, each group as one
+/// Points which go to one part together, such as bonded particles or bodies, each group as one
 /// point.
 struct Groups {
     int dimension = 0;                  ///< of the points
     std::vector<double> coordinates{};  ///< of the groups of this rank, by their first point here
     std::vector<double> weights{};      ///< sums over all points of each
-    /// Group of each point of this rank: first the groups of this rank, then those of other ranks,
+    /// Group of each point of this rank: first the groups of this rank, then of other ranks,
     /// in the order of fetch() by `plan`.
     std::vector<LocalIndex> of_points{};
-    GhostPlan plan{};  ///< between the ranks that share groups
+    GhostPlan plan{};  ///< between ranks sharing groups
 
     /// Returns a view of the groups of this rank as points, for balance(). The
     /// groups must outlive it. Not collective.
@@ -47,7 +47,7 @@ struct Groups {
 /// fetch(groups, balance.parts, comm) returns the parts of the points, for plan(). Between
 /// rebalances call assign_all() instead of balance().
 /// @param points of this rank
-/// @param keys   one for each point, no_group for a point that needs none
+/// @param keys   one for each point, no_group if it needs none
 /// @param comm   of the ranks with points
 /// @param place  the same on every rank
 /// @return the groups whose lowest rank with points this is; the same bits for the same input
@@ -57,12 +57,12 @@ struct Groups {
 RRCB_API Groups groups(const Points& points, std::span<const std::uint64_t> keys, MPI_Comm comm,
                        GroupPlace place = GroupPlace::centre);
 
-/// Returns one key for each point of overlapping groups: the same for points that share a key,
+/// Returns one key for each point of overlapping groups: the same for points sharing a key,
 /// directly or through other points, over all ranks. Collective.
 ///
 ///     const rrcb::Groups wells = rrcb::groups(points, rrcb::join_keys(keys, 2, comm), comm);
 ///
-/// @param keys           `keys_per_point` for each point, no_group for those that a point lacks
+/// @param keys           `keys_per_point` for each point, no_group in place of missing ones
 /// @param keys_per_point 1 or more, the same on every rank
 /// @param comm           of the ranks with points
 /// @return the least key of the joined groups, no_group for a point without keys

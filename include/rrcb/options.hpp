@@ -14,20 +14,20 @@ enum class Refine {
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the counted imbalance is within `imbalance_tolerance`
     exact       ///< to the weighted median: each cut to within the weight of one point, which goes
-           ///< to the side that it makes less too heavy, or further to fill parts of equal size
+                ///< where it makes the side less too heavy, or further to fill parts of equal size
 };
 
-/// Treatment of coincident points that a balanced cut would divide.
+/// Treatment of coincident points at a balanced cut.
 enum class Coincident {
-    together,  ///< they share a part, so that the part of a position is the part of its points
-    divide     ///< some go to each side, those of lower ranks below; look-ups find one of their
+    together,  ///< they share a part: the part of a position is the part of its points
+    divide     ///< some go to each side, from lower ranks below; look-ups find one of their
                ///< parts
 };
 
-/// Cuts that each rank gets if many ranks make the parts, see Tuning::central_parts.
+/// Cuts of each rank if many ranks make the parts, see Tuning::central_parts.
 enum class HeldCuts {
-    whole,  ///< all, so that look-ups work on every rank: two more reductions, over all parts
-    own     ///< those above its points and its parts, see Cuts::nodes: no memory for each part
+    whole,  ///< all, for look-ups on every rank: two more reductions, over all parts
+    own     ///< cuts above its points and its parts, see Cuts::nodes: no memory for each part
 };
 
 /// Lines of a grid across an axis: at origin + k * spacing for whole numbers k, as doubles compute
@@ -37,7 +37,7 @@ struct GridLines {
     double spacing = 0;  ///< > 0 and finite
 };
 
-/// Rule for the axis that each box is cut across. Axes within a tenth of the best are equal to it;
+/// Rule for the axis of a cut. Axes within a tenth of the best are equal to it;
 /// the first of them is taken.
 class AxisOrder {
   public:
@@ -70,7 +70,7 @@ class AxisOrder {
     bool is_grouped() const { return kind_ == Kind::grouped; }
     /// Returns true if made by given().
     bool is_given() const { return kind_ == Kind::given; }
-    /// Returns the axes that it was made with; none for fewest_ghosts() and longest().
+    /// Returns the axes given to it; none for fewest_ghosts() and longest().
     const std::vector<int>& axes() const { return axes_; }
 
   private:
@@ -82,16 +82,16 @@ class AxisOrder {
     std::vector<int> axes_;
 };
 
-/// Axes that are cut, and the positions of cuts along them. All limits hold at once.
+/// Axes to cut, and the positions of cuts along them. All limits hold at once.
 struct Axes {
     AxisOrder order{};  ///< such as AxisOrder::longest(); default: fewest_ghosts()
-    /// Planes only: points on a plane stay together, above it, so that regions are half-open boxes.
+    /// Planes only: points on a plane stay together, above it, and regions are half-open boxes.
     bool plain = false;
 
     /// Least extent of every part along each axis, > 0 and finite, one per axis of the points;
     /// empty: any. Between two cuts `upper - lower >= min_width` holds as doubles compute it. On a
     /// side without a cut the extent ends at the bounding box of all points of the call. Along an
-    /// axis that is not cut there is no limit. Parts of size 0 have no extent.
+    /// axis without cuts there is no limit. Parts of size 0 have no extent.
     std::vector<double> min_width{};
 
     /// Cuts on these lines only, one entry per axis of the points; empty: anywhere. Such cuts are
@@ -99,12 +99,12 @@ struct Axes {
     std::vector<GridLines> grid{};
 };
 
-/// Settings that change the cost of a call; the defaults suit most programs.
+/// Settings of the cost of a call; the defaults suit most programs.
 struct Tuning {
     int support_mesh = 0;  ///< cells per axis of each rank's support mesh, up to 4096, in
                            ///< 3-D 256; 0: by its points
 
-    /// Most parts that rank 0 makes without the others, at least 2. If there are more, and more
+    /// Most parts made by rank 0 without the others, at least 2. If there are more, and more
     /// ranks, each cut is found by a rank of its parts. No effect with Refine::none,
     /// Axes::min_width, Axes::grid or AxisOrder::grouped().
     int central_parts = 4096;
@@ -120,9 +120,9 @@ struct Options {
 
     /// No effect with Refine::none and with plain cuts.
     Coincident coincident = Coincident::together;
-    HeldCuts cuts = HeldCuts::whole;  ///< cuts that each rank gets if many ranks make the parts
+    HeldCuts cuts = HeldCuts::whole;  ///< of each rank if many ranks make the parts
 
-    /// Least number of points of a part that has any, 0 or more. Parts with points are the first
+    /// Least number of points of a part with any, 0 or more. Parts with points are the first
     /// ones, except those of size 0. If the cuts leave fewer, the points are divided anew, exactly
     /// if need be, among fewer parts: see ReportDetails::surplus_parts.
     int min_points = 0;

@@ -18,7 +18,7 @@
 
 namespace rrcb {
 
-/// Points that rank 0 bisects.
+/// Points bisected by rank 0.
 enum class PaperDomain {
     sampled,  ///< pseudo-random points in mean +- multiplier * sigma of each cell: the paper's RRCB
     points    ///< the points themselves, all gathered on rank 0: the paper's RCB
@@ -34,7 +34,7 @@ enum class CutRule {
 struct PaperOptions {
     int num_parts = 0;                              ///< parts to make; 0: one per rank
     std::vector<double> part_sizes{};               ///< as Options::part_sizes
-    PaperDomain domain = PaperDomain::sampled;      ///< points that rank 0 bisects
+    PaperDomain domain = PaperDomain::sampled;      ///< points bisected by rank 0
     CutRule cut_rule = CutRule::weighted_fraction;  ///< position of cuts
     bool plain_cuts = false;                        ///< as Axes::plain
     int support_mesh = 8;           ///< cells per axis of each rank's mesh, 1 to 4096, in 3-D 256
@@ -77,7 +77,7 @@ RRCB_API std::vector<MassPoint> sample_points(std::span<const CellMoments> cells
                                               const PaperOptions& options);
 
 /// Copies points with their weights; if all weights are 0, each copy weighs 1. Not collective.
-/// Throws Error for arrays that do not fit the number of points.
+/// Throws Error for arrays of another length than the points.
 RRCB_API std::vector<MassPoint> mass_points(const Points& points);
 
 /// Bisects points recursively across the longest extent of the points in each box. Not collective.

@@ -81,7 +81,7 @@ struct Wanted {
     bool contains(double x) const { return x >= interval.lower && x < interval.upper; }
 };
 
-/// The points of one rank and their parts, wherever they are: all that a balance asks of them.
+/// The points of one rank and their parts, wherever they are: all questions of a balance to them.
 ///
 /// A balance calls these functions on each rank, in any order after summary() or assign(), and does
 /// everything else with their answers. Positions and weights do not change during a call. Parts are
@@ -104,8 +104,8 @@ class RRCB_API PointPasses {
 
     /// Reads weights, and the positions if `reads_positions`; else the box and ends stay infinite.
     ///
-    /// Throws Error for the first coordinate that is NaN or infinite, and for the first weight that
-    /// is negative, NaN or infinite.
+    /// Throws Error for the first NaN or infinite coordinate, and for the first negative, NaN or
+    /// infinite weight.
     virtual PointSummary summary(bool reads_positions) = 0;
 
     /// Returns `size` points at random with their weights, the same in every call, or all points in
@@ -119,7 +119,7 @@ class RRCB_API PointPasses {
     ///
     /// @param cuts   whole
     /// @param counts whether the totals of the parts are returned
-    /// Throws Error for the first coordinate that is NaN or infinite.
+    /// Throws Error for the first NaN or infinite coordinate.
     virtual PartTotals assign(const Cuts& cuts, bool counts) = 0;
 
     /// Collects the points that some place of the cuts in their intervals, lower <= cut <= upper,
@@ -129,15 +129,15 @@ class RRCB_API PointPasses {
     ///
     /// @param cuts      whole
     /// @param intervals one per cut
-    /// @param has_parts the points have the parts by these cuts; those at a cut that divides
-    /// may be on either side
+    /// @param has_parts the points have the parts by these cuts; at a dividing cut they may be
+    /// on either side
     /// @param collected whose memory is reused
     virtual void collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
                          Collected& collected) = 0;
 
     /// Collects settled points in other intervals, and gives them no_part.
     ///
-    /// @param wanted    nodes that have no part in common
+    /// @param wanted    nodes without a common part
     /// @param collected to which they are added, and from whose totals they are taken
     /// @return the wanted node of each new point
     virtual std::vector<std::size_t> collect_more(std::span<const Wanted> wanted,
@@ -161,8 +161,8 @@ class RRCB_API PointPasses {
     virtual void set_parts(std::span<const Part> parts) = 0;
 };
 
-/// Divides points that only passes can read; the parts stay with them, and Balance::parts is empty.
-/// Collective.
+/// Divides points which only passes can read; the parts stay with them, and Balance::parts is
+/// empty. Collective.
 ///
 /// @param points   of this rank; a rank without points has passes as well
 /// @param options  the same on every rank; more parts than Tuning::central_parts are refused
@@ -170,8 +170,7 @@ class RRCB_API PointPasses {
 /// @param comm     as for balance()
 /// @return the cuts and a report
 /// Throws Error as balance(), and what passes throw, on every rank alike. Cost: see
-/// docs/design/how_it_works.md. Of all points only summaries, cells, totals and those that are
-/// collected reach the engine.
+/// docs/design/how_it_works.md. The engine gets summaries, cells, totals and collected points.
 RRCB_API Balance balance(PointPasses& points, const Options& options, const Cuts& previous,
                          MPI_Comm comm);
 

@@ -12,7 +12,7 @@ namespace rrcb {
 
 struct Balance;
 
-/// Consecutive ranks that hold a part.
+/// Consecutive ranks holding a part.
 struct RankRange {
     int first_rank = 0;  ///< the lowest of them
     int count = 1;       ///< of ranks
@@ -40,8 +40,8 @@ struct RankCount {
 /// Points to send and to receive, for transfer(); entry k of each export or import list is one
 /// point.
 struct Plan {
-    LocalIndex num_points = 0;               ///< that this rank holds before
-    std::vector<LocalIndex> export_indices;  ///< of my points that leave, ascending
+    LocalIndex num_points = 0;               ///< of this rank before
+    std::vector<LocalIndex> export_indices;  ///< of my leaving points, ascending
     std::vector<int> export_ranks;           ///< their destinations
     std::vector<Part> export_parts;          ///< their new parts
     std::vector<int> import_ranks;           ///< sources of my new points, ascending
@@ -60,7 +60,7 @@ struct Plan {
 /// @param comm      of the ranks with points
 /// Throws Error on every rank alike if some rank gives other numbers. Cost: ceil(log2 R) messages
 /// from each of R ranks, one more from some, one reduction, and one message for each pair between
-/// which points move; memory for these points and for each rank that they go to or come from. None
+/// which points move; memory for these points and their other ranks. None
 /// grows with the number of ranks or parts.
 [[nodiscard]] RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 

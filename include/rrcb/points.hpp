@@ -21,7 +21,7 @@ using GlobalCount = std::int64_t;      ///< counts points over all ranks
 using Part = std::int32_t;             ///< number of a part, 0 ... parts - 1
 using Vector = std::array<double, 3>;  ///< a position or lengths, an entry per axis
 
-inline constexpr int max_dimension = 3;  ///< axes that points may have
+inline constexpr int max_dimension = 3;  ///< most axes of points
 
 /// Axis-aligned closed box; axes beyond the dimension of the points are ignored.
 ///
@@ -40,10 +40,10 @@ struct Box {
 ///
 /// Coordinate a of point i is `axes[a][i * stride]`; the axes may be in one array or in several.
 /// Floats are in `float_axes` instead, and count as the doubles of the same values. `weights` is
-/// empty on every rank that has points (every point weighs 1), or holds one finite, non-negative
+/// empty on every rank with points (every point weighs 1), or holds one finite, non-negative
 /// weight per point. Weights of 0, or of one power of two, give the same bits as none; other equal
 /// ones may round a cut to a neighbouring point. The arrays must outlive the view. Nothing is
-/// checked here: `balance` checks on all ranks together, so that no rank fails alone.
+/// checked here: `balance` checks on all ranks together; no rank fails alone.
 struct Points {
     int dimension = 0;       ///< 1 to 3, on every rank the same
     LocalIndex count = 0;    ///< points of this rank
@@ -113,9 +113,9 @@ RRCB_API Points column_points(std::span<const std::span<const double>> columns,
 RRCB_API Points column_points(std::span<const std::span<const float>> columns,
                               std::span<const double> weights = {});
 
-/// Returns the smallest box that holds all points; the empty box if there are none. Not collective.
+/// Returns the smallest box of all points; the empty box if there are none. Not collective.
 ///
-/// The box is NaN on axes with a coordinate that is NaN or infinite.
+/// The box is NaN on axes with a NaN or infinite coordinate.
 RRCB_API Box bounding_box(const Points& points);
 
 }  // namespace rrcb

@@ -68,7 +68,7 @@ RRCB_API std::vector<double> part_weights(const Points& points, const Balance& b
 RRCB_API double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                                MPI_Comm comm);
 
-/// Returns the share of the weight that a balance of these points moves. Collective.
+/// Returns the share of the weight moved by a balance of these points. Collective.
 ///
 /// @param points  of this rank
 /// @param balance of these points

@@ -15,8 +15,8 @@ struct Remap {
     std::vector<Part> numbers;    ///< new number of each part
     bool identity = true;         ///< numbers[p] is p: no gain
     GlobalCount num_points = 0;   ///< over all ranks
-    GlobalCount kept_before = 0;  ///< points that stay when no number changes
-    GlobalCount kept_after = 0;   ///< points that stay under the new numbers, never fewer
+    GlobalCount kept_before = 0;  ///< staying points if no number changes
+    GlobalCount kept_after = 0;   ///< staying points under the new numbers, never fewer
 };
 
 /// Numbers the parts of a new partition: many points then stay on their rank. Collective.

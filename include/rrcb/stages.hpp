@@ -26,19 +26,19 @@ RRCB_API const char* name_of(Stage stage);
 
 /// Observes on its own rank when a stage of `balance` begins and when it ends.
 ///
-/// Every stage that begins ends before another does, in failing calls too. Some come again in a
+/// Every stage ends before another begins, in failing calls too. Some come again in a
 /// call: the broadcast if points stay after new cuts were counted; all from the moments on if
-/// earlier cuts that are spread over the ranks do not stay, or may be poor. Many ranks make the
+/// earlier cuts spread over the ranks do not stay, or may be poor. Many ranks make the
 /// parts in the refinement; the bisection is then empty.
 /// The functions may not communicate over the communicator of the call, nor throw, since no rank
 /// may fail alone.
 class RRCB_API StageObserver {
   public:
-    /// Ends an observer, which outlives the calls that it observes.
+    /// Ends an observer, which outlives the observed calls.
     virtual ~StageObserver() = default;
-    /// Observes that the stage begins now.
+    /// Observes the beginning of a stage.
     virtual void begin(Stage stage) noexcept = 0;
-    /// Observes that the stage ends now.
+    /// Observes the end of a stage.
     virtual void end(Stage stage) noexcept = 0;
 };
 

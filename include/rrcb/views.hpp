@@ -71,7 +71,7 @@ constexpr bool host_reads() {
 
 }  // namespace detail
 
-/// Returns a view of coordinates that are members of structs: member_points(particles,
+/// Returns a view of coordinates in members of structs: member_points(particles,
 /// &Particle::x, &Particle::y). Not collective. Set weights in the result.
 ///
 /// @param structs a vector or an array of any kind
@@ -93,7 +93,7 @@ Points member_points(const Structs& structs, T Struct::*first, Others... others)
     return points;
 }
 
-/// Returns a view of positions that are one member, an array: member_points(particles,
+/// Returns a view of positions in one member, an array: member_points(particles,
 /// &Particle::position). Not collective. Set a lower dimension in the result to use fewer axes.
 ///
 /// @param structs  a vector or an array of any kind

@@ -34,12 +34,12 @@ struct CellMoments {
 /// set has weight.
 RRCB_API Moments merge(const Moments& a, const Moments& b);
 
-/// Returns the moments of every cell that holds weight, in the order of the cells. Not collective.
+/// Returns the moments of every cell with weight, in the order of the cells. Not collective.
 ///
 /// @param points finite and in the box of the mesh, in any order, which is not checked
 /// @param mesh   of the dimension of the points
 ///
-/// If all points weigh 0, their moments are those of the same points with weight 1, under weight 0.
+/// If all points weigh 0, their moments are as with weight 1, under weight 0.
 /// Throws Error for another dimension, arrays that do not fit together, or weights that are
 /// negative, NaN or infinite.
 ///

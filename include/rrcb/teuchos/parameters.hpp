@@ -17,11 +17,11 @@ RRCB_API Teuchos::RCP<const Teuchos::ParameterList> valid_parameters();
 
 /// Reads a list from a file whose name ends in .xml, .yaml or .yml, as Teuchos writes them.
 ///
-/// Not collective. Throws Error that names the file if it cannot be read; the list is checked when
+/// Not collective. Throws Error with the file's name if it cannot be read; the list is checked when
 /// it is used.
 RRCB_API Teuchos::ParameterList read_parameters(const std::string& file);
 
-/// Returns the options of a list; an option that it does not name keeps its default.
+/// Returns the options of a list; others keep their default.
 ///
 /// RRCB_DUMP and RRCB_DUMP_WHEN are for the plug-in only, and are only checked. A whole number may
 /// stand for a real one. Not collective; `balance` checks that ranks agree. Throws Error for an

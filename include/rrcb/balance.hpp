@@ -67,7 +67,7 @@ struct Balance {
 /// @return the cuts, the part of each point of this rank and a report
 /// Throws Error on every rank alike: for unusable coordinates, weights or arrays, options out of
 /// range or different between ranks, `previous` of another dimension or number of parts, limits
-/// without room for so many parts, or ranks with other rounding. Cost: a pass over the points, a
+/// without room for so many parts, or ranks that round differently. Cost: a pass over the points, a
 /// gathering of cells, a broadcast, and a reduction for each round of counting; while `previous` is
 /// kept a pass, a reduction and a broadcast. See docs/design/how_it_works.md.
 RRCB_API Balance balance(const Points& points, const Options& options, const Cuts& previous,

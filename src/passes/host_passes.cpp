@@ -1,7 +1,7 @@
 #include "passes/host_passes.hpp"
 
 #include "options/validation.hpp"
-#include "passes/binned_points.hpp"
+#include "passes/cell_moments.hpp"
 #include "passes/collected.hpp"
 #include "passes/summary.hpp"
 
@@ -38,7 +38,7 @@ PointSample HostPasses::sample(LocalIndex size) {
 }
 
 std::vector<CellMoments> HostPasses::moments(const SupportMesh& mesh) {
-    return cell_moments(bin_by_cell(points_, mesh));
+    return moments_of_cells(points_, mesh);
 }
 
 PartTotals HostPasses::assign(const Cuts& cuts, bool counts) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cuts/tree.hpp"
+#include "passes/histogram.hpp"
 
 #include <rrcb/passes.hpp>
 
@@ -11,22 +12,9 @@
 
 namespace rrcb {
 
-/// Indices of collected points.
-using Entries = detail::Uninitialized<LocalIndex>;
-
 /// Collected points and their parts.
 struct OpenPoints : Collected {
     std::vector<Part> parts{};  ///< of those that have arrived, no_part of the others
-};
-
-/// Weight and number of points.
-struct Total {
-    double weight = 0;
-    double count = 0;
-
-    friend Total operator+(const Total& a, const Total& b) {
-        return {a.weight + b.weight, a.count + b.count};
-    }
 };
 
 /// The points exactly at a cut, which no cut separates. They form one row over all ranks, in the

@@ -5,7 +5,6 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "options/call_kind.hpp"
-#include "passes/collected.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -235,7 +234,7 @@ Refined SpreadRefinement::search(const Box& box, const PartTree& tree, HostPasse
                                  Participant& self) {
     std::optional<TreeSearch> search;
     self.attempt([&] {
-        collect_all(points.points(), memory_.collected);
+        points.collect_all(memory_.collected);
         search.emplace(tree, rounds_.rank(), box, points, std::move(memory_.collected));
     });
     Refined refined;

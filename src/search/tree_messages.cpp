@@ -1,7 +1,7 @@
 // The records that ranks send to the owners of nodes, and how they follow the answers.
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/quantum.hpp"
-#include "search/count.hpp"
+#include "passes/histogram.hpp"
 #include "search/doubles.hpp"
 #include "search/gap.hpp"
 #include "search/tree_search.hpp"

@@ -1,7 +1,6 @@
 // The decisions of the owner of a node.
 #include "arithmetic/part_share.hpp"
 #include "search/doubles.hpp"
-#include "search/gap.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>

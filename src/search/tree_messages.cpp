@@ -3,7 +3,6 @@
 #include "arithmetic/quantum.hpp"
 #include "passes/histogram.hpp"
 #include "search/doubles.hpp"
-#include "search/gap.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "passes/host_passes.hpp"
 
 #include "options/validation.hpp"
-#include "passes/cell_moments.hpp"
 #include "passes/summary.hpp"
 
 #include <rrcb/detail/sample.hpp>
@@ -34,10 +33,6 @@ PointSample HostPasses::sample(LocalIndex size) {
         if (!points_.weights.empty()) sample.weights.push_back(points_.weights[i]);
     }
     return sample;
-}
-
-std::vector<CellMoments> HostPasses::moments(const SupportMesh& mesh) {
-    return moments_of_cells(points_, mesh);
 }
 
 PartTotals HostPasses::assign(const Cuts& cuts, bool counts) {

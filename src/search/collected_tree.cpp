@@ -30,16 +30,25 @@ CollectedTree::CollectedTree(PointPasses& points, OpenPoints&& all)
 }
 
 CollectedTree::CollectedTree(PointPasses& points, const Cuts& cuts,
-                             std::vector<Bracket>&& intervals, bool has_parts, OpenPoints&& memory)
+                             std::span<const Bracket> intervals, bool has_parts,
+                             OpenPoints&& memory)
     : points_(points),
       collected_(std::move(memory)),
       cuts_(&cuts),
-      intervals_(std::move(intervals)),
+      steps_(cuts.tree.size()),
       arrived_(cuts.tree.size() + 1),
       waiting_(cuts.tree.size()) {
-    points_.collect(cuts, intervals_, has_parts, collected_);
+    points_.collect(cuts, intervals, has_parts, collected_);
     collected_.parts.assign(collected_.count(), no_part);
+    add_steps(root_of(cuts), intervals);
     for (LocalIndex i = 0; i < collected_.count(); ++i) send(root_of(cuts), i);
+}
+
+void CollectedTree::add_steps(const Descent& at, std::span<const Bracket> intervals) {
+    if (at.is_part()) return;
+    steps_[at.node] = {intervals[at.node], cuts_->tree[at.node].axis, at.lower_parts()};
+    add_steps(at.lower(), intervals);
+    add_steps(at.upper(), intervals);
 }
 
 std::vector<Entries> CollectedTree::collect_more(std::span<const Descent> nodes,
@@ -50,8 +59,8 @@ std::vector<Entries> CollectedTree::collect_more(std::span<const Descent> nodes,
     part_boxes_.clear();
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         const Descent& at = nodes[k];
-        intervals_[at.node] = intervals[k];
-        wanted.push_back({at.first_part, at.num_parts, cuts_->tree[at.node].axis, intervals[k]});
+        steps_[at.node].interval = intervals[k];
+        wanted.push_back({at.first_part, at.num_parts, steps_[at.node].axis, intervals[k]});
         for (Entries& some : waiting_below(at)) {
             below[k].insert(below[k].end(), some.begin(), some.end());
             some.clear();
@@ -80,14 +89,25 @@ Entries CollectedTree::all() const {
 }
 
 /// Lets a point go down to its part, or to the first node where it waits.
-void CollectedTree::send(Descent at, LocalIndex i) {
-    while (!at.is_part()) {
-        const Bracket& interval = intervals_[at.node];
-        const double x = collected_.coordinate(i, cuts_->tree[at.node].axis);
-        if (x >= interval.lower && x < interval.upper) return waiting_[at.node].push_back(i);
-        at = x < interval.lower ? at.lower() : at.upper();
+void CollectedTree::send(const Descent& from, LocalIndex i) {
+    std::size_t node = from.node;
+    Part first_part = from.first_part;
+    int num_parts = from.num_parts;
+    while (num_parts > 1) {
+        const Step& step = steps_[node];
+        const double x = collected_.coordinate(i, step.axis);
+        if (x < step.interval.lower) {
+            ++node;
+            num_parts = step.lower_parts;
+        } else if (x >= step.interval.upper) {
+            node += static_cast<std::size_t>(step.lower_parts);
+            first_part += step.lower_parts;
+            num_parts -= step.lower_parts;
+        } else {
+            return waiting_[node].push_back(i);
+        }
     }
-    settle(i, at.first_part);
+    settle(i, first_part);
 }
 
 Entries CollectedTree::admit(const Descent& at, const Entries& arrived) {

@@ -58,7 +58,7 @@ class CollectedTree {
 
     /// Collects points as PointPasses::collect(). Borrows `points` and `cuts`, which may move but
     /// not turn. Throws what it throws.
-    CollectedTree(PointPasses& points, const Cuts& cuts, std::vector<Bracket>&& intervals,
+    CollectedTree(PointPasses& points, const Cuts& cuts, std::span<const Bracket> intervals,
                   bool has_parts, OpenPoints&& memory);
 
     const Collected& points() const { return collected_; }
@@ -78,7 +78,7 @@ class CollectedTree {
     Total total_in(const Descent& at);
 
     /// Returns an interval in which the cut of a node may still end.
-    const Bracket& interval(std::size_t node) const { return intervals_[node]; }
+    const Bracket& interval(std::size_t node) const { return steps_[node].interval; }
 
     /// Takes other intervals of nodes, and collects the points there. Returns the entries of each
     /// node that are new to it.
@@ -116,11 +116,18 @@ class CollectedTree {
     Gap gap_about(const Descent& at, const Entries& entries, const Cut& cut);
 
   private:
+    /// A node as points meet it, in few bytes.
+    struct Step {
+        Bracket interval{};
+        int axis = 0;
+        int lower_parts = 0;
+    };
     std::span<Entries> waiting_below(const Descent& at) {
         return std::span(waiting_).subspan(at.node, static_cast<std::size_t>(at.num_parts) - 1);
     }
     void settle(LocalIndex i, Part part);
-    void send(Descent at, LocalIndex i);
+    void send(const Descent& from, LocalIndex i);
+    void add_steps(const Descent& at, std::span<const Bracket> intervals);
     void make_part_boxes();
     void narrow(const Cut& cut, const Entries& entries, Gap& gap) const;
     void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) const;
@@ -128,10 +135,10 @@ class CollectedTree {
     PointPasses& points_;
     OpenPoints collected_;
     const Cuts* cuts_ = nullptr;
-    std::vector<Bracket> intervals_;  ///< in which the cuts may end
-    std::vector<Total> arrived_;      ///< totals of the collected points with parts
-    std::vector<Entries> waiting_;    ///< at each node
-    std::vector<Box> part_boxes_;     ///< of settled points; empty until a gap needs them
+    std::vector<Step> steps_;       ///< at each node
+    std::vector<Total> arrived_;    ///< totals of the collected points with parts
+    std::vector<Entries> waiting_;  ///< at each node
+    std::vector<Box> part_boxes_;   ///< of settled points; empty until a gap needs them
 };
 
 }  // namespace rrcb

@@ -32,10 +32,10 @@ struct Square {
 
     Points points() const { return interleaved_points(coordinates, 2, weights); }
     CollectedTree tree(double width) {
-        std::vector<Bracket> intervals(3, {0.5 - width, 0.5 + width});
+        const std::vector<Bracket> intervals(3, {0.5 - width, 0.5 + width});
         passes.emplace(points());
         passes->summary(true);
-        return {*passes, cuts, std::move(intervals), false, {}};
+        return {*passes, cuts, intervals, false, {}};
     }
     double weight_in(double x0, double x1, double y0, double y1) const {
         double weight = 0;

@@ -126,14 +126,6 @@ void CollectedTree::settle(LocalIndex i, Part part) {
     if (!part_boxes_.empty()) widen(part_boxes_[part], collected_.position(i));
 }
 
-/// Makes the boxes of the points that have their parts.
-void CollectedTree::make_part_boxes() {
-    part_boxes_ = points_.boxes(cuts_->num_parts);
-    for (LocalIndex i = 0; i < collected_.parts.size(); ++i)
-        if (collected_.parts[i] != no_part)
-            widen(part_boxes_[collected_.parts[i]], collected_.position(i));
-}
-
 Total CollectedTree::total_of(Part part) const {
     return arrived_[part] +
            Total{collected_.settled.weights[part], collected_.settled.counts[part]};
@@ -233,7 +225,6 @@ Gap CollectedTree::gap_about(const Descent& at, const Entries& entries, const Cu
     if (waiting_.empty()) return gap;
     for (const Entries& some : waiting_below(at)) narrow(cut, some, gap);
     const bool is_open = gap[0] < -interval(at.node).upper || gap[1] < interval(at.node).lower;
-    if (is_open && part_boxes_.empty()) make_part_boxes();
     if (is_open) narrow_by_parts(at, cut, gap);
     return gap;
 }
@@ -253,7 +244,13 @@ void CollectedTree::narrow(const Cut& cut, const Entries& entries, Gap& gap) con
 }
 
 /// Narrows a gap along its first axis by the settled points, which are not at the cut.
-void CollectedTree::narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) const {
+void CollectedTree::narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) {
+    if (part_boxes_.empty()) {
+        part_boxes_ = points_.boxes(cuts_->num_parts);
+        for (LocalIndex i = 0; i < collected_.parts.size(); ++i)
+            if (collected_.parts[i] != no_part)
+                widen(part_boxes_[collected_.parts[i]], collected_.position(i));
+    }
     const Part middle = at.upper().first_part;
     for (Part p = at.first_part; p < middle; ++p)
         gap[1] = std::max(gap[1], part_boxes_[p].upper[cut.axis]);

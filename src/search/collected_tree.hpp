@@ -128,9 +128,8 @@ class CollectedTree {
     void settle(LocalIndex i, Part part);
     void send(const Descent& from, LocalIndex i);
     void add_steps(const Descent& at, std::span<const Bracket> intervals);
-    void make_part_boxes();
     void narrow(const Cut& cut, const Entries& entries, Gap& gap) const;
-    void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) const;
+    void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap);
 
     PointPasses& points_;
     OpenPoints collected_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace rrcb {
@@ -15,22 +16,56 @@ std::size_t axis_index(const CutSearch& search, int tied) {
     return ordering_axis(search.cut.axis, tied);
 }
 
+/// Ends the search with a coordinate on its axis.
+void finish(CutSearch& search, double value, double below) {
+    search.cut.at[axis_index(search, search.tied)] = value;
+    search.stage = CutSearch::done;
+    search.below = below;
+}
+
+/// Points at one position, and those below them.
+struct Ties {
+    GlobalCount begin = 0;  ///< number of the points below
+    GlobalCount count = 0;
+    double below = 0;
+    double weight = 0;
+};
+
+/// Ends among points that no cut separates: divides them, or leaves all of them on the side with
+/// the smaller excess.
+void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
+                       const Ties& ties) {
+    const double above = ties.below + ties.weight;
+    const bool is_below =
+        target.excess(ties.below, ties.begin) >= target.excess(above, ties.begin + ties.count);
+    search.coincident = 1;
+    // At a position the cut is the first one above it.
+    for (int k = search.tied; k < search.num_axes; ++k) {
+        const std::size_t axis = axis_index(search, k);
+        search.cut.at[axis] = position[axis];
+    }
+    search.stage = CutSearch::done;
+    search.below = ties.below;
+    if (target.divides) {
+        search.lot_below = target.target - ties.below;
+    } else if (is_below) {
+        search.below = above;
+        move_behind(search);
+    }
+}
+
 /// Goes on along the next axis if all candidates have the coordinate `value` on this one; ends if
 /// they share all of them.
 void break_tie(CutSearch& search, const CutTarget& target, std::span<const double> extents,
                double value, double weight) {
-    if (search.tied + 1 < search.num_axes) {
-        search.cut.at[axis_index(search, search.tied++)] = value;
-        const std::size_t axis = axis_index(search, search.tied);
-        search.lower = -extents[axis];
-        search.upper = std::nextafter(extents[max_dimension + axis], infinity);
-        search.by_bits = 0;
-        return;
-    }
-    Vector position{};
-    position[axis_index(search, search.tied)] = value;
-    finish_among_ties(search, target, position,
-                      {target.base_count, target.num_candidates, target.base, weight});
+    search.cut.at[axis_index(search, search.tied)] = value;
+    if (search.tied + 1 == search.num_axes)
+        return finish_among_ties(search, target, Vector(search.cut.at),
+                                 {target.base_count, target.num_candidates, target.base, weight});
+    const std::size_t axis = axis_index(search, ++search.tied);
+    search.lower = -extents[axis];
+    search.upper = std::nextafter(extents[max_dimension + axis], infinity);
+    search.by_bits = 0;
 }
 
 /// Goes on with the candidates in the chosen slot, of which the histogram has the weight and their
@@ -116,7 +151,69 @@ void narrow_on_lines(CutSearch& search, const CutTarget& target, const Histogram
     search.stage = CutSearch::over_candidates;
 }
 
+/// A point that may still end on either side of a cut.
+struct Candidate {
+    Vector position{};
+    double weight = 0;
+};
+
+/// Returns candidates in an order that does not depend on their routes to the owner.
+std::vector<Candidate> sorted_candidates(std::span<const double> records, int dimension,
+                                         const PositionOrder& before) {
+    const int length = dimension + 1;
+    std::vector<Candidate> candidates(records.size() / length);
+    for (Candidate& candidate : candidates) {
+        std::ranges::copy(records.first(dimension), candidate.position.begin());
+        candidate.weight = records[dimension];
+        records = records.subspan(length);
+    }
+    std::ranges::sort(candidates, {},
+                      [](const Candidate& one) { return std::tie(one.position, one.weight); });
+    std::ranges::stable_sort(candidates, before, &Candidate::position);
+    return candidates;
+}
+
+/// Candidates in two groups: those below the cut come first.
+struct Division {
+    GlobalCount count = 0;  ///< points of the node below the cut
+    double below = 0;       ///< their weight
+    Ties ties{};            ///< candidates that hold the target, if there are several
+};
+
+/// Returns the division with the least excess of sorted candidates, all above the base of the
+/// target.
+Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
+                       const CutTarget& target) {
+    Division best{target.base_count, target.base, {}};
+    double below = target.base;
+    Ties ties{target.base_count, 0, below, 0};
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+        below += sorted[k].weight;
+        if (k + 1 < sorted.size() && !before(sorted[k].position, sorted[k + 1].position)) continue;
+        const GlobalCount count = target.base_count + static_cast<GlobalCount>(k + 1);
+        ties.count = count - ties.begin;
+        ties.weight = below - ties.below;
+        if (ties.count > 1 && ties.below < target.target && target.target < below) best.ties = ties;
+        ties = {count, 0, below, 0};
+        if (target.excess(below, count) >= target.excess(best.below, best.count)) continue;
+        best.count = count;
+        best.below = below;
+    }
+    return best;
+}
+
+/// Returns the middle of two coordinates, or `above` if no double is between them.
+double middle_of(double below, double above) {
+    const double middle = below / 2 + above / 2;
+    return middle > below ? middle : above;
+}
+
 }  // namespace
+
+void move_behind(CutSearch& search) {
+    double& value = search.cut.at[axis_index(search, search.num_axes - 1)];
+    value = std::nextafter(value, infinity);
+}
 
 int current_axis(const CutSearch& search) {
     return static_cast<int>(axis_index(search, search.tied));
@@ -155,6 +252,49 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
     } else {
         narrow(search, target, layout, histogram);
     }
+}
+
+void centre(Cut& cut, int num_axes, std::span<const double> gap) {
+    for (int k = 0; k < num_axes; ++k) {
+        const double above = -gap[std::size_t{2} * k];
+        const double below = gap[std::size_t{2} * k + 1];
+        if (below == above) continue;
+        const bool is_empty = below == -infinity && above == infinity;
+        if (is_empty) return;
+        cut.at[ordering_axis(cut.axis, k)] =
+            above == infinity ? std::nextafter(below, infinity) : middle_of(below, above);
+        while (++k < num_axes) cut.at[ordering_axis(cut.axis, k)] = -infinity;
+    }
+}
+
+bool decide_among(CutSearch& search, const CutTarget& target, std::span<const double> records,
+                  int dimension) {
+    const PositionOrder before{search.cut.axis, search.tied, search.num_axes};
+    const std::vector<Candidate> candidates = sorted_candidates(records, dimension, before);
+    const Division division = best_division(candidates, before, target);
+    const auto best = static_cast<std::size_t>(division.count - target.base_count);
+    search.coincident = division.ties.count > 0 ? 1 : 0;
+    const Ties& ties = division.ties;
+    const bool good = target.excess(division.below, division.count) <= target.slack;
+    if (search.coincident != 0 && target.divides && !good) {
+        finish_among_ties(search, target, candidates[ties.begin - target.base_count].position,
+                          ties);
+        return false;
+    }
+    if (best == 0 || best == candidates.size()) {
+        finish(search, best == 0 ? search.lower : search.upper, division.below);
+        return false;
+    }
+    const Vector& last_below = candidates[best - 1].position;
+    const Vector& first_above = candidates[best].position;
+    // The two positions differ along an open axis, because the division is between them.
+    std::size_t axis = 0;
+    while (axis = axis_index(search, search.tied), last_below[axis] == first_above[axis]) {
+        search.cut.at[axis] = first_above[axis];
+        ++search.tied;
+    }
+    finish(search, middle_of(last_below[axis], first_above[axis]), division.below);
+    return true;
 }
 
 }  // namespace rrcb

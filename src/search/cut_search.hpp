@@ -100,22 +100,6 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
 bool decide_among(CutSearch& search, const CutTarget& target, std::span<const double> records,
                   int dimension);
 
-/// Points at one position, and those below them.
-struct Ties {
-    GlobalCount begin = 0;  ///< number of the points below
-    GlobalCount count = 0;
-    double below = 0;
-    double weight = 0;
-};
-
-/// Ends the search with a coordinate on its axis.
-void finish(CutSearch& search, double value, double below);
-
-/// Ends among points that no cut separates: divides them, or leaves all of them on the side with
-/// the smaller excess.
-void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
-                       const Ties& ties);
-
 /// Moves a cut to the middle of its Gap; `num_axes` of them may break ties. With points on one side
 /// only it moves next to these.
 void centre(Cut& cut, int num_axes, std::span<const double> gap);

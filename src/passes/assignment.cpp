@@ -154,24 +154,6 @@ class Counter {
     std::vector<std::array<LocalIndex, num_turns>> counts_;
 };
 
-}  // namespace
-
-bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts) {
-    if (points.count == 0) return true;
-    const NonStop arithmetic;
-    return Assigner(cuts, points).run(points, parts, [](LocalIndex, LocalIndex) {});
-}
-
-void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
-    check_positions(points, cuts);
-    require(parts.size() == points.count, "parts must have one entry per point");
-    if (!locally([&] { return assign_known(cuts, points, parts); })) reject_coordinates(points);
-    if (!is_whole(cuts) && std::ranges::any_of(parts, is_unknown)) reject_unknown();
-    number_parts(cuts, parts);
-}
-
-namespace {
-
 /// Returns totals of the ends of the tree.
 KnownTotals count_ends(Assigner& assigner, const Points& points, std::span<Part> parts) {
     const std::size_t num_bins = assigner.parts_of_bins().size();
@@ -200,6 +182,20 @@ KnownTotals count_ends(Assigner& assigner, const Points& points, std::span<Part>
 }
 
 }  // namespace
+
+bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    if (points.count == 0) return true;
+    const NonStop arithmetic;
+    return Assigner(cuts, points).run(points, parts, [](LocalIndex, LocalIndex) {});
+}
+
+void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    check_positions(points, cuts);
+    require(parts.size() == points.count, "parts must have one entry per point");
+    if (!locally([&] { return assign_known(cuts, points, parts); })) reject_coordinates(points);
+    if (!is_whole(cuts) && std::ranges::any_of(parts, is_unknown)) reject_unknown();
+    number_parts(cuts, parts);
+}
 
 KnownTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     const NonStop arithmetic;

@@ -1,8 +1,5 @@
-#include "passes/collected.hpp"
-
-#include "arithmetic/infinity.hpp"
 #include "arithmetic/running_sums.hpp"
-#include "passes/assignment.hpp"
+#include "passes/host_passes.hpp"
 #include "passes/point_layout.hpp"
 
 #include <algorithm>
@@ -67,91 +64,83 @@ void visit_in_blocks(const Points& points, const Test& is_found, Visit&& visit) 
 
 }  // namespace
 
-void collect(const Points& points, const Cuts& cuts, std::span<const Bracket> intervals,
-             bool has_parts, std::span<Part> parts, Collected& collected) {
-    clear(points, collected);
-    collected.settled = assign_settled(cuts, intervals, points, has_parts, parts);
-    const auto is_open = [&](const auto&, LocalIndex i) { return parts[i] < 0; };
-    visit_in_blocks(points, is_open, [&](const auto& x, std::span<const LocalIndex> open) {
-        append(x, points, open, collected);
+void HostPasses::collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
+                         Collected& collected) {
+    clear(points_, collected);
+    collected.settled = assign_settled(cuts, intervals, points_, has_parts, parts_);
+    const auto is_open = [&](const auto&, LocalIndex i) { return parts_[i] < 0; };
+    visit_in_blocks(points_, is_open, [&](const auto& x, std::span<const LocalIndex> open) {
+        append(x, points_, open, collected);
     });
 }
 
-void collect_all(const Points& points, Collected& collected) {
-    clear(points, collected);
-    resize(points.count, points, collected);
-    visit_layout(points, [&](const auto& x) {
-        for (LocalIndex i = 0; i < points.count; ++i) copy(x, points, i, i, collected);
+void HostPasses::collect_all(Collected& collected) const {
+    clear(points_, collected);
+    resize(points_.count, points_, collected);
+    visit_layout(points_, [&](const auto& x) {
+        for (LocalIndex i = 0; i < points_.count; ++i) copy(x, points_, i, i, collected);
     });
 }
 
 namespace {
 
-/// What the points of a part are collected for; none if the interval is empty.
-struct WantedOfPart {
-    double lower = infinity;
-    double upper = -infinity;
-    int axis = 0;
-    std::size_t wanted = 0;
-};
-
-/// Returns an entry for each part, behind one for points without a part.
-std::vector<WantedOfPart> wanted_of_parts(std::span<const Wanted> wanted, std::size_t num_parts) {
-    std::vector<WantedOfPart> of_parts(num_parts + 1);
+/// Returns which of the wanted nodes holds each part, or their number; behind an entry for points
+/// without a part.
+std::vector<std::size_t> wanted_of_parts(std::span<const Wanted> wanted, std::size_t num_parts) {
+    std::vector<std::size_t> of_parts(num_parts + 1, wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k)
-        std::fill_n(
-            of_parts.begin() + wanted[k].first_part + 1, wanted[k].num_parts,
-            WantedOfPart{wanted[k].interval.lower, wanted[k].interval.upper, wanted[k].axis, k});
+        std::fill_n(of_parts.begin() + wanted[k].first_part + 1, wanted[k].num_parts, k);
     return of_parts;
 }
 
-/// Weighs once more the points that are left in parts.
-void weigh_again(const Points& points, std::span<const Part> parts,
-                 std::span<const WantedOfPart> of_parts, std::vector<double>& part_weights) {
-    RunningSums<double> weights(of_parts.size());
+/// Returns the sums of the weights of the points in parts, behind those of points without one.
+std::vector<double> weigh(const Points& points, std::span<const Part> parts,
+                          std::size_t num_parts) {
+    RunningSums<double> weights(num_parts + 1);
     in_ranges(points.count, weights.interval(), [&](LocalIndex first, LocalIndex last) {
         for (LocalIndex i = first; i < last; ++i) weights[parts[i] + 1] += points.weights[i];
         weights.empty();
     });
-    for (std::size_t p = 0; p < part_weights.size(); ++p)
-        if (of_parts[p + 1].lower < of_parts[p + 1].upper)
-            part_weights[p] = weights.totals()[p + 1];
+    return weights.totals();
 }
 
 }  // namespace
 
-std::vector<std::size_t> collect_more(const Points& points, std::span<const Wanted> wanted,
-                                      std::span<Part> parts, Collected& collected) {
-    const std::vector<WantedOfPart> of_parts =
-        wanted_of_parts(wanted, collected.settled.weights.size());
+std::vector<std::size_t> HostPasses::collect_more(std::span<const Wanted> wanted,
+                                                  Collected& collected) {
+    PartTotals& settled = collected.settled;
+    const auto of_parts = wanted_of_parts(wanted, settled.weights.size());
+    std::vector<Wanted> all(wanted.begin(), wanted.end());
+    all.emplace_back();  // empty, of the other parts
     std::vector<std::size_t> found;
     const auto is_found = [&](const auto& x, LocalIndex i) {
-        const WantedOfPart& node = of_parts[parts[i] + 1];
-        const double value = x(i, node.axis);
-        return value >= node.lower && value < node.upper;
+        const Wanted& node = all[of_parts[parts_[i] + 1]];
+        return node.contains(x(i, node.axis));
     };
-    visit_in_blocks(points, is_found, [&](const auto& x, std::span<const LocalIndex> open) {
+    visit_in_blocks(points_, is_found, [&](const auto& x, std::span<const LocalIndex> open) {
         for (const LocalIndex i : open) {
-            const Part part = std::exchange(parts[i], no_part);
-            found.push_back(of_parts[part + 1].wanted);
-            collected.settled.counts[part] -= 1;
+            const Part part = std::exchange(parts_[i], no_part);
+            found.push_back(of_parts[part + 1]);
+            settled.counts[part] -= 1;
         }
-        append(x, points, open, collected);
+        append(x, points_, open, collected);
     });
-    if (points.weights.empty()) {
-        collected.settled.weights = collected.settled.counts;
-    } else {
-        weigh_again(points, parts, of_parts, collected.settled.weights);
+    if (points_.weights.empty()) {
+        settled.weights = settled.counts;
+        return found;
     }
+    const std::vector<double> weights = weigh(points_, parts_, settled.weights.size());
+    for (std::size_t p = 0; p < settled.weights.size(); ++p)
+        if (of_parts[p + 1] < wanted.size()) settled.weights[p] = weights[p + 1];
     return found;
 }
 
-std::vector<Box> boxes_of_parts(const Points& points, std::span<const Part> parts, int num_parts) {
+std::vector<Box> HostPasses::boxes(int num_parts) {
     std::vector<Box> boxes(static_cast<std::size_t>(num_parts));
-    visit_layout(points, [&]<class Layout>(const Layout& x) {
-        for (LocalIndex i = 0; i < points.count; ++i) {
-            if (parts[i] < 0) continue;
-            Box& box = boxes[parts[i]];
+    visit_layout(points_, [&]<class Layout>(const Layout& x) {
+        for (LocalIndex i = 0; i < points_.count; ++i) {
+            if (parts_[i] < 0) continue;
+            Box& box = boxes[parts_[i]];
             for (std::size_t a = 0; a < static_cast<std::size_t>(Layout::dimension); ++a) {
                 box.lower[a] = std::min(box.lower[a], x(i, static_cast<int>(a)));
                 box.upper[a] = std::max(box.upper[a], x(i, static_cast<int>(a)));

@@ -1,13 +1,27 @@
 #pragma once
 
 #include "cuts/axis_limits.hpp"
+#include "passes/bins.hpp"
 
-#include <rrcb/points.hpp>
+#include <rrcb/passes.hpp>
 
 #include <cstddef>
 #include <span>
 
 namespace rrcb {
+
+/// Indices of collected points.
+using Entries = detail::Uninitialized<LocalIndex>;
+
+/// Weight and number of points.
+struct Total {
+    double weight = 0;
+    double count = 0;
+
+    friend Total operator+(const Total& a, const Total& b) {
+        return {a.weight + b.weight, a.count + b.count};
+    }
+};
 
 /// Layout of a histogram, the data of one search in a round: weights and counts in the slots of a
 /// bracket.
@@ -39,8 +53,23 @@ inline std::span<const double> counts_in(std::span<const double> histogram,
     return histogram.subspan(layout.first_count(), layout.num_slots());
 }
 
-/// Joins the histogram of other ranks. Any order gives the same bits if weights
-/// are multiples of a common quantum.
+/// Adds collected points: weights and counts in bins across an axis, and extents.
+void count(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
+           const HistogramLayout& layout, std::span<double> histogram);
+
+/// Adds settled points of a box to a slot.
+void count_settled(const Total& total, const Box& box, int slot, const HistogramLayout& layout,
+                   std::span<double> histogram);
+
+/// Rounds the weights to multiples of a quantum.
+void round_weights(double quantum, const HistogramLayout& layout, std::span<double> histogram);
+
+/// Joins the histogram of other ranks. Any order gives the same bits if weights are multiples of a
+/// common quantum.
 void join_histograms(std::span<const double> other, std::span<double> histogram);
+
+/// Returns the entries from `lower` to below `upper` across an axis.
+Entries between(double lower, double upper, int axis, const Entries& entries,
+                const Collected& collected);
 
 }  // namespace rrcb

@@ -1,8 +1,6 @@
 #include "passes/host_passes.hpp"
 
 #include "options/validation.hpp"
-#include "passes/binned_points.hpp"
-#include "passes/collected.hpp"
 #include "passes/summary.hpp"
 
 #include <rrcb/detail/sample.hpp>
@@ -37,10 +35,6 @@ PointSample HostPasses::sample(LocalIndex size) {
     return sample;
 }
 
-std::vector<CellMoments> HostPasses::moments(const SupportMesh& mesh) {
-    return cell_moments(bin_by_cell(points_, mesh));
-}
-
 PartTotals HostPasses::assign(const Cuts& cuts, bool counts) {
     if (counts) return assign_known(cuts);
     if (!rrcb::assign_known(cuts, points_, parts_)) reject_coordinates(points_);
@@ -51,20 +45,6 @@ KnownTotals HostPasses::assign_known(const Cuts& cuts) {
     KnownTotals totals = assign_and_count(cuts, points_, parts_);
     if (!totals.all_finite) reject_coordinates(points_);
     return totals;
-}
-
-void HostPasses::collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
-                         Collected& collected) {
-    rrcb::collect(points_, cuts, intervals, has_parts, parts_, collected);
-}
-
-std::vector<std::size_t> HostPasses::collect_more(std::span<const Wanted> wanted,
-                                                  Collected& collected) {
-    return rrcb::collect_more(points_, wanted, parts_, collected);
-}
-
-std::vector<Box> HostPasses::boxes(int num_parts) {
-    return boxes_of_parts(points_, parts_, num_parts);
 }
 
 void HostPasses::settle(const Collected& collected, std::span<const Part> parts) {

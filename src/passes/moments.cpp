@@ -1,8 +1,9 @@
 #include "arithmetic/running_sums.hpp"
+#include "arithmetic/safe_scale.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
-#include "passes/binned_points.hpp"
 #include "passes/cell_finder.hpp"
+#include "passes/host_passes.hpp"
 
 #include <rrcb/method/moments.hpp>
 
@@ -14,27 +15,27 @@ namespace rrcb {
 
 namespace {
 
-/// Origins of the cells, and the sums about them.
-template <std::size_t Dimension>
-struct Centred {
-    std::vector<std::array<double, Dimension>> origins;
-    std::vector<MomentSums<Dimension>> sums;
+/// Sums over the points of one cell, d relative to its origin, in scaled lengths.
+template <std::size_t Dimension, bool Weighted>
+struct CellSum {
+    std::array<double, Dimension> first{};                                ///< of w d
+    std::array<double, Dimension> second{};                               ///< of w d^2
+    [[no_unique_address]] std::array<double, Weighted ? 1 : 0> weight{};  ///< of all, if given
+
+    CellSum& operator+=(const CellSum& other) {
+        for (std::size_t a = 0; a < Dimension; ++a) first[a] += other.first[a];
+        for (std::size_t a = 0; a < Dimension; ++a) second[a] += other.second[a];
+        if constexpr (Weighted) weight[0] += other.weight[0];
+        return *this;
+    }
 };
 
-template <std::size_t Dimension>
-Centred<Dimension> sums_about_first_points(const BinnedPoints& binned) {
-    const std::size_t num_cells = binned.counts.size();
-    Centred<Dimension> result{decltype(result.origins)(num_cells),
-                              decltype(result.sums)(num_cells)};
-    for (std::size_t cell = 0; cell < num_cells; ++cell) {
-        std::copy_n(&binned.origins[cell * Dimension], Dimension, result.origins[cell].begin());
-        std::copy_n(&binned.first_moments[cell * Dimension], Dimension,
-                    result.sums[cell].first.begin());
-        std::copy_n(&binned.second_moments[cell * Dimension], Dimension,
-                    result.sums[cell].second.begin());
-    }
-    return result;
-}
+/// A cell while points are added: 64 bytes in 2-D, a size that is cheap to multiply by.
+template <std::size_t Dimension, bool Weighted>
+struct alignas(2 * sizeof(double)) RunningCell : CellSum<Dimension, Weighted> {
+    std::array<double, Dimension> origin{};  ///< its first point, unless another is set
+    LocalIndex num_others = -1;              ///< number of its points, less one
+};
 
 /// Returns true if an origin is too far from the mean. The variance is the mean of the squares less
 /// the square of that distance; it would lose more than a digit.
@@ -44,88 +45,143 @@ bool is_far_off(double first, double second, double weight) {
     return rest * rest * (most_variances + 1) > second / weight * most_variances;
 }
 
-/// Moves far-off origins to the mean. Only a first point that is an outlier among many is so far
-/// off: of n points of equal weight none is more than sqrt(n) standard deviations from the mean.
-template <std::size_t Dimension>
-bool move_origins(const BinnedPoints& binned, Centred<Dimension>& cells) {
-    bool moved = false;
-    for (std::size_t cell = 0; cell < cells.sums.size(); ++cell) {
-        const double weight = binned.scaled_weight(cell);
-        if (!(weight > 0)) continue;
-        for (std::size_t a = 0; a < Dimension; ++a) {
-            const MomentSums<Dimension>& sums = cells.sums[cell];
-            if (!is_far_off(sums.first[a], sums.second[a], weight)) continue;
-            cells.origins[cell][a] += sums.first[a] / weight;
-            moved = true;
-        }
-    }
-    return moved;
+/// Returns a power of two that keeps weights times squared lengths in range.
+double scale_of_weights(std::span<const double> weights) {
+    constexpr int harmless_exponent = 200;
+    return safe_scale(weights.empty() ? 0 : std::ranges::max(weights), harmless_exponent);
 }
 
-struct Unweighted {
-    double operator()(LocalIndex) const { return 1; }
-};
+/// Finds the cells of a block of points by vectors, and adds the block up while it is in the cache.
+template <class Layout, bool Weighted>
+class Binner {
+    static constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
+    using Position = std::array<double, dimension>;
+    using Sum = CellSum<dimension, Weighted>;
+    using Running = RunningCell<dimension, Weighted>;
 
-struct Weighted {
-    const double* weights;
-    double scale;
-    double operator()(LocalIndex i) const { return weights[i] * scale; }
-};
+  public:
+    Binner(const Layout& x, const Points& points, const SupportMesh& mesh)
+        : x_(x),
+          points_(points),
+          mesh_(mesh),
+          weight_scale_(scale_of_weights(points.weights)),
+          sums_(num_cells(mesh)) {
+        std::copy_n(mesh.scale.begin(), dimension, scale_.begin());
+    }
 
-/// Sums every cell up again, about its new origin.
-template <class Layout, class Weight>
-void sum_again(const Layout& x, const BinnedPoints& binned, const Weight& weight,
-               Centred<static_cast<std::size_t>(Layout::dimension)>& cells) {
-    constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
-    std::array<double, dimension> scale;
-    std::copy_n(binned.mesh.scale.begin(), dimension, scale.begin());
-    RunningSums<MomentSums<dimension>> sums(cells.origins.size());
-    const CellFinder finder(binned.mesh);
-    in_ranges(binned.points.count, sums.interval(), [&](LocalIndex begin, LocalIndex end) {
-        visit_cells(finder, x, begin, end, [&](LocalIndex i, std::size_t cell) {
-            const std::array<double, dimension>& origin = cells.origins[cell];
-            MomentSums<dimension>& sum = sums[cell];
-            const double w = weight(i);
-            for (std::size_t a = 0; a < dimension; ++a) {
-                const double d = x(i, static_cast<int>(a)) * scale[a] - origin[a];
-                sum.first[a] += w * d;
-                sum.second[a] += w * d * d;
-            }
+    std::vector<CellMoments> run() {
+        add_up();
+        if (move_origins()) add_up();
+        std::vector<CellMoments> cells;
+        for (LocalIndex cell = 0; cell < sums_.totals().size(); ++cell)
+            if (weight_of(cell) > 0) cells.push_back(moments_of(cell));
+        return cells;
+    }
+
+  private:
+    void add_up() {
+        const auto add = adder();
+        const CellFinder finder(mesh_);
+        in_ranges(points_.count, sums_.interval(), [&](LocalIndex first, LocalIndex last) {
+            visit_cells(finder, x_, first, last, add);
+            sums_.empty();
         });
-        sums.empty();
-    });
-    cells.sums = sums.totals();
-}
-
-template <std::size_t Dimension>
-CellMoments moments_of(const BinnedPoints& binned, LocalIndex cell,
-                       const std::array<double, Dimension>& origin,
-                       const MomentSums<Dimension>& sums) {
-    const Vector& scale = binned.mesh.scale;
-    const double weight = binned.scaled_weight(cell);
-    CellMoments result{cell, cell_box(binned.mesh, cell), {}};
-    result.moments.count = static_cast<GlobalCount>(binned.counts[cell]);
-    result.moments.weight = weight / binned.weight_scale;
-    for (std::size_t a = 0; a < Dimension; ++a) {
-        // No more than a digit is lost: see is_far_off.
-        const double rest = sums.first[a] / weight;
-        result.moments.mean[a] = (origin[a] + rest) / scale[a];
-        result.moments.deviation[a] =
-            std::sqrt(std::max(0.0, sums.second[a] / weight - rest * rest)) / scale[a];
     }
-    return result;
-}
 
-template <class Layout, class Weight>
-std::vector<CellMoments> moments_of_cells(const Layout& x, const BinnedPoints& binned,
-                                          const Weight& weight) {
-    constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
-    Centred<dimension> centred = sums_about_first_points<dimension>(binned);
-    if (move_origins(binned, centred)) sum_again(x, binned, weight, centred);
-    std::vector<CellMoments> cells;
-    for (LocalIndex cell = 0; cell < binned.counts.size(); ++cell)
-        if (binned.scaled_weight(cell) > 0)
-            cells.push_back(moments_of(binned, cell, centred.origins[cell], centred.sums[cell]));
+    /// Returns a function that adds point `i` to its cell. It captures copies, so that the compiler
+    /// knows that nothing overlaps the sums.
+    auto adder() {
+        return [points = x_, scale = scale_, cells = &sums_[0], weights = points_.weights.data(),
+                weight_scale = weight_scale_](LocalIndex i, std::size_t number) {
+            static_cast<void>(weight_scale);  // unused without weights, which Clang reports
+            Running& cell = cells[number];
+            Position x;
+            for (std::size_t a = 0; a < dimension; ++a)
+                x[a] = points(i, static_cast<int>(a)) * scale[a];
+            if (++cell.num_others == 0) cell.origin = x;
+            // Copies, and one loop for each sum: otherwise the loops would not be vectorized.
+            for (std::size_t a = 0; a < dimension; ++a) x[a] -= cell.origin[a];
+            Position moment = x;
+            [[maybe_unused]] const double weight = Weighted ? weights[i] * weight_scale : 1;
+            if constexpr (Weighted) {
+                cell.weight[0] += weight;
+                for (double& value : moment) value *= weight;
+            }
+            for (std::size_t a = 0; a < dimension; ++a) cell.first[a] += moment[a];
+            for (std::size_t a = 0; a < dimension; ++a) cell.second[a] += moment[a] * x[a];
+        };
+    }
+
+    LocalIndex count_of(LocalIndex cell) { return sums_[cell].num_others + num_origins_; }
+
+    /// Returns the scaled weight of a cell.
+    double weight_of(LocalIndex cell) {
+        if constexpr (Weighted)
+            return sums_.totals()[cell].weight[0];
+        else
+            return static_cast<double>(count_of(cell));
+    }
+
+    /// Moves far-off origins to the mean and forgets the sums; returns false if all are near. Only
+    /// a first point that is an outlier among many is so far off: of n points of equal weight none
+    /// is more than sqrt(n) standard deviations from the mean.
+    bool move_origins() {
+        RunningSums<Sum, Running> moved(sums_.totals().size());
+        bool is_moved = false;
+        for (LocalIndex cell = 0; cell < sums_.totals().size(); ++cell) {
+            const Sum& sum = sums_.totals()[cell];
+            const double weight = weight_of(cell);
+            moved[cell].origin = sums_[cell].origin;
+            moved[cell].num_others = 0;
+            for (std::size_t a = 0; a < dimension; ++a) {
+                if (!(weight > 0) || !is_far_off(sum.first[a], sum.second[a], weight)) continue;
+                moved[cell].origin[a] += sum.first[a] / weight;
+                is_moved = true;
+            }
+        }
+        if (!is_moved) return false;
+        sums_ = std::move(moved);
+        num_origins_ = 0;
+        return true;
+    }
+
+    CellMoments moments_of(LocalIndex cell) {
+        const Sum& sum = sums_.totals()[cell];
+        const double weight = weight_of(cell);
+        CellMoments result{cell, cell_box(mesh_, cell), {}};
+        result.moments.count = static_cast<GlobalCount>(count_of(cell));
+        result.moments.weight = weight / weight_scale_;
+        for (std::size_t a = 0; a < dimension; ++a) {
+            // No more than a digit is lost: see is_far_off.
+            const double rest = sum.first[a] / weight;
+            result.moments.mean[a] = (sums_[cell].origin[a] + rest) / scale_[a];
+            result.moments.deviation[a] =
+                std::sqrt(std::max(0.0, sum.second[a] / weight - rest * rest)) / scale_[a];
+        }
+        return result;
+    }
+
+    Layout x_;
+    const Points& points_;
+    const SupportMesh& mesh_;
+    double weight_scale_;
+    Position scale_{};
+    RunningSums<Sum, Running> sums_;
+    LocalIndex num_origins_ = 1;  ///< points of a cell that are its origin
+};
+
+/// Returns the moments of cells as cell_moments(), of points that are not checked. One pass, or two
+/// if the first point of a cell is far off.
+std::vector<CellMoments> moments_of_cells(const Points& points, const SupportMesh& mesh) {
+    auto cells = visit_layout(points, [&]<class Layout>(const Layout& x) {
+        return points.weights.empty() ? Binner<Layout, false>(x, points, mesh).run()
+                                      : Binner<Layout, true>(x, points, mesh).run();
+    });
+    if (!cells.empty() || points.weights.empty()) return cells;
+    Points unweighted = points;
+    unweighted.weights = {};
+    cells = moments_of_cells(unweighted, mesh);
+    for (CellMoments& cell : cells) cell.moments.weight = 0;
     return cells;
 }
 
@@ -164,30 +220,14 @@ Moments merge(const Moments& a, const Moments& b) {
     return joint;
 }
 
-std::vector<CellMoments> cell_moments(const BinnedPoints& binned) {
-    const Points& points = binned.points;
-    const bool weightless =
-        !points.weights.empty() &&
-        std::ranges::none_of(binned.weights, [](double weight) { return weight > 0; });
-    if (weightless) {
-        Points unweighted = points;
-        unweighted.weights = {};
-        auto cells = cell_moments(bin_by_cell(unweighted, binned.mesh));
-        for (CellMoments& cell : cells) cell.moments.weight = 0;
-        return cells;
-    }
-    return visit_layout(points, [&](const auto& x) {
-        return points.weights.empty()
-                   ? moments_of_cells(x, binned, Unweighted{})
-                   : moments_of_cells(x, binned,
-                                      Weighted{points.weights.data(), binned.weight_scale});
-    });
+std::vector<CellMoments> HostPasses::moments(const SupportMesh& mesh) {
+    return moments_of_cells(points_, mesh);
 }
 
 std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh) {
     check_arrays(points);
     require(points.dimension == mesh.dimension, "the mesh must have the dimension of the points");
-    return locally([&] { return cell_moments(bin_by_cell(points, mesh)); });
+    return locally([&] { return moments_of_cells(points, mesh); });
 }
 
 }  // namespace rrcb

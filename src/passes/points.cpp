@@ -2,7 +2,7 @@
 #include "arithmetic/vector_clones.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
-#include "passes/box.hpp"
+#include "passes/summary.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -3,7 +3,6 @@
 #include "arithmetic/position_order.hpp"
 #include "arithmetic/running_sums.hpp"
 #include "options/validation.hpp"
-#include "passes/box.hpp"
 #include "passes/point_layout.hpp"
 
 #include <algorithm>

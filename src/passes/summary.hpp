@@ -12,4 +12,8 @@ PointSummary summary_of_weights(const Points& points);
 /// coordinate that is NaN or infinite and their number.
 PointSummary summary_of(const Points& points);
 
+/// Returns the box of points in their arrays, as bounding_box() does: NaN along an axis with a
+/// coordinate that is not finite. May raise floating-point exceptions.
+Box box_of(const Points& points);
+
 }  // namespace rrcb

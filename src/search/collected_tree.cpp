@@ -34,62 +34,51 @@ CollectedTree::CollectedTree(PointPasses& points, const Cuts& cuts,
                              OpenPoints&& memory)
     : points_(points),
       collected_(std::move(memory)),
-      arrived_(cuts.tree.size() + 1),
+      cuts_(&cuts),
       steps_(cuts.tree.size()),
+      arrived_(cuts.tree.size() + 1),
       waiting_(cuts.tree.size()) {
     points_.collect(cuts, intervals, has_parts, collected_);
     collected_.parts.assign(collected_.count(), no_part);
-    add_steps(root_of(cuts), cuts, intervals);
-    const Place root{0, 0, cuts.num_parts};
-    for (LocalIndex i = 0; i < collected_.count(); ++i) send(root, i);
+    add_steps(root_of(cuts), intervals);
+    for (LocalIndex i = 0; i < collected_.count(); ++i) send(root_of(cuts), i);
 }
 
-void CollectedTree::add_steps(const Descent& at, const Cuts& cuts,
-                              std::span<const Bracket> intervals) {
+void CollectedTree::add_steps(const Descent& at, std::span<const Bracket> intervals) {
     if (at.is_part()) return;
-    steps_[at.node] = {intervals[at.node], cuts.tree[at.node].axis, at.lower_parts()};
-    add_steps(at.lower(), cuts, intervals);
-    add_steps(at.upper(), cuts, intervals);
+    steps_[at.node] = {intervals[at.node], cuts_->tree[at.node].axis, at.lower_parts()};
+    add_steps(at.lower(), intervals);
+    add_steps(at.upper(), intervals);
 }
 
-std::vector<Entries> CollectedTree::collect_more(std::span<const std::size_t> nodes,
-                                                 std::span<const Wanted> wanted) {
-    for (std::size_t k = 0; k < wanted.size(); ++k) steps_[nodes[k]].interval = wanted[k].interval;
-    std::vector<Entries> found = reopen(nodes, wanted);
+std::vector<Entries> CollectedTree::collect_more(std::span<const Descent> nodes,
+                                                 std::span<const Bracket> intervals) {
+    std::vector<Wanted> wanted;
+    std::vector<Entries> below(nodes.size());
+    std::vector<std::size_t> node_of_part(arrived_.size(), nodes.size());
+    part_boxes_.clear();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const Descent& at = nodes[k];
+        steps_[at.node].interval = intervals[k];
+        wanted.push_back({at.first_part, at.num_parts, steps_[at.node].axis, intervals[k]});
+        for (Entries& some : waiting_below(at)) {
+            below[k].insert(below[k].end(), some.begin(), some.end());
+            some.clear();
+        }
+        std::fill_n(node_of_part.begin() + at.first_part, at.num_parts, k);
+        std::fill_n(arrived_.begin() + at.first_part, at.num_parts, Total{});
+    }
+    for (LocalIndex i = 0; i < collected_.count(); ++i) {
+        Part& part = collected_.parts[i];
+        if (part == no_part || node_of_part[part] == nodes.size()) continue;
+        below[node_of_part[part]].push_back(i);
+        part = no_part;
+    }
+    std::vector<Entries> found;
+    for (std::size_t k = 0; k < nodes.size(); ++k) found.push_back(admit(nodes[k], below[k]));
     LocalIndex next = collected_.count();
     for (const std::size_t k : points_.collect_more(wanted, collected_)) found[k].push_back(next++);
     collected_.parts.resize(next, no_part);
-    part_boxes_.clear();
-    return found;
-}
-
-/// Returns the entries in the new intervals of nodes that wait below these, or have arrived.
-std::vector<Entries> CollectedTree::reopen(std::span<const std::size_t> nodes,
-                                           std::span<const Wanted> wanted) {
-    std::vector<Entries> found(wanted.size());
-    const auto takes = [&](std::size_t k, LocalIndex i) {
-        const bool is_inside = wanted[k].contains(collected_.coordinate(i, wanted[k].axis));
-        if (is_inside) found[k].push_back(i);
-        return is_inside;
-    };
-    std::vector<std::size_t> wanted_of_part(arrived_.size(), wanted.size());
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-        for (int below = 1; below + 1 < wanted[k].num_parts; ++below)
-            std::erase_if(waiting_[nodes[k] + static_cast<std::size_t>(below)],
-                          [&](LocalIndex i) { return takes(k, i); });
-        std::fill_n(wanted_of_part.begin() + wanted[k].first_part, wanted[k].num_parts, k);
-        std::fill_n(arrived_.begin() + wanted[k].first_part, wanted[k].num_parts, Total{});
-    }
-    for (LocalIndex i = 0; i < collected_.parts.size(); ++i) {
-        Part& part = collected_.parts[i];
-        const std::size_t k = part == no_part ? wanted.size() : wanted_of_part[part];
-        if (k == wanted.size()) continue;
-        if (takes(k, i)) {
-            part = no_part;
-        } else {
-            arrived_[part] = arrived_[part] + Total{collected_.weight(i), 1};
-        }
-    }
     return found;
 }
 
@@ -99,36 +88,30 @@ Entries CollectedTree::all() const {
     return entries;
 }
 
-/// Returns the part of a point, or the first node at or below `at` where it waits.
-CollectedTree::Place CollectedTree::descend(Place at, LocalIndex i) const {
-    while (at.num_parts > 1) {
-        const Step& step = steps_[at.node];
+/// Lets a point go down to its part, or to the first node where it waits.
+void CollectedTree::send(const Descent& from, LocalIndex i) {
+    std::size_t node = from.node;
+    Part first_part = from.first_part;
+    int num_parts = from.num_parts;
+    while (num_parts > 1) {
+        const Step& step = steps_[node];
         const double x = collected_.coordinate(i, step.axis);
         if (x < step.interval.lower) {
-            at = {at.node + 1, at.first_part, step.lower_parts};
+            ++node;
+            num_parts = step.lower_parts;
         } else if (x >= step.interval.upper) {
-            at = {at.node + static_cast<std::size_t>(step.lower_parts),
-                  at.first_part + step.lower_parts, at.num_parts - step.lower_parts};
+            node += static_cast<std::size_t>(step.lower_parts);
+            first_part += step.lower_parts;
+            num_parts -= step.lower_parts;
         } else {
-            break;
+            return waiting_[node].push_back(i);
         }
     }
-    return at;
-}
-
-/// Lets a point go down as far as it may.
-void CollectedTree::send(const Place& from, LocalIndex i) {
-    const Place at = descend(from, i);
-    if (at.num_parts > 1) {
-        waiting_[at.node].push_back(i);
-    } else {
-        settle(i, at.first_part);
-    }
+    settle(i, first_part);
 }
 
 Entries CollectedTree::admit(const Descent& at, const Entries& arrived) {
-    const Place place{at.node, at.first_part, at.num_parts};
-    for (const LocalIndex i : arrived) send(place, i);
+    for (const LocalIndex i : arrived) send(at, i);
     return at.is_part() ? Entries{} : std::exchange(waiting_[at.node], {});
 }
 
@@ -143,25 +126,16 @@ void CollectedTree::settle(LocalIndex i, Part part) {
     if (!part_boxes_.empty()) widen(part_boxes_[part], collected_.position(i));
 }
 
-/// Makes the boxes of the points that have their parts.
-void CollectedTree::make_part_boxes() {
-    part_boxes_ = points_.boxes(static_cast<int>(steps_.size()) + 1);
-    for (LocalIndex i = 0; i < collected_.parts.size(); ++i)
-        if (collected_.parts[i] != no_part)
-            widen(part_boxes_[collected_.parts[i]], collected_.position(i));
-}
-
 Total CollectedTree::total_of(Part part) const {
     return arrived_[part] +
            Total{collected_.settled.weights[part], collected_.settled.counts[part]};
 }
 
-Total CollectedTree::total_in(const Descent& at) const {
+Total CollectedTree::total_in(const Descent& at) {
     Total total;
     for (Part p = at.first_part; p < at.first_part + at.num_parts; ++p) total = total + total_of(p);
-    for (int k = 0; k + 1 < at.num_parts; ++k)
-        for (const LocalIndex i : waiting_[at.node + static_cast<std::size_t>(k)])
-            total = total + Total{collected_.weight(i), 1};
+    for (const Entries& some : waiting_below(at))
+        for (const LocalIndex i : some) total = total + Total{collected_.weight(i), 1};
     return total;
 }
 
@@ -191,23 +165,18 @@ std::pair<Entries, Entries> CollectedTree::divide(Entries&& entries, const Cut& 
     return halves;
 }
 
-void CollectedTree::count_parts(const Descent& at, const Entries& entries, const Cuts& cuts,
-                                std::span<double> weights) const {
+std::vector<double> CollectedTree::part_weights(const Descent& at, const Entries& entries) {
+    std::vector<double> weights;
     for (Part p = at.first_part; p < at.first_part + at.num_parts; ++p)
-        weights[p] += total_of(p).weight;
-    const auto add = [&](const Descent& from, const Entries& some) {
+        weights.push_back(total_of(p).weight);
+    const auto add = [&](const Entries& some) {
         for (const LocalIndex i : some)
-            weights[rrcb::descend(cuts, collected_.position(i), from).first_part] +=
+            weights[descend(*cuts_, collected_.position(i), at).first_part - at.first_part] +=
                 collected_.weight(i);
     };
-    add(at, entries);
-    const auto add_below = [&](const auto& self, const Descent& from) -> void {
-        if (from.is_part()) return;
-        add(from, waiting_[from.node]);
-        self(self, from.lower());
-        self(self, from.upper());
-    };
-    add_below(add_below, at);
+    add(entries);
+    for (const Entries& some : waiting_below(at)) add(some);
+    return weights;
 }
 
 double CollectedTree::weight_of(const Entries& entries) const {
@@ -224,15 +193,15 @@ void CollectedTree::append(const Entries& entries, std::vector<double>& records)
     }
 }
 
-void CollectedTree::settle_rest(const Cuts& cuts) {
+void CollectedTree::settle_rest() {
     const auto settle_below = [&](const auto& self, const Descent& at) -> void {
         if (at.is_part()) return;
         for (const LocalIndex i : std::exchange(waiting_[at.node], {}))
-            settle(i, rrcb::descend(cuts, collected_.position(i), at).first_part);
+            settle(i, descend(*cuts_, collected_.position(i), at).first_part);
         self(self, at.lower());
         self(self, at.upper());
     };
-    settle_below(settle_below, root_of(cuts));
+    settle_below(settle_below, root_of(*cuts_));
 }
 
 PointsInLot CollectedTree::points_at(const Cut& cut, Entries entries) const {
@@ -254,10 +223,8 @@ Gap CollectedTree::gap_about(const Descent& at, const Entries& entries, const Cu
     gap.fill(-infinity);
     narrow(cut, entries, gap);
     if (waiting_.empty()) return gap;
-    for (int k = 0; k + 1 < at.num_parts; ++k)
-        narrow(cut, waiting_[at.node + static_cast<std::size_t>(k)], gap);
+    for (const Entries& some : waiting_below(at)) narrow(cut, some, gap);
     const bool is_open = gap[0] < -interval(at.node).upper || gap[1] < interval(at.node).lower;
-    if (is_open && part_boxes_.empty()) make_part_boxes();
     if (is_open) narrow_by_parts(at, cut, gap);
     return gap;
 }
@@ -277,7 +244,13 @@ void CollectedTree::narrow(const Cut& cut, const Entries& entries, Gap& gap) con
 }
 
 /// Narrows a gap along its first axis by the settled points, which are not at the cut.
-void CollectedTree::narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) const {
+void CollectedTree::narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) {
+    if (part_boxes_.empty()) {
+        part_boxes_ = points_.boxes(cuts_->num_parts);
+        for (LocalIndex i = 0; i < collected_.parts.size(); ++i)
+            if (collected_.parts[i] != no_part)
+                widen(part_boxes_[collected_.parts[i]], collected_.position(i));
+    }
     const Part middle = at.upper().first_part;
     for (Part p = at.first_part; p < middle; ++p)
         gap[1] = std::max(gap[1], part_boxes_[p].upper[cut.axis]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cuts/tree.hpp"
+#include "passes/histogram.hpp"
 
 #include <rrcb/passes.hpp>
 
@@ -11,22 +12,9 @@
 
 namespace rrcb {
 
-/// Indices of collected points.
-using Entries = detail::Uninitialized<LocalIndex>;
-
 /// Collected points and their parts.
 struct OpenPoints : Collected {
     std::vector<Part> parts{};  ///< of those that have arrived, no_part of the others
-};
-
-/// Weight and number of points.
-struct Total {
-    double weight = 0;
-    double count = 0;
-
-    friend Total operator+(const Total& a, const Total& b) {
-        return {a.weight + b.weight, a.count + b.count};
-    }
 };
 
 /// The points exactly at a cut, which no cut separates. They form one row over all ranks, in the
@@ -68,7 +56,8 @@ class CollectedTree {
     /// Takes all points, without intervals. Borrows `points`. Throws std::bad_alloc.
     CollectedTree(PointPasses& points, OpenPoints&& all);
 
-    /// Collects points as PointPasses::collect(). Borrows `points`. Throws what it throws.
+    /// Collects points as PointPasses::collect(). Borrows `points` and `cuts`, which may move but
+    /// not turn. Throws what it throws.
     CollectedTree(PointPasses& points, const Cuts& cuts, std::span<const Bracket> intervals,
                   bool has_parts, OpenPoints&& memory);
 
@@ -86,15 +75,15 @@ class CollectedTree {
     void put_back(std::size_t node, Entries&& entries) { waiting_[node] = std::move(entries); }
 
     /// Returns the total of the points below a node, except those that were taken from there.
-    Total total_in(const Descent& at) const;
+    Total total_in(const Descent& at);
 
     /// Returns an interval in which the cut of a node may still end.
     const Bracket& interval(std::size_t node) const { return steps_[node].interval; }
 
-    /// Takes new intervals of nodes, and collects the points there once more. Returns the entries
-    /// of each node that are new to it.
-    std::vector<Entries> collect_more(std::span<const std::size_t> nodes,
-                                      std::span<const Wanted> wanted);
+    /// Takes other intervals of nodes, and collects the points there. Returns the entries of each
+    /// node that are new to it.
+    std::vector<Entries> collect_more(std::span<const Descent> nodes,
+                                      std::span<const Bracket> intervals);
 
     /// Returns the entries below and above the cut of a node.
     std::pair<Entries, Entries> divide(Entries&& entries, const Cut& cut, const Lot& lot) const;
@@ -108,10 +97,8 @@ class CollectedTree {
     /// Writes the parts of the collected points where the others have theirs.
     void write_parts() { points_.settle(collected_, collected_.parts); }
 
-    /// Adds the weights of the parts at or below a node by `cuts`, with `entries` taken from it, to
-    /// `weights`, one for each part of the whole tree.
-    void count_parts(const Descent& at, const Entries& entries, const Cuts& cuts,
-                     std::span<double> weights) const;
+    /// Returns the weights of the parts below a node by the cuts, with `entries` taken from it.
+    std::vector<double> part_weights(const Descent& at, const Entries& entries);
 
     /// Returns the weight of entries.
     double weight_of(const Entries& entries) const;
@@ -119,8 +106,8 @@ class CollectedTree {
     /// Appends the positions and weights of entries.
     void append(const Entries& entries, std::vector<double>& records) const;
 
-    /// Settles the entries that still wait, by `cuts`.
-    void settle_rest(const Cuts& cuts);
+    /// Settles the entries that still wait, by the cuts.
+    void settle_rest();
 
     /// Returns the points exactly at a cut, in the order in which divide() takes them below.
     PointsInLot points_at(const Cut& cut, Entries entries) const;
@@ -129,32 +116,27 @@ class CollectedTree {
     Gap gap_about(const Descent& at, const Entries& entries, const Cut& cut);
 
   private:
-    /// What a point meets at a node.
+    /// A node as points meet it, in few bytes.
     struct Step {
         Bracket interval{};
         int axis = 0;
         int lower_parts = 0;
     };
-    /// A node on the way down, or a part.
-    struct Place {
-        std::size_t node = 0;
-        Part first_part = 0;
-        int num_parts = 1;
-    };
-    void add_steps(const Descent& at, const Cuts& cuts, std::span<const Bracket> intervals);
-    Place descend(Place at, LocalIndex i) const;
+    std::span<Entries> waiting_below(const Descent& at) {
+        return std::span(waiting_).subspan(at.node, static_cast<std::size_t>(at.num_parts) - 1);
+    }
     void settle(LocalIndex i, Part part);
-    void send(const Place& from, LocalIndex i);
-    std::vector<Entries> reopen(std::span<const std::size_t> nodes, std::span<const Wanted> wanted);
-    void make_part_boxes();
+    void send(const Descent& from, LocalIndex i);
+    void add_steps(const Descent& at, std::span<const Bracket> intervals);
     void narrow(const Cut& cut, const Entries& entries, Gap& gap) const;
-    void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) const;
+    void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap);
 
     PointPasses& points_;
     OpenPoints collected_;
-    std::vector<Total> arrived_;    ///< totals of these
+    const Cuts* cuts_ = nullptr;
     std::vector<Step> steps_;       ///< at each node
-    std::vector<Entries> waiting_;  ///< of each node
+    std::vector<Total> arrived_;    ///< totals of the collected points with parts
+    std::vector<Entries> waiting_;  ///< at each node
     std::vector<Box> part_boxes_;   ///< of settled points; empty until a gap needs them
 };
 

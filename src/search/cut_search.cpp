@@ -1,10 +1,7 @@
 #include "search/cut_search.hpp"
 
 #include "arithmetic/infinity.hpp"
-#include "arithmetic/part_share.hpp"
-#include "search/candidate_division.hpp"
-#include "search/chosen_slot.hpp"
-#include "search/gap.hpp"
+#include "arithmetic/position_order.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,40 +16,41 @@ std::size_t axis_index(const CutSearch& search, int tied) {
     return ordering_axis(search.cut.axis, tied);
 }
 
+/// Ends the search with a coordinate on its axis.
 void finish(CutSearch& search, double value, double below) {
     search.cut.at[axis_index(search, search.tied)] = value;
     search.stage = CutSearch::done;
     search.below = below;
 }
 
-/// Ends with the cut at a position, the first one above it.
-void finish_at(CutSearch& search, const Vector& position, double below) {
-    const PositionOrder order = order_of(search);
-    for (const std::size_t axis : order.axes()) search.cut.at[axis] = position[axis];
-    search.stage = CutSearch::done;
-    search.below = below;
-}
-
-/// Ends with the cut behind a position, the last one below it.
-void finish_behind(CutSearch& search, const Vector& position, double below) {
-    finish_at(search, position, below);
-    move_behind(search);
-}
+/// Points at one position, and those below them.
+struct Ties {
+    GlobalCount begin = 0;  ///< number of the points below
+    GlobalCount count = 0;
+    double below = 0;
+    double weight = 0;
+};
 
 /// Ends among points that no cut separates: divides them, or leaves all of them on the side with
 /// the smaller excess.
 void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
                        const Ties& ties) {
     const double above = ties.below + ties.weight;
+    const bool is_below =
+        target.excess(ties.below, ties.begin) >= target.excess(above, ties.begin + ties.count);
     search.coincident = 1;
+    // At a position the cut is the first one above it.
+    for (int k = search.tied; k < search.num_axes; ++k) {
+        const std::size_t axis = axis_index(search, k);
+        search.cut.at[axis] = position[axis];
+    }
+    search.stage = CutSearch::done;
+    search.below = ties.below;
     if (target.divides) {
         search.lot_below = target.target - ties.below;
-        finish_at(search, position, ties.below);
-    } else if (target.excess(ties.below, ties.begin) <
-               target.excess(above, ties.begin + ties.count)) {
-        finish_at(search, position, ties.below);
-    } else {
-        finish_behind(search, position, above);
+    } else if (is_below) {
+        search.below = above;
+        move_behind(search);
     }
 }
 
@@ -60,36 +58,29 @@ void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector&
 /// they share all of them.
 void break_tie(CutSearch& search, const CutTarget& target, std::span<const double> extents,
                double value, double weight) {
-    if (search.tied + 1 < search.num_axes) {
-        search.cut.at[axis_index(search, search.tied++)] = value;
-        const std::size_t axis = axis_index(search, search.tied);
-        search.lower = -extents[axis];
-        search.upper = std::nextafter(extents[max_dimension + axis], infinity);
-        search.by_bits = 0;
-        return;
-    }
-    Vector position{};
-    position[axis_index(search, search.tied)] = value;
-    finish_among_ties(search, target, position,
-                      {target.base_count, target.num_candidates, target.base, weight});
+    search.cut.at[axis_index(search, search.tied)] = value;
+    if (search.tied + 1 == search.num_axes)
+        return finish_among_ties(search, target, Vector(search.cut.at),
+                                 {target.base_count, target.num_candidates, target.base, weight});
+    const std::size_t axis = axis_index(search, ++search.tied);
+    search.lower = -extents[axis];
+    search.upper = std::nextafter(extents[max_dimension + axis], infinity);
+    search.by_bits = 0;
 }
-
-struct CandidateRange {
-    double smallest;
-    double largest;
-};
 
 /// Goes on with the candidates in the chosen slot, of which the histogram has the weight and their
 /// count.
 void narrow(CutSearch& search, const CutTarget& target, const HistogramLayout& layout,
-            std::span<const double> histogram, CandidateRange extent) {
+            std::span<const double> histogram) {
+    const int axis = current_axis(search);
+    const double smallest = -histogram[axis];
+    const double behind = std::nextafter(histogram[max_dimension + axis], infinity);
     const Bins bins = bins_of(search, layout);
     const int slot = search.chosen;
-    const double behind = std::nextafter(extent.largest, infinity);
     const double upper = slot > layout.num_bins ? behind : std::min(bins.edge(slot), behind);
     // By round-off the slot may be empty, and the extent above it.
-    const double lower = std::min(
-        upper, slot == 0 ? extent.smallest : std::max(bins.edge(slot - 1), extent.smallest));
+    const double lower =
+        std::min(upper, slot == 0 ? smallest : std::max(bins.edge(slot - 1), smallest));
     // The cut must not be among some of the candidates: another count finds their weight.
     const bool is_limited =
         search.tied == 0 && (lower < target.places.first || upper > target.places.last);
@@ -106,14 +97,29 @@ void narrow(CutSearch& search, const CutTarget& target, const HistogramLayout& l
     if (!is_limited && is_few) search.stage = CutSearch::gathering;
 }
 
-/// Returns true if all candidates share a coordinate at which the cut is allowed and may break
-/// ties.
-bool may_break_tie(const CutSearch& search, const CutTarget& target, const CandidateRange& extent,
-                   const HistogramLayout& layout) {
-    if (extent.smallest != extent.largest) return false;
-    if (target.places.all() || search.tied > 0) return true;
-    return !layout.limits[axis_index(search, 0)].has_grid() && search.lower <= extent.smallest &&
-           extent.largest < search.upper;
+/// Slot of the histogram that the cut falls into, with the points below it.
+struct Chosen {
+    int slot = 0;
+    double below = 0;       ///< their weight
+    GlobalCount count = 0;  ///< their number
+};
+
+/// Returns the slot for a target, given the weight and the number of points in each slot.
+Chosen choose(const CutTarget& target, std::span<const double> weights,
+              std::span<const double> counts) {
+    Chosen chosen{0, target.base, target.base_count};
+    const int last = static_cast<int>(weights.size()) - 1;
+    // The base and all slots before this one weigh less than the target. So the target is in this
+    // slot, or by round-off behind all slots, and the last one is taken. With few points, their
+    // number may move the cut to another slot.
+    while (chosen.slot < last) {
+        const double next = chosen.below + weights[chosen.slot];
+        const auto count = chosen.count + static_cast<GlobalCount>(counts[chosen.slot]);
+        const bool is_enough = next >= target.target && count >= target.counts.least;
+        if (is_enough || count >= target.counts.most) break;
+        chosen = {chosen.slot + 1, next, count};
+    }
+    return chosen;
 }
 
 /// Ends a limited search: at the first or the last allowed place if the target is beyond it.
@@ -130,15 +136,14 @@ bool finish_at_limit(CutSearch& search, const CutTarget& target, std::span<const
 
 /// Goes on in the chosen slot of a grid; ends at the nearer edge of a single cell.
 void narrow_on_lines(CutSearch& search, const CutTarget& target, const HistogramLayout& layout,
-                     const EdgeErrors& errors, double weight) {
+                     double weight, bool is_at_lower) {
     const Bins bins = bins_of(search, layout);
     const AxisLimits& limits = layout.limits[search.cut.axis];
     const int slot = search.chosen;
     const double lower = slot == 0 ? target.places.first : bins.edge(slot - 1);
     const double upper = slot > layout.num_bins ? target.places.last : bins.edge(slot);
     if (slot > 0 && slot <= layout.num_bins && limits.place_behind(lower) >= upper) {
-        finish(search, errors.at_lower() ? lower : upper,
-               target.base + (errors.at_lower() ? 0 : weight));
+        finish(search, is_at_lower ? lower : upper, target.base + (is_at_lower ? 0 : weight));
         return;
     }
     search.lower = lower;
@@ -146,15 +151,68 @@ void narrow_on_lines(CutSearch& search, const CutTarget& target, const Histogram
     search.stage = CutSearch::over_candidates;
 }
 
+/// A point that may still end on either side of a cut.
+struct Candidate {
+    Vector position{};
+    double weight = 0;
+};
+
+/// Returns candidates in an order that does not depend on their routes to the owner.
+std::vector<Candidate> sorted_candidates(std::span<const double> records, int dimension,
+                                         const PositionOrder& before) {
+    const int length = dimension + 1;
+    std::vector<Candidate> candidates(records.size() / length);
+    for (Candidate& candidate : candidates) {
+        std::ranges::copy(records.first(dimension), candidate.position.begin());
+        candidate.weight = records[dimension];
+        records = records.subspan(length);
+    }
+    std::ranges::sort(candidates, {},
+                      [](const Candidate& one) { return std::tie(one.position, one.weight); });
+    std::ranges::stable_sort(candidates, before, &Candidate::position);
+    return candidates;
+}
+
+/// Candidates in two groups: those below the cut come first.
+struct Division {
+    GlobalCount count = 0;  ///< points of the node below the cut
+    double below = 0;       ///< their weight
+    Ties ties{};            ///< candidates that hold the target, if there are several
+};
+
+/// Returns the division with the least excess of sorted candidates, all above the base of the
+/// target.
+Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
+                       const CutTarget& target) {
+    Division best{target.base_count, target.base, {}};
+    double below = target.base;
+    Ties ties{target.base_count, 0, below, 0};
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+        below += sorted[k].weight;
+        if (k + 1 < sorted.size() && !before(sorted[k].position, sorted[k + 1].position)) continue;
+        const GlobalCount count = target.base_count + static_cast<GlobalCount>(k + 1);
+        ties.count = count - ties.begin;
+        ties.weight = below - ties.below;
+        if (ties.count > 1 && ties.below < target.target && target.target < below) best.ties = ties;
+        ties = {count, 0, below, 0};
+        if (target.excess(below, count) >= target.excess(best.below, best.count)) continue;
+        best.count = count;
+        best.below = below;
+    }
+    return best;
+}
+
+/// Returns the middle of two coordinates, or `above` if no double is between them.
+double middle_of(double below, double above) {
+    const double middle = below / 2 + above / 2;
+    return middle > below ? middle : above;
+}
+
 }  // namespace
 
 void move_behind(CutSearch& search) {
     double& value = search.cut.at[axis_index(search, search.num_axes - 1)];
     value = std::nextafter(value, infinity);
-}
-
-PositionOrder order_of(const CutSearch& search) {
-    return {search.cut.axis, search.tied, search.num_axes};
 }
 
 int current_axis(const CutSearch& search) {
@@ -170,49 +228,49 @@ Bins bins_of(const CutSearch& search, const HistogramLayout& layout) {
 void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
                     std::span<const double> histogram) {
     const auto weights = weights_in(histogram, layout);
-    const int axis = current_axis(search);
-    if (!(target.target > 0)) {
-        search.stage = CutSearch::done;
-        if (!target.places.all()) finish(search, search.lower, weights[0]);
-        return;
-    }
-    const CandidateRange extent{-histogram[axis], histogram[max_dimension + axis]};
-    const Bins bins = bins_of(search, layout);
-    if (search.stage == CutSearch::over_candidates &&
-        may_break_tie(search, target, extent, layout)) {
-        search.chosen = bins.slot_of(extent.smallest);
-        return break_tie(search, target, histogram, extent.smallest, sum_of(weights));
-    }
     const auto counts = counts_in(histogram, layout);
+    if (!(target.target > 0))
+        return target.places.all() ? finish(search, -infinity, 0)
+                                   : finish(search, search.lower, weights[0]);
     const Chosen chosen = choose(target, weights, counts);
     if (finish_at_limit(search, target, weights, chosen)) return;
     const int slot = chosen.slot;
-    const EdgeErrors errors = errors_at(chosen, weights[slot], counts[slot], target);
-    const int edge = chosen.slot - (errors.at_lower() ? 1 : 0);
-    if (edge >= 0 && edge <= layout.num_bins && errors.least() <= target.slack) {
-        finish(search, bins.edge(edge), chosen.below + (errors.at_lower() ? 0 : weights[slot]));
-        return;
-    }
+    const auto count = static_cast<GlobalCount>(counts[slot]);
+    const double at_lower = target.excess(chosen.below, chosen.count);
+    const double at_upper = target.excess(chosen.below + weights[slot], chosen.count + count);
+    const bool is_at_lower = at_lower <= at_upper;
+    const int edge = is_at_lower ? slot - 1 : slot;
+    if (edge >= 0 && edge <= layout.num_bins && std::min(at_lower, at_upper) <= target.slack)
+        return finish(search, bins_of(search, layout).edge(edge),
+                      chosen.below + (is_at_lower ? 0 : weights[slot]));
     search.chosen = slot;
     target.base = chosen.below;
     target.base_count = chosen.count;
-    target.num_candidates = static_cast<GlobalCount>(counts[slot]);
-    if (layout.limits[axis].has_grid()) {
-        narrow_on_lines(search, target, layout, errors, weights[slot]);
+    target.num_candidates = count;
+    if (layout.limits[axis_index(search, search.tied)].has_grid()) {
+        narrow_on_lines(search, target, layout, weights[slot], is_at_lower);
     } else {
-        narrow(search, target, layout, histogram, extent);
+        narrow(search, target, layout, histogram);
+    }
+}
+
+void centre(Cut& cut, int num_axes, std::span<const double> gap) {
+    for (int k = 0; k < num_axes; ++k) {
+        const double above = -gap[std::size_t{2} * k];
+        const double below = gap[std::size_t{2} * k + 1];
+        if (below == above) continue;
+        const bool is_empty = below == -infinity && above == infinity;
+        if (is_empty) return;
+        cut.at[ordering_axis(cut.axis, k)] =
+            above == infinity ? std::nextafter(below, infinity) : middle_of(below, above);
+        while (++k < num_axes) cut.at[ordering_axis(cut.axis, k)] = -infinity;
     }
 }
 
 bool decide_among(CutSearch& search, const CutTarget& target, std::span<const double> records,
                   int dimension) {
-    std::vector<Candidate> candidates = read_candidates(records, dimension);
-    // An order that does not depend on their routes to the owner.
-    std::ranges::sort(candidates, {},
-                      [](const Candidate& one) { return std::tie(one.position, one.weight); });
-    const PositionOrder before = order_of(search);
-    std::ranges::stable_sort(candidates, before, &Candidate::position);
-
+    const PositionOrder before{search.cut.axis, search.tied, search.num_axes};
+    const std::vector<Candidate> candidates = sorted_candidates(records, dimension, before);
     const Division division = best_division(candidates, before, target);
     const auto best = static_cast<std::size_t>(division.count - target.base_count);
     search.coincident = division.ties.count > 0 ? 1 : 0;
@@ -230,12 +288,11 @@ bool decide_among(CutSearch& search, const CutTarget& target, std::span<const do
     const Vector& last_below = candidates[best - 1].position;
     const Vector& first_above = candidates[best].position;
     // The two positions differ along an open axis, because the division is between them.
-    while (last_below[axis_index(search, search.tied)] ==
-           first_above[axis_index(search, search.tied)]) {
-        const std::size_t axis = axis_index(search, search.tied++);
+    std::size_t axis = 0;
+    while (axis = axis_index(search, search.tied), last_below[axis] == first_above[axis]) {
         search.cut.at[axis] = first_above[axis];
+        ++search.tied;
     }
-    const std::size_t axis = axis_index(search, search.tied);
     finish(search, middle_of(last_below[axis], first_above[axis]), division.below);
     return true;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "arithmetic/position_order.hpp"
 #include "cuts/cut_limits.hpp"
 #include "passes/bins.hpp"
 #include "passes/histogram.hpp"
@@ -84,9 +83,6 @@ struct CutTarget {
 /// Returns the axis on which a search works.
 int current_axis(const CutSearch& search);
 
-/// Returns the order of positions along the axes that are open to a search.
-PositionOrder order_of(const CutSearch& search);
-
 /// Returns the bins of the bracket of a search.
 Bins bins_of(const CutSearch& search, const HistogramLayout& layout);
 
@@ -103,6 +99,10 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
 /// weight of each, in any order. Returns true if the cut is in the middle of two of them.
 bool decide_among(CutSearch& search, const CutTarget& target, std::span<const double> records,
                   int dimension);
+
+/// Moves a cut to the middle of its Gap; `num_axes` of them may break ties. With points on one side
+/// only it moves next to these.
+void centre(Cut& cut, int num_axes, std::span<const double> gap);
 
 /// Moves a cut at a position, which breaks ties along all axes, behind it.
 void move_behind(CutSearch& search);

@@ -27,10 +27,6 @@ void PartSums::set(std::span<const double> here, std::span<const double> sums) {
     std::ranges::copy(sums, sums_.begin());
 }
 
-void PartSums::set_sums(Part first, std::span<const double> sums) {
-    std::ranges::copy(sums, sums_.begin() + first);
-}
-
 std::vector<double> PartSums::take() {
     sums_.resize(sums_.size() - 2);
     return std::move(sums_);

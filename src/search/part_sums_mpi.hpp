@@ -30,18 +30,11 @@ class PartSums {
     /// Sets weights and sums that were counted elsewhere.
     void set(std::span<const double> here, std::span<const double> sums);
 
-    /// Takes the sums of the parts from `first` on.
-    void set_sums(Part first, std::span<const double> sums);
-
     /// Returns the latest sums, one entry per part.
-    std::span<const double> sums() const { return std::span(sums_).first(sums_.size() - 2); }
+    std::span<double> sums() { return std::span(sums_).first(sums_.size() - 2); }
 
     /// Moves the sums out, one entry per part.
     std::vector<double> take();
-
-    /// Returns a copy of the sums, to be put back by restore(). Throws std::bad_alloc.
-    std::vector<double> saved() const { return sums_; }
-    void restore(std::vector<double>&& saved) { sums_ = std::move(saved); }
 
   private:
     std::vector<double> here_;  ///< the weights, then 1 if this rank failed

@@ -5,7 +5,6 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "options/call_kind.hpp"
-#include "passes/collected.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -61,23 +60,13 @@ Refined Refinement::refine(Estimate&& estimate, PointPasses& points, const Box& 
     // A search that would miss the tolerance, and be repeated exactly, is exact at once.
     const bool may_miss = !tree_.rule.is_attainable() && !limits_ && !estimate_.is_earlier;
     tree_.rule.is_exact = is_exact || (may_miss && !is_accepted);
-    if (tree_.rule.is_exact || !is_accepted) {
-        search(points, self);
-    } else if (refined_.imbalance <= options_.imbalance_tolerance) {
+    const bool is_searched = tree_.rule.is_exact || !is_accepted;
+    if (is_searched && limits_) search_for_better(points, self);
+    if (is_searched && !limits_) search_once(points, self);
+    if (is_searched || refined_.imbalance <= options_.imbalance_tolerance)
         search_exactly(points, self);
-    }
     refined_.cuts = std::move(estimate_.cuts);
     return std::move(refined_);
-}
-
-/// Searches the cuts, and once more, exactly, if that is not enough. Collective.
-void Refinement::search(PointPasses& points, Participant& self) {
-    if (limits_) {
-        search_for_better(points, self);
-    } else {
-        search_once(points, self);
-    }
-    search_exactly(points, self);
 }
 
 /// Searches exactly, once, if the cuts miss the tolerance or leave parts empty. Collective.
@@ -174,7 +163,10 @@ void Refinement::search_for_better(PointPasses& points, Participant& self) {
         int coincident_cuts = 0;
     } before;
     self.attempt([&] {
-        before = {estimate_.cuts.tree, sums_.saved(), points.parts(),
+        const auto sums = sums_.sums();
+        before = {estimate_.cuts.tree,
+                  {sums.begin(), sums.end()},
+                  points.parts(),
                   std::exchange(refined_.coincident_cuts, 0)};
     });
     const double imbalance_before = refined_.imbalance;
@@ -190,7 +182,7 @@ void Refinement::search_for_better(PointPasses& points, Participant& self) {
     refined_.imbalance = imbalance_before;
     refined_.coincident_cuts = before.coincident_cuts;
     estimate_.cuts.tree = std::move(before.tree);
-    sums_.restore(std::move(before.sums));
+    std::ranges::copy(before.sums, sums_.sums().begin());
     self.attempt([&] { points.set_parts(before.parts); });
 }
 
@@ -235,7 +227,7 @@ Refined SpreadRefinement::search(const Box& box, const PartTree& tree, HostPasse
                                  Participant& self) {
     std::optional<TreeSearch> search;
     self.attempt([&] {
-        collect_all(points.points(), memory_.collected);
+        points.collect_all(memory_.collected);
         search.emplace(tree, rounds_.rank(), box, points, std::move(memory_.collected));
     });
     Refined refined;

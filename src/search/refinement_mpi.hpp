@@ -92,7 +92,6 @@ class Refinement {
   private:
     void start(Estimate&& estimate, Participant& self);
     bool accept_estimate(PointPasses& points, Participant& self);
-    void search(PointPasses& points, Participant& self);
     void search_exactly(PointPasses& points, Participant& self);
     void search_once(PointPasses& points, Participant& self);
     void search_for_better(PointPasses& points, Participant& self);

@@ -1,7 +1,6 @@
 // The decisions of the owner of a node.
 #include "arithmetic/part_share.hpp"
 #include "search/doubles.hpp"
-#include "search/gap.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>
@@ -21,18 +20,9 @@ Box box_in(std::span<const double> histogram) {
     return box;
 }
 
-/// Returns ranks and their weights, by rank.
-std::vector<std::pair<double, double>> weights_in(std::span<const double> payload) {
-    std::vector<std::pair<double, double>> weights;
-    for (std::size_t k = 1; k < payload.size(); k += 2)
-        weights.emplace_back(payload[k], payload[k + 1]);
-    std::ranges::sort(weights);
-    return weights;
-}
-
-/// Returns the records of a lot, by rank.
+/// Returns the records of ranks, by rank.
 template <class Record>
-std::vector<Record> lots_in(std::span<const double> payload) {
+std::vector<Record> records_in(std::span<const double> payload) {
     std::vector<Record> records;
     for (std::size_t k = 1; k < payload.size(); k += sizeof(Record) / sizeof(double))
         records.push_back(read<Record>(payload.subspan(k)));
@@ -43,45 +33,33 @@ std::vector<Record> lots_in(std::span<const double> payload) {
 }  // namespace
 
 void TreeSearch::decide(Butterfly& butterfly) {
-    const auto for_each_owned = [&](auto&& visit) {
-        auto node = nodes_.begin();
-        // Both ascend, and an owner takes part in all nodes that it owns.
-        butterfly.owned().for_each([&](const Record& record) {
-            node = std::ranges::find(node, nodes_.end(), record.key,
-                                     [](const Node& one) { return key_of(one.at); });
-            if (node != nodes_.end()) visit(record, *node);
-        });
-    };
-    for_each_owned([&](const Record& record, Node& node) {
-        node.decided = node.at.is_part() ? node.search : decide_on(node, record.payload);
-    });
-    limit_gathering();
-    for_each_owned([&](const Record& record, const Node& node) {
-        butterfly.answer(record.key, answer_to(record, node));
-    });
-}
-
-/// Makes searches count their candidates once more instead of gathering them if these are too many
-/// for one rank.
-void TreeSearch::limit_gathering() {
-    GlobalCount num_points = 0;
-    for (Node& node : nodes_) {
-        if (node.decided.stage != CutSearch::gathering) continue;
-        const GlobalCount more = node.target.num_candidates;
-        if (num_points + more <= most_gathered_at_once) {
-            num_points += more;
-        } else {
-            node.decided.stage = CutSearch::over_candidates;
+    GlobalCount num_gathered = 0;
+    auto node = nodes_.begin();
+    // Both ascend, and an owner takes part in all nodes that it owns.
+    butterfly.owned().for_each([&](const Record& record) {
+        node = std::ranges::find(node, nodes_.end(), record.key,
+                                 [](const Node& one) { return key_of(one.at); });
+        if (node == nodes_.end()) return;
+        CutSearch decided = node->at.is_part() ? node->search : decide_on(*node, record.payload);
+        if (decided.stage == CutSearch::gathering) {
+            // Candidates that are too many for one rank are counted once more.
+            const GlobalCount more = node->target.num_candidates;
+            const bool fits = num_gathered + more <= most_gathered_at_once;
+            num_gathered += fits ? more : 0;
+            if (!fits) decided.stage = CutSearch::over_candidates;
         }
-    }
+        butterfly.answer(record.key, answer_to(record, *node, decided));
+    });
 }
 
-std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node) const {
+std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node,
+                                          const CutSearch& decided) const {
     std::vector<double> answer;
-    Answer told{node.decided, node.content.weight};
+    Answer told{decided, node.content.weight};
     if (node.at.is_part()) {
         told.weight = 0;
-        for (const auto& [rank, weight] : weights_in(record.payload)) told.weight += weight;
+        for (const auto& [rank, points] : records_in<LotRecord>(record.payload))
+            told.weight += points.weight;
     }
     append(told, answer);
     if (node.counts_parts) {
@@ -100,7 +78,7 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
 CutSearch TreeSearch::decide_on_lot(Node& node, std::span<const double> payload) const {
     CutSearch search = node.search;
     search.stage = CutSearch::done;
-    const std::vector<LotRecord> row = lots_in<LotRecord>(payload);
+    const std::vector<LotRecord> row = records_in<LotRecord>(payload);
     Lot lot = lot_at(node.at, search);
     const auto dividing = std::ranges::find_if(row, [&](const LotRecord& record) {
         if (lot.is_above(record.points.before_last, record.points.last)) return true;

@@ -10,12 +10,6 @@
 
 namespace rrcb {
 
-namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
-
-}  // namespace
-
 void TreeSearch::start_from_guide(Node& node) {
     const Descent& at = node.at;
     const Cut& cut = guide_->cuts.tree[at.node];
@@ -28,19 +22,13 @@ void TreeSearch::start_from_guide(Node& node) {
         bracket.upper = limits.nearest(bracket.upper, bracket.lower, node.places.last);
     } else {
         bracket = points_.interval(at.node);
-        bracket.lower = std::max(bracket.lower, -largest);
+        bracket.lower = std::max(bracket.lower, -std::numeric_limits<double>::max());
         const double missing = missing_below(at, node.content.weight, node.below);
         if (missing > 0) bracket.lower = std::max(bracket.lower, cut.at[cut.axis]);
         if (missing < 0)
             bracket.upper = std::min(bracket.upper, std::nextafter(cut.at[cut.axis], infinity));
     }
     node.search = search_across(cut.axis, bracket, node.content.weight);
-}
-
-/// Takes the points of this rank that are known to be on either side of a node's cut.
-void TreeSearch::take_known(Node& node) const {
-    node.below_here = points_.total_in(node.at.lower());
-    node.above_here = points_.total_in(node.at.upper());
 }
 
 /// Returns intervals in which the cuts are looked for first. Limits may move cuts anywhere.
@@ -93,28 +81,19 @@ double TreeSearch::missing_below(const Descent& at, double weight, double below)
     return is_known ? tree_.rule.target_of(at, weight, below).target - below : 0;
 }
 
-/// Appends the weights of the parts below a node by the current cuts on this rank.
-void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) const {
-    const auto weights = guide_->sums.here().subspan(node.at.first_part, node.at.num_parts);
-    std::ranges::fill(weights, 0.0);
-    points_.count_parts(node.at, node.content.entries, guide_->cuts, guide_->sums.here());
-    payload.insert(payload.end(), weights.begin(), weights.end());
-}
-
 /// Collects the points of nodes whose cuts have left their intervals.
 void TreeSearch::collect_more() {
-    std::vector<std::size_t> nodes;
-    std::vector<Wanted> wanted;
+    std::vector<Descent> nodes;
+    std::vector<Bracket> intervals;
     for (const Node& node : nodes_) {
         if (!node.is_wide) continue;
         const Bracket& before = points_.interval(node.at.node);
-        nodes.push_back(node.at.node);
-        wanted.push_back({node.at.first_part, node.at.num_parts, node.search.cut.axis,
-                          node.search.chosen == 0 ? Bracket{-infinity, before.lower}
-                                                  : Bracket{before.upper, infinity}});
+        nodes.push_back(node.at);
+        intervals.push_back(node.search.chosen == 0 ? Bracket{-infinity, before.lower}
+                                                    : Bracket{before.upper, infinity});
     }
-    if (wanted.empty()) return;
-    std::vector<Entries> found = points_.collect_more(nodes, wanted);
+    if (nodes.empty()) return;
+    std::vector<Entries> found = points_.collect_more(nodes, intervals);
     auto next = found.begin();
     for (Node& node : nodes_) {
         if (!std::exchange(node.is_wide, false)) continue;
@@ -126,7 +105,7 @@ void TreeSearch::collect_more() {
 
 /// Takes the weights of a node's parts over all ranks. Returns whether its cut may stay.
 bool TreeSearch::take_sums(Node& node, std::span<const double> sums) const {
-    guide_->sums.set_sums(node.at.first_part, sums);
+    std::ranges::copy(sums, guide_->sums.sums().begin() + node.at.first_part);
     node.below = weight_of(node.at.lower(), guide_->sums.sums());
     return tree_.rule.may_stay(node.at, guide_->sums.sums());
 }

@@ -1,13 +1,11 @@
 // The records that ranks send to the owners of nodes, and how they follow the answers.
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/quantum.hpp"
-#include "search/count.hpp"
+#include "passes/histogram.hpp"
 #include "search/doubles.hpp"
-#include "search/gap.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -31,13 +29,11 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
                        node.gap.begin() + std::ptrdiff_t{2} * node.search.num_axes);
         return;
     }
-    if (!has_points(node)) return;
-    if (node.search.stage == CutSearch::dividing) return add_lot(node, payload);
-    if (node.at.is_part()) {
-        const double weight = points_.weight_of(node.content.entries);
-        if (weight > 0) payload = {mark_of_weights, 1.0 * rank_, weight};
-        return;
-    }
+    const bool is_empty =
+        node.content.entries.empty() && node.below_here.count + node.above_here.count == 0;
+    if (is_empty) return;
+    if (node.search.stage == CutSearch::dividing || node.at.is_part())
+        return add_lot(node, payload);
     if (node.search.stage == CutSearch::gathering) {
         payload.push_back(mark_of_candidates);
         points_.append(node.candidates, payload);
@@ -46,12 +42,9 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     payload.resize(1 + layout_.length());
     payload[0] = mark_of_histogram;
     count_points(node, std::span(payload).subspan(1));
-    if (node.counts_parts) count_parts(node, payload);
-}
-
-/// Returns whether this rank has points in a node.
-bool TreeSearch::has_points(const Node& node) const {
-    return !node.content.entries.empty() || node.below_here.count + node.above_here.count > 0;
+    if (!node.counts_parts) return;
+    const auto weights = points_.part_weights(node.at, node.content.entries);
+    payload.insert(payload.end(), weights.begin(), weights.end());
 }
 
 /// Counts this rank's points in the bins of a search.
@@ -68,34 +61,34 @@ void TreeSearch::count_points(const Node& node, std::span<double> histogram) con
     round_weights(search.quantum, layout_, histogram);
 }
 
-/// Appends this rank's points of a lot.
+/// Appends this rank's points of a lot or a part.
 void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
-    LotRecord record{1.0 * rank_, points_.points_at(node.search.cut, node.content.entries)};
+    LotRecord record{1.0 * rank_, {points_.weight_of(node.content.entries)}};
+    if (!node.at.is_part())
+        record.points = points_.points_at(node.search.cut, node.content.entries);
     if (!(record.points.weight > 0)) return;
-    record.points.weight = rounded_to(node.search.quantum, record.points.weight);
+    if (!node.at.is_part())
+        record.points.weight = rounded_to(node.search.quantum, record.points.weight);
     payload.push_back(mark_of_weights);
     append(record, payload);
 }
 
 void TreeSearch::join(std::span<const double> a, std::span<const double> b,
                       std::vector<double>& joined) {
-    const bool is_alike = a.empty() || b.empty() || a[0] == b[0];
-    const bool adds = !a.empty() && !b.empty() && a.size() == b.size() &&
-                      (a[0] == mark_of_histogram || a[0] == mark_of_gap);
     joined.insert(joined.end(), a.begin(), a.end());
+    const bool is_list =
+        a.empty() || b.empty() || a[0] == mark_of_candidates || a[0] == mark_of_weights;
     // Records differ only because of a failure, which all ranks learn of after the pass.
-    if (!is_alike) return;
-    const auto sum = std::span(joined).last(adds ? a.size() - 1 : 0);
-    if (!adds) {
-        const auto records = a.empty() || b.empty() ? b : b.subspan(1);
-        joined.insert(joined.end(), records.begin(), records.end());
+    if (!a.empty() && !b.empty() && (a[0] != b[0] || (!is_list && a.size() != b.size()))) return;
+    const auto other = b.subspan(a.empty() || b.empty() ? 0 : 1);
+    const auto here = std::span(joined).last(is_list ? 0 : other.size());
+    if (is_list) {
+        joined.insert(joined.end(), other.begin(), other.end());
     } else if (a[0] == mark_of_histogram) {
-        join_histograms(b.subspan(1), sum);
-    } else if (a[0] == mark_of_gap) {
-        std::ranges::transform(sum, b.subspan(1), sum.begin(),
-                               [](double x, double y) { return std::max(x, y); });
+        join_histograms(other, here);
     } else {
-        std::ranges::transform(sum, b.subspan(1), sum.begin(), std::plus<>());
+        std::ranges::transform(here, other, here.begin(),
+                               [](double x, double y) { return std::max(x, y); });
     }
 }
 

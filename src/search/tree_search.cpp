@@ -49,10 +49,6 @@ int TreeSearch::owner_of(const Descent& at) const {
     return is_central() ? 0 : rrcb::owner_of(at, tree_.num_parts, tree_.num_ranks);
 }
 
-bool TreeSearch::holds_own_parts(const Descent& at) const {
-    return at.first_part < end_own_ && first_own_ < at.first_part + at.num_parts;
-}
-
 /// Begins to search the cut of a node; goes on to its children if no counting is needed.
 void TreeSearch::enter(const Descent& at, Content&& content) {
     if (is_central()) content.entries = points_.admit(at, content.entries);
@@ -82,7 +78,9 @@ bool TreeSearch::ends_at(const Descent& at, Content& content) {
         return ends;
     }
     if (is_central()) return at.is_part();
-    if (content.entries.empty() && !holds_own_parts(at)) return true;
+    const bool holds_own_parts =
+        at.first_part < end_own_ && first_own_ < at.first_part + at.num_parts;
+    if (content.entries.empty() && !holds_own_parts) return true;
     const bool ends = at.is_part() && content.is_counted && !is_tiny(at);
     if (ends) weigh_part(at, content);
     return ends;
@@ -103,7 +101,8 @@ Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double
 void TreeSearch::add_node(const Descent& at, Content&& content) {
     Node& node = nodes_.emplace_back(Node{at, std::move(content)});
     if (is_central()) {
-        take_known(node);
+        node.below_here = points_.total_in(at.lower());
+        node.above_here = points_.total_in(at.upper());
         node.counts_parts = recounts() && !node.content.are_parts_counted;
         return start_from_guide(node);
     }
@@ -120,12 +119,8 @@ void TreeSearch::divide(const Descent& at, Content&& content, const Cut& cut, co
     const double above = divides_lot ? content.weight : content.weight - below;
     if (divides_lot) below = content.weight;
     const auto side = [&](Entries&& entries, const Box& box, double weight) {
-        return Content{std::move(entries),
-                       box,
-                       weight,
-                       content.is_counted && !divides_lot,
-                       content.are_parts_counted,
-                       content.depth + 1};
+        return Content{std::move(entries), box, weight, content.is_counted && !divides_lot,
+                       content.are_parts_counted};
     };
     enter(at.lower(), side(std::move(lower), box_below(content.box, cut), below));
     enter(at.upper(), side(std::move(upper), box_above(content.box, cut), above));
@@ -135,7 +130,7 @@ void TreeSearch::note(std::size_t node, const Cut& cut) {
     if (is_central()) {
         guide_->cuts.tree[node] = cut;
     } else {
-        known_.push_back({node, cut});
+        known_.emplace_back(node, cut);
     }
 }
 
@@ -169,7 +164,7 @@ void TreeSearch::weigh_part(const Descent& at, const Content& content) {
 
 void TreeSearch::finish() {
     if (is_central()) {
-        points_.settle_rest(guide_->cuts);
+        points_.settle_rest();
         const std::span<double> weights = guide_->sums.here();
         for (std::size_t p = 0; p < weights.size(); ++p)
             weights[p] = points_.total_of(static_cast<Part>(p)).weight;
@@ -216,12 +211,12 @@ CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double wei
 }
 
 Cuts TreeSearch::cuts() const {
-    std::vector<KnownCut> known = known_;
-    std::ranges::sort(known, {}, &KnownCut::node);
+    auto known = known_;
+    std::ranges::sort(known, {}, [](const auto& one) { return one.first; });
     Cuts cuts{dimension_, tree_.num_parts, {}, {}, tree_.shape};
-    for (const KnownCut& one : known) {
-        cuts.tree.push_back(one.cut);
-        cuts.nodes.push_back(static_cast<std::int32_t>(one.node));
+    for (const auto& [node, cut] : known) {
+        cuts.tree.push_back(cut);
+        cuts.nodes.push_back(static_cast<std::int32_t>(node));
     }
     return cuts;
 }

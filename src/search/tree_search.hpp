@@ -124,7 +124,7 @@ class TreeSearch {
     static constexpr double mark_of_weights = 2;
     static constexpr double mark_of_gap = 3;
 
-    /// Points of a rank in a lot.
+    /// Points of a rank in a lot, or in a part, of which only the weight counts.
     struct LotRecord {
         double rank = 0;
         PointsInLot points{};
@@ -143,7 +143,6 @@ class TreeSearch {
         double weight = 0;       ///< over all ranks
         bool is_counted = true;  ///< false if the weight is wrong by up to a point
         bool are_parts_counted = false;  ///< the guide's sums contain its parts' weights
-        int depth = 0;                   ///< number of cuts above
     };
 
     /// Node that is searched, or a part that is weighed.
@@ -158,15 +157,9 @@ class TreeSearch {
         bool is_wide = false;        ///< central: the cut has left its interval
         bool counts_parts = false;   ///< the first count includes the parts of the current cuts
         CutTarget target{};          ///< at the owner only
-        CutSearch decided{};         ///< likewise
         LotAnswer lot{};             ///< likewise
         double below = not_counted;  ///< weight below the current cut, if that was counted
         Places places{};             ///< allowed for the cut
-    };
-
-    struct KnownCut {
-        std::size_t node;
-        Cut cut;
     };
 
     /// Answer of an owner, followed by a LotAnswer, or after the first count of a node by the
@@ -181,8 +174,6 @@ class TreeSearch {
     int owner_of(const Descent& at) const;
     double ideal_share(const Descent& part) const;
     bool is_tiny(const Descent& part) const;
-    bool holds_own_parts(const Descent& at) const;
-    bool has_points(const Node& node) const;
     void enter(const Descent& at, Content&& content);
     bool ends_at(const Descent& at, Content& content);
     void add_node(const Descent& at, Content&& content);
@@ -198,19 +189,17 @@ class TreeSearch {
     void start_from_guide(Node& node);
     Bracket interval_of(const Descent& at, int depth, double& shifted) const;
     double missing_below(const Descent& at, double weight, double below) const;
-    void take_known(Node& node) const;
     void count(const Node& node, std::vector<double>& payload);
-    void count_parts(const Node& node, std::vector<double>& payload) const;
     void add_lot(const Node& node, std::vector<double>& payload) const;
     void count_points(const Node& node, std::span<double> histogram) const;
     void keep_chosen(const CutSearch& before, Node& node);
     void collect_more();
-    std::vector<double> answer_to(const Record& record, const Node& node) const;
+    std::vector<double> answer_to(const Record& record, const Node& node,
+                                  const CutSearch& decided) const;
     Lot lot_at(const Descent& at, const CutSearch& search) const;
     CutSearch decide_on_lot(Node& node, std::span<const double> payload) const;
     CutSearch decide_on(Node& node, std::span<const double> payload);
     void decide_by_first_count(Node& node, std::span<const double> histogram, CutSearch& search);
-    void limit_gathering();
     void follow(Node&& node, std::span<const double> payload);
     void follow_search(Node&& node, const CutSearch& next, std::span<const double> more);
     bool take_sums(Node& node, std::span<const double> sums) const;
@@ -224,8 +213,8 @@ class TreeSearch {
     double all_sizes_ = 0;  ///< sum of the sizes of all parts
     HistogramLayout layout_;
     CollectedTree points_;
-    std::vector<Node> nodes_;  ///< ascending
-    std::vector<KnownCut> known_;
+    std::vector<Node> nodes_;                         ///< ascending
+    std::vector<std::pair<std::size_t, Cut>> known_;  ///< cuts of nodes, after a spread search
     double imbalance_ = 0;
     int num_coincident_ = 0;
 };

@@ -1,14 +1,14 @@
 // All points of a rank as a search takes them.
 #pragma once
 
-#include "passes/collected.hpp"
+#include "passes/host_passes.hpp"
 #include "search/collected_tree.hpp"
 
 namespace rrcb::test {
 
 inline OpenPoints all_collected(const Points& points) {
     OpenPoints collected;
-    collect_all(points, collected);
+    HostPasses(points).collect_all(collected);
     return collected;
 }
 

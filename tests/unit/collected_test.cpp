@@ -68,9 +68,8 @@ TEST(CollectedTree, lets_points_wait_in_the_first_interval_on_their_way) {
         tree.put_back(root.lower().node, Entries(below));
         tree.put_back(root.upper().node, tree.admit(root.upper(), upper));
         made.cuts.tree[0] = plane_at(0, 0.45);
-        std::vector<double> counted(4);
-        tree.count_parts(root, {}, made.cuts, counted);
-        tree.settle_rest(made.cuts);
+        const std::vector<double> counted = tree.part_weights(root, {});
+        tree.settle_rest();
         tree.write_parts();
         const std::vector<Part> parts = made.passes->parts();
         for (LocalIndex i = 0; i < 2000; ++i)
@@ -90,8 +89,8 @@ TEST(CollectedTree, collects_more_where_a_cut_leaves_its_interval) {
         CollectedTree tree = made.tree(0.05);
         const Descent root = root_of(made.cuts);
         const Entries before = tree.admit(root, {});
-        const Wanted wanted{0, 4, 0, {-infinity, 0.45}};
-        const Entries more = tree.collect_more({&root.node, 1}, {&wanted, 1})[0];
+        const Bracket interval{-infinity, 0.45};
+        const Entries more = tree.collect_more({&root, 1}, {&interval, 1})[0];
         EXPECT_NEAR(tree.weight_of(before) + tree.weight_of(more), made.weight_in(0, 0.55, 0, 1),
                     1e-9);
         EXPECT_NEAR(tree.total_in(root.lower()).weight, 0, 1e-9);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "search/count.hpp"
+#include "passes/histogram.hpp"
 #include "search/cut_search.hpp"
 
 #include <algorithm>

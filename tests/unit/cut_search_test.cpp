@@ -5,7 +5,7 @@
 #include "../support/all_collected.hpp"
 #include "../support/clouds.hpp"
 #include "arithmetic/quantum.hpp"
-#include "search/count.hpp"
+#include "passes/histogram.hpp"
 
 #include <gtest/gtest.h>
 

@@ -101,7 +101,7 @@ TEST(Narrow, gathers_candidates_once_they_are_few) {
 TEST(Tie, goes_on_along_the_next_axis) {
     CutSearch search = search_in(CutSearch::over_candidates, 2);
     CutTarget target = target_of(8, 0, 3);
-    auto histogram = histogram_of({10}, many, 2.5, 2.5);
+    auto histogram = histogram_of({0, 0, 0, 10}, many, 2.5, 2.5);
     histogram[1] = 1;  // from -1 ...
     histogram[max_dimension + 1] = 6;
     decide_by_bins(search, target, layout, histogram);
@@ -114,7 +114,7 @@ TEST(Tie, goes_on_along_the_next_axis) {
 }
 
 TEST(Tie, on_all_axes_leaves_the_points_on_the_nearer_side) {
-    const auto histogram = histogram_of({0, 10}, many, 2.5, 2.5);
+    const auto histogram = histogram_of({0, 0, 0, 10}, many, 2.5, 2.5);
     for (const auto& [weight, at, below] :
          {std::tuple{7.0, 2.5, 3.0}, std::tuple{9.0, std::nextafter(2.5, infinity), 13.0}}) {
         CutSearch search = search_in(CutSearch::over_candidates);
@@ -132,7 +132,7 @@ TEST(Tie, on_all_axes_divides_the_points_where_they_are_to_be_divided) {
     CutSearch search = search_in(CutSearch::over_candidates);
     CutTarget target = target_of(7, 0, 3);
     target.divides = true;
-    decide_by_bins(search, target, layout, histogram_of({0, 10}, many, 2.5, 2.5));
+    decide_by_bins(search, target, layout, histogram_of({0, 0, 0, 10}, many, 2.5, 2.5));
     EXPECT_EQ(search.cut.at[0], 2.5);
     EXPECT_EQ(search.lot_below, 4);
     EXPECT_EQ(search.below, 3);

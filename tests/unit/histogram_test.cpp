@@ -1,4 +1,4 @@
-#include "search/count.hpp"
+#include "passes/histogram.hpp"
 
 #include <gtest/gtest.h>
 

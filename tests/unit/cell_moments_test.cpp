@@ -1,7 +1,7 @@
-#include "passes/binned_points.hpp"
-
 #include "../support/clouds.hpp"
 #include "passes/cell_finder.hpp"
+
+#include <rrcb/method/moments.hpp>
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,8 @@
 namespace rrcb {
 namespace {
 
-BinnedPoints bin(const Points& points, int cells_per_axis) {
-    return bin_by_cell(points,
-                       make_support_mesh(bounding_box(points), points.dimension, cells_per_axis));
+SupportMesh mesh_of(const Points& points, int cells_per_axis) {
+    return make_support_mesh(bounding_box(points), points.dimension, cells_per_axis);
 }
 
 /// The cell of each point.
@@ -45,37 +44,47 @@ Points view_of_columns(const std::vector<double>& columns, std::size_t dimension
     return column_points(axes);
 }
 
-TEST(BinnedPoints, cells_are_those_of_the_mesh) {
+TEST(CellMoments, cells_are_those_of_the_mesh) {
     for (const int dimension : {1, 2, 3}) {
         for (const int cells : {1, 3, 8, 40}) {
             const auto d = static_cast<std::size_t>(dimension);
             const std::vector<double> all = test::uniform_cloud(5003, dimension, 3);
             const std::vector<double> columns = by_column(all, d);
-            const BinnedPoints binned = bin(interleaved_points(all, dimension), cells);
-            const std::vector<LocalIndex> found = cells_of(binned.points, binned.mesh);
-            EXPECT_EQ(cells_of(view_of_columns(columns, d), binned.mesh), found);
-            std::vector<LocalIndex> counts(num_cells(binned.mesh));
-            for (LocalIndex i = 0; i < binned.points.count; ++i) {
-                const LocalIndex cell = cell_of(binned.mesh, binned.points.position(i));
+            const Points points = interleaved_points(all, dimension);
+            const SupportMesh mesh = mesh_of(points, cells);
+            const std::vector<LocalIndex> found = cells_of(points, mesh);
+            EXPECT_EQ(cells_of(view_of_columns(columns, d), mesh), found);
+            std::vector<LocalIndex> counts(num_cells(mesh));
+            for (LocalIndex i = 0; i < points.count; ++i) {
+                const LocalIndex cell = cell_of(mesh, points.position(i));
                 EXPECT_EQ(found[i], cell);
                 ++counts[cell];
             }
-            EXPECT_EQ(binned.counts, counts);
+            std::vector<LocalIndex> counted(counts.size());
+            for (const CellMoments& one : cell_moments(points, mesh))
+                counted[one.cell] = static_cast<LocalIndex>(one.moments.count);
+            EXPECT_EQ(counted, counts);
         }
     }
 }
 
-TEST(BinnedPoints, faces_belong_to_the_cell_above_and_those_of_the_box_to_the_last) {
+TEST(CellMoments, faces_belong_to_the_cell_above_and_those_of_the_box_to_the_last) {
     const std::vector<double> x{0, 1, 1, 2, 3, 4};
     const std::array<std::span<const double>, 1> columns{x};
     const std::vector<double> weights{1, 2, 4, 8, 16, 32};
-    const BinnedPoints binned = bin(column_points(columns, weights), 4);
-    EXPECT_EQ(cells_of(binned.points, binned.mesh), (std::vector<LocalIndex>{0, 1, 1, 2, 3, 3}));
-    EXPECT_EQ(binned.counts, (std::vector<LocalIndex>{1, 2, 1, 2}));
-    EXPECT_EQ(binned.weights, (std::vector<double>{1, 6, 8, 48}));
-    EXPECT_EQ(binned.origins, (std::vector<double>{0, 1, 2, 3}));
-    EXPECT_EQ(binned.first_moments, (std::vector<double>{0, 0, 0, 32}));
-    EXPECT_EQ(binned.second_moments, (std::vector<double>{0, 0, 0, 32}));
+    const Points points = column_points(columns, weights);
+    const SupportMesh mesh = mesh_of(points, 4);
+    EXPECT_EQ(cells_of(points, mesh), (std::vector<LocalIndex>{0, 1, 1, 2, 3, 3}));
+    const std::vector<CellMoments> cells = cell_moments(points, mesh);
+    ASSERT_EQ(cells.size(), 4);
+    const std::vector<GlobalCount> counts{1, 2, 1, 2};
+    const std::vector<double> expected{1, 6, 8, 48};
+    const std::vector<double> means{0, 1, 2, 3 + 2.0 / 3};
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        EXPECT_EQ(cells[k].moments.count, counts[k]);
+        EXPECT_EQ(cells[k].moments.weight, expected[k]);
+        EXPECT_DOUBLE_EQ(cells[k].moments.mean[0], means[k]);
+    }
 }
 
 }  // namespace

@@ -5,8 +5,7 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/stage_scope.hpp"
-#include "estimate/extent.hpp"
-#include "estimate/keeping.hpp"
+#include "estimate/keeping_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/request.hpp"
 #include "verbose_mpi.hpp"
@@ -62,6 +61,7 @@ void settle(Call& call, Participant& self) {
 void keep(Call& call, Participant& self) {
     Decision& decision = call.decision;
     const bool is_known = decision.verdict.answer == Answer::kept;
+    decision.cuts = std::move(call.result.cuts);
     const StageScope stage(call.options.observer, is_known ? Stage::assignment : Stage::broadcast,
                            self.arithmetic);
     if (is_known) {
@@ -69,16 +69,16 @@ void keep(Call& call, Participant& self) {
     } else {
         broadcast_kept(decision, self);
     }
-    KeptTree& kept = decision.kept;
+    call.result.cuts = std::move(decision.cuts);
+    const Cuts& cuts = call.result.cuts;
     Report& report = call.result.report;
-    report.kept = is_in_order(kept);
+    report.kept = is_in_order(cuts, decision.parts);
     report_measured(decision.verdict.kept_imbalance, call.options.imbalance_tolerance, report);
-    report.part_weights = std::move(kept.part_weights);
+    report.part_weights = std::move(decision.part_weights);
     report.details.coincident_cuts = static_cast<int>(
-        std::ranges::count_if(kept.cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
-    const Part part = kept.parts[mpi::rank_of(self.comm)];
+        std::ranges::count_if(cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
+    const Part part = decision.parts[mpi::rank_of(self.comm)];
     self.attempt([&] { call.points.renumber(std::span(&part, 1)); });
-    call.result.cuts = std::move(kept.cuts);
 }
 
 }  // namespace

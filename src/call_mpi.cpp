@@ -5,7 +5,6 @@
 #include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
 #include "estimate/earlier_cuts.hpp"
-#include "estimate/merge_tree_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 
@@ -51,7 +50,7 @@ void estimate(Call& call, Participant& self) {
     const Options& options = call.options;
     decide_together(call.mine, options, call.decision, self);
     call.result.report = report_of(call.decision.verdict, options.num_parts, options.part_sizes);
-    call.result.cuts = std::move(call.decision.bisection.cuts);
+    call.result.cuts = std::move(call.decision.cuts);
     call.points.use_weights(!call.decision.verdict.is_counted());
 }
 

@@ -3,9 +3,8 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/stage_scope.hpp"
 #include "cuts/cut_limits.hpp"
-#include "estimate/better_mpi.hpp"
 #include "estimate/earlier_cuts.hpp"
-#include "estimate/keeping.hpp"
+#include "estimate/keeping_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "spread_reuse_mpi.hpp"
 
@@ -41,7 +40,8 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
     introduce(given, summary, &previous, call, self);
     if (!may_reuse(previous, call)) return;
     const Options& options = call.options;
-    const Cuts& cuts = take_earlier(call.decision, options, call.is_spread, previous);
+    take_earlier(call.decision, options, call.is_spread, previous);
+    const Cuts& cuts = call.decision.cuts;
     if (call.is_spread) {
         earlier.totals = call.host->assign_known(cuts);
         earlier.spread.emplace(cuts, earlier.totals, is_whole(previous), options,
@@ -89,7 +89,7 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
         call.settlement.take_counts(
             decision.verdict.is_counted() ? earlier.totals.counts : earlier.totals.weights,
             decision.part_weights);
-    bracket_earlier(call.result.cuts, whole, decision.bisection.brackets);
+    bracket_earlier(call.result.cuts, whole, decision.brackets);
     call.settlement.refine(call.points, call.box, decision, call.result, self);
 }
 

@@ -65,11 +65,11 @@ void Settlement::refine(PointPasses& points, const Box& box, Decision& decision,
     Report& report = result.report;
     const Verdict& verdict = decision.verdict;
     Estimate estimate{std::move(result.cuts),
-                      std::move(decision.bisection.brackets),
+                      std::move(decision.brackets),
                       verdict.weight(),
                       verdict.is_counted() ? 1.0 : 0.0,
                       verdict.kept_imbalance,
-                      !decision.part_weights.empty(),
+                      verdict.answer == Answer::weights && !decision.part_weights.empty(),
                       verdict.heaviest,
                       verdict.answer == Answer::weights,
                       verdict.box,

@@ -24,23 +24,6 @@ void append_block(const BlockOfCells& block, std::vector<double>& records) {
     records.insert(records.end(), {block.num_cells, block.exponent, block.unit, block.num_packed});
 }
 
-void append_vector(const Vector& x, int dimension, std::vector<double>& records) {
-    records.insert(records.end(), x.begin(), x.begin() + dimension);
-}
-
-std::span<const double> take(std::span<const double>& records, std::size_t count) {
-    const auto taken = records.first(count);
-    records = records.subspan(count);
-    return taken;
-}
-
-Vector take_vector(std::span<const double>& records, int dimension) {
-    Vector x{};
-    const auto taken = take(records, dimension);
-    std::copy(taken.begin(), taken.end(), x.begin());
-    return x;
-}
-
 /// Doubles of one cell: number, count, weight, then mean and deviation per axis.
 void append_cell(const CellMoments& cell, int dimension, std::vector<double>& records) {
     records.push_back(static_cast<double>(cell.cell));
@@ -110,6 +93,23 @@ void take_lattice(std::span<const double>& records, std::size_t count, int dimen
 }
 
 }  // namespace
+
+void append_vector(const Vector& x, int dimension, std::vector<double>& records) {
+    records.insert(records.end(), x.begin(), x.begin() + dimension);
+}
+
+std::span<const double> take(std::span<const double>& records, std::size_t count) {
+    const auto taken = records.first(count);
+    records = records.subspan(count);
+    return taken;
+}
+
+Vector take_vector(std::span<const double>& records, int dimension) {
+    Vector x{};
+    const auto taken = take(records, dimension);
+    std::copy(taken.begin(), taken.end(), x.begin());
+    return x;
+}
 
 Vector cube_of(const Vector& position, int dimension, int exponent) {
     Vector cube{};

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace rrcb {
@@ -48,10 +49,6 @@ struct Contribution {
     std::vector<double> part_totals{};
 };
 
-/// Returns the cells per axis of a rank's mesh if the options leave it open: several for each part,
-/// at little cost compared with the points, and not nearly empty.
-int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options);
-
 /// Returns the totals of a rank's points, from one reading of these.
 Summary summarize(const PointSummary& points, bool are_weighted, int rank);
 
@@ -70,10 +67,11 @@ std::size_t most_cells(const Options& options);
 /// Adds the totals of the ranks that follow, and their failures and differences.
 void join(Summary& mine, const Summary& next);
 
-/// Adds the records, extents and part totals of the ranks that follow, already at the end of
-/// `mine.records`: joins the summaries, adds the totals up, and coarsens to `most` cells if there
-/// are more than twice as many. Not collective.
-void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
+/// Adds the ranks that follow, whose cells, extents and part totals are the `doubles`: appends
+/// them, adds the totals up, and coarsens to `most` cells if there are more than twice as many. Not
+/// collective.
+void absorb(Contribution& mine, const Summary& next, std::span<const double> doubles, int dimension,
+            std::size_t most);
 
 /// Returns the domain that the root bisects, from the contributions of all ranks.
 StatisticalDomain build_domain(const Contribution& all, int dimension);

@@ -36,25 +36,12 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     const Options& options = call.options;
     const bool reads_kept = !call.is_spread && reads_kept_tree(options, mpi::size_of(self.comm));
     call.box = summary.box;
-    call.settlement.prepare(options, call.is_spread, reads_kept, self);
+    prepare_to_settle(call, reads_kept, self);
     if (call.is_spread) call.decision.verdict.answer = Answer::weights;
     if (call.is_spread) return;
     if (reads_kept && may_keep) append_extent(summary, points.dimension(), call.mine.extents);
     make_buffers(call.decision, options, points.dimension(), reads_kept);
     add_records(points, summary.box, mpi::size_of(self.comm), options, call.mine);
-}
-
-/// Makes the parts, from the cuts of rank 0 if it makes them. Collective.
-void settle(Call& call, Participant& self) {
-    Settlement& settlement = call.settlement;
-    const Verdict& verdict = call.decision.verdict;
-    if (call.is_spread) {
-        settlement.search(*call.host, verdict, call.result, self);
-    } else if (is_refined(call.options) && verdict.num_points > 0) {
-        settlement.refine(call.points, call.box, call.decision, call.result, self);
-    } else {
-        settlement.assign(call.points, verdict.kept_imbalance < not_kept, call.result, self);
-    }
 }
 
 /// Makes the parts that the ranks hold the result. Collective.
@@ -92,11 +79,11 @@ Balance balance_from_scratch(PointPasses& points, const Options& given, bool may
     const double kept = call.decision.verdict.kept_imbalance;
     bool is_kept = keeps_at_once(kept, options.imbalance_tolerance);
     if (!is_kept) {
-        settle(call, self);
+        settle(call, kept < not_kept, self);
         is_kept = kept < not_kept && !is_worth_moving(kept, call.result.report.imbalance, options);
     }
     if (is_kept) keep(call, self);
-    if (call.is_spread) hold_cuts(*call.host, options, call.result, self);
+    if (call.is_spread) hold_cuts(call, self);
     self.attempt([&] { complete(call); });
     return std::move(call.result);
 }

@@ -88,11 +88,11 @@ Refined refine(Call& call, Participant& self) {
     const bool is_earlier = verdict.answer == Answer::weights;
     Estimate estimate{std::move(call.result.cuts),
                       std::move(call.decision.brackets),
-                      verdict.weight(),
+                      verdict.balanced_weight(),
                       verdict.is_counted() ? 1.0 : 0.0,
                       verdict.kept_imbalance,
                       is_earlier && !call.decision.part_weights.empty(),
-                      verdict.heaviest,
+                      verdict.balanced_heaviest(),
                       is_earlier,
                       verdict.box,
                       details.num_points,
@@ -106,9 +106,9 @@ Refined refine(Call& call, Participant& self) {
 Refined search(Call& call, Participant& self) {
     const Verdict& verdict = call.decision.verdict;
     PartTree tree = tree_of(call.options, mpi::size_of(self.comm));
-    tree.weight = verdict.weight();
+    tree.weight = verdict.balanced_weight();
     tree.rule.common_weight = verdict.is_counted() ? 1 : 0;
-    tree.rule.heaviest = verdict.heaviest;
+    tree.rule.heaviest = verdict.balanced_heaviest();
     Refined refined = call.of_many->refine(verdict.box, tree, *call.host, self);
     agree(self);
     return refined;
@@ -183,7 +183,7 @@ void complete(Call& call) {
     const Cuts& cuts = call.result.cuts;
     std::vector<double>& of_parts = call.result.report.part_weights;
     if (call.decision.verdict.is_counted())
-        for (double& weight : of_parts) weight *= call.decision.verdict.common_weight;
+        for (double& weight : of_parts) weight *= call.decision.verdict.unit();
     if (cuts.shape.dealt == 0) return;
     std::vector<Part> numbers(static_cast<std::size_t>(cuts.num_parts));
     for (Part end = 0; end < cuts.num_parts; ++end) numbers[end] = part_at(cuts, end);

@@ -95,7 +95,7 @@ class SpreadReuse {
         double largest = 0;
         sums_.owned().for_each([&](const Record& part) {
             const double ideal = (sizes.empty() ? 1 : sizes[part.key]) / all_sizes;
-            const double total = call_.decision.verdict.weight();
+            const double total = call_.decision.verdict.balanced_weight();
             largest = std::max(largest, over_ideal(part.payload[0], total, ideal));
         });
         return largest;

@@ -14,8 +14,18 @@
 
 namespace rrcb {
 
+/// Totals of the points of one rank, or of several.
+struct Totals {
+    std::int64_t num_points = 0;
+    std::int64_t num_cells = 0;
+    double weight = 0;
+    double lightest = std::numeric_limits<double>::infinity();  ///< weight of one point
+    double heaviest = 0;
+    Box box{};
+};
+
 /// Summary of one rank, or of all ranks of a subtree: failures, requests and totals.
-struct Summary {
+struct Summary : Totals {
     std::int32_t first_rank = 0;             ///< lowest rank of the summary
     std::int32_t failing_rank = no_rank;     ///< lowest of the ranks that failed
     std::int32_t differing_rank = no_rank;   ///< one with another request than ...
@@ -24,15 +34,9 @@ struct Summary {
     std::int32_t unweighted_rank = no_rank;  ///< one whose points have none
     std::uint64_t difference = 0;            ///< see name_of_request
     Request request{};                       ///< of the first rank
-    std::int64_t num_points = 0;
-    std::int64_t num_cells = 0;
     std::int64_t num_doubles = 0;
     std::int64_t num_extent_doubles = 0;  ///< of them, behind the cells
     std::int64_t num_total_doubles = 0;   ///< of them, the last ones
-    double weight = 0;
-    double lightest = std::numeric_limits<double>::infinity();  ///< weight of one point
-    double heaviest = 0;
-    Box box;  ///< of the points
 
     bool is_usable() const { return failing_rank == no_rank && differing_rank == no_rank; }
     /// Returns true if all points weigh the same: they are counted, in units of this weight.

@@ -62,37 +62,41 @@ double least_imbalance(const Verdict& verdict, int num_parts, std::span<const do
                static_cast<double>(count);
     if (verdict.is_counted()) return least_imbalance_by_count(count, part_sizes);
     const double parts = is_even ? num_parts : sum_of(part_sizes) / std::ranges::max(part_sizes);
-    return std::max(1.0, verdict.heaviest / verdict.weight() * parts);
+    return std::max(1.0, verdict.balanced_heaviest() / verdict.balanced_weight() * parts);
 }
 
-/// Calls `visit` with each array that the answer has.
-template <class Visit>
-void for_each_array(Decision& decision, Visit&& visit) {
-    const Answer answer = decision.verdict.answer;
-    if (answer != Answer::weights) visit(std::as_writable_bytes(std::span(decision.cuts.tree)));
-    if (answer == Answer::cuts) return visit(std::as_writable_bytes(std::span(decision.brackets)));
-    visit(std::as_writable_bytes(std::span(decision.part_weights)));
-    if (answer == Answer::kept) visit(std::as_writable_bytes(std::span(decision.parts)));
+/// Returns the arrays that the answer has, as bytes.
+std::array<std::span<std::byte>, 3> arrays_of(Decision& decision) {
+    const auto bytes = [](auto& array) { return std::as_writable_bytes(std::span(array)); };
+    switch (decision.verdict.answer) {
+        case Answer::cuts:
+            return {bytes(decision.cuts.tree), bytes(decision.brackets)};
+        case Answer::weights:
+            return {bytes(decision.part_weights)};
+        case Answer::kept:
+            break;
+    }
+    return {bytes(decision.cuts.tree), bytes(decision.part_weights), bytes(decision.parts)};
 }
 
 std::size_t num_bytes(Decision& decision) {
     std::size_t length = sizeof(Verdict);
-    for_each_array(decision, [&](std::span<std::byte> array) { length += array.size(); });
+    for (const auto array : arrays_of(decision)) length += array.size();
     return length;
 }
 
 /// Writes the arrays into the message, behind the verdict.
 void pack(Decision& decision, std::span<std::byte> message) {
     auto to = message.begin() + sizeof(Verdict);
-    for_each_array(decision, [&](auto array) { to = std::ranges::copy(array, to).out; });
+    for (const auto array : arrays_of(decision)) to = std::ranges::copy(array, to).out;
 }
 
 void unpack(Decision& decision, std::span<const std::byte> message) {
-    auto from = message.begin() + sizeof(Verdict);
-    for_each_array(decision, [&](std::span<std::byte> array) {
-        std::copy_n(from, array.size(), array.begin());
-        from += std::ssize(array);
-    });
+    std::size_t from = sizeof(Verdict);
+    for (const auto array : arrays_of(decision)) {
+        std::ranges::copy(message.subspan(from, array.size()), array.begin());
+        from += array.size();
+    }
 }
 
 /// Bytes of the first message from rank 0, for any options.
@@ -136,7 +140,7 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     const std::size_t num_parts = decision.part_weights.size();
     if (num_parts == 0 || all.summary.num_points == 0) return;
     const std::span<const double> totals(all.part_totals);
-    const bool is_counted = decision.verdict.is_counted() || !(all.summary.weight > 0);
+    const bool is_counted = decision.verdict.is_counted();
     std::ranges::copy(totals.subspan(is_counted ? num_parts : 0, num_parts),
                       decision.part_weights.begin());
     weigh_near(totals.subspan(2 * num_parts), all.summary, is_counted, decision.verdict);
@@ -182,16 +186,7 @@ void check_together(const Summary& summary) {
 
 Verdict verdict_of(const Summary& summary, const NearCuts& near, std::span<const double> estimated,
                    std::span<const double> part_sizes) {
-    Verdict verdict;
-    if (summary.weight == 0)
-        verdict.common_weight = 1;
-    else if (summary.is_counted())
-        verdict.common_weight = summary.heaviest;
-    verdict.heaviest = verdict.is_counted() ? 1 : summary.heaviest;
-    verdict.num_points = summary.num_points;
-    verdict.num_records = summary.num_cells;
-    verdict.total_weight = summary.weight;
-    verdict.box = summary.box;
+    Verdict verdict{summary};
     verdict.near = near;
     if (!estimated.empty() || summary.num_points == 0)
         verdict.estimated_imbalance = imbalance(estimated, part_sizes);
@@ -201,12 +196,12 @@ Verdict verdict_of(const Summary& summary, const NearCuts& near, std::span<const
 Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes) {
     Report report;
     report.details.num_points = verdict.num_points;
-    report.details.num_records = verdict.num_records;
-    report.details.total_weight = verdict.total_weight;
+    report.details.num_records = verdict.num_cells;
+    report.details.total_weight = verdict.weight;
     report.details.estimated_imbalance = verdict.estimated_imbalance;
     report.imbalance = verdict.measured_imbalance;
     if (verdict.num_points == 0) report_measured(1, 1, report);
-    report.details.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
+    report.details.all_weights_zero = verdict.num_points > 0 && verdict.weight == 0;
     report.details.least_imbalance = least_imbalance(verdict, num_parts, part_sizes);
     report.details.surplus_parts =
         static_cast<int>(std::max(GlobalCount{0}, num_parts - verdict.num_points));

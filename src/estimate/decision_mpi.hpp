@@ -26,28 +26,26 @@ enum class Answer : std::int32_t {
     kept      ///< the points are kept
 };
 
-/// Beginning of the decision of rank 0: whether there are cuts, and the totals.
-struct Verdict {
+/// Beginning of the decision of rank 0: its kind, and the totals of all ranks.
+struct Verdict : Totals {
     std::int32_t failing_rank = no_rank;
     Answer answer = Answer::cuts;
-    double heaviest = 0;       ///< weight of the heaviest point, 1 by count
-    double common_weight = 0;  ///< > 0: points are counted, all having this weight or none
-    std::int64_t num_points = 0;
-    std::int64_t num_records = 0;
-    double total_weight = 0;
     double estimated_imbalance = not_known;
-    Box box{};                              ///< of all points, if cells were gathered
     double kept_imbalance = not_kept;       ///< of the parts that the ranks hold
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
     NearCuts near{};                        ///< of the new cuts, or counted for the earlier ones
     double near_per_cut = 0;                ///< of the earlier cuts, see NearCuts::share
 
-    bool is_counted() const { return common_weight > 0; }
+    /// Returns true if points are counted, because all have the same weight or none.
+    bool is_counted() const { return weight == 0 || lightest == heaviest; }
+    /// Returns the weight of a counted point.
+    double unit() const { return weight == 0 ? 1 : heaviest; }
     /// Returns the weight of all points, or their number if they are counted.
-    double weight() const {
-        const bool is_number = is_counted() || total_weight == 0;
-        return is_number ? static_cast<double>(num_points) : total_weight;
+    double balanced_weight() const {
+        return is_counted() ? static_cast<double>(num_points) : weight;
     }
+    /// Returns the weight of the heaviest point, 1 if they are counted.
+    double balanced_heaviest() const { return is_counted() ? 1 : heaviest; }
 };
 
 /// Decision of rank 0: a verdict, and the arrays that its answer has.

@@ -24,7 +24,7 @@ struct FirstMessage {
             std::min(most_doubles, static_cast<std::size_t>(summary.num_doubles)));
     }
 };
-static_assert(std::is_trivially_copyable_v<Summary>);
+static_assert(std::is_trivially_copyable_v<Summary> && sizeof(Summary) % sizeof(double) == 0);
 
 /// Sends the summary with all doubles: cells, extents and totals.
 void send_up(Contribution& mine, int to, Participant& self) {
@@ -43,8 +43,7 @@ void send_up(Contribution& mine, int to, Participant& self) {
     first.summary = summary;
     const std::span<double> in_first = first.records_of();
     std::copy_n(doubles.begin(), in_first.size(), in_first.begin());
-    send(std::as_bytes(std::span(&first, 1))
-             .first(offsetof(FirstMessage, records) + in_first.size_bytes()),
+    send(std::as_bytes(std::span(&first, 1)).first(sizeof first.summary + in_first.size_bytes()),
          to, mpi::contribution_tag, self);
     for (std::size_t at = in_first.size(); at < doubles.size(); at += most_doubles)
         send(std::as_bytes(

@@ -95,7 +95,8 @@ std::vector<MassPoint> make_domain(const Contribution& all, int dimension,
     std::vector<MassPoint> domain;
     while (!records.empty()) {
         const Vector position = take_vector(records, dimension);
-        domain.push_back({position, all.summary.weight > 0 ? take(records, 1)[0] : 1.0});
+        const double weight = take(records, 1)[0];
+        domain.push_back({position, all.summary.weight > 0 ? weight : 1.0});
     }
     return domain;
 }

@@ -92,7 +92,7 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     Refinement refinement(ranks.options, self, sums);
     HostPasses passes(points, std::vector<Part>(points.count));
     Estimate estimate{decision.cuts, decision.brackets, static_cast<double>(points.count),
-                      decision.verdict.common_weight};
+                      decision.verdict.is_counted() ? 1.0 : 0.0};
     const Refined refined =
         refinement.refine(std::move(estimate), passes, bounding_box(points), self);
 

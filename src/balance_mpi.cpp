@@ -110,9 +110,9 @@ namespace {
 Balance balance_over(MPI_Comm comm, const Points& points, const Options& options,
                      const Cuts& previous, std::vector<Part> memory = {}) {
     Participant self = mpi::enter(comm, CallName::balance);
-    Balance result = aloud(self, [&] {
-        return balance(points, options, given(previous), true, self, std::move(memory));
-    });
+    const double start = MPI_Wtime();
+    Balance result = balance(points, options, given(previous), true, self, std::move(memory));
+    print_line(result, start, self);
     self.throw_failed_message();
     return result;
 }
@@ -130,8 +130,9 @@ void balance_into(Balance& result, const Points& points, const Options& options,
 
 Balance balance(PointPasses& points, const Options& options, const Cuts& previous, MPI_Comm comm) {
     Participant self = mpi::enter(comm, CallName::balance);
-    Balance result =
-        aloud(self, [&] { return balance(points, options, given(previous), true, self); });
+    const double start = MPI_Wtime();
+    Balance result = balance(points, options, given(previous), true, self);
+    print_line(result, start, self);
     // The last passes may fail, which no other message carries.
     agree(self);
     return result;

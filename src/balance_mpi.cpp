@@ -5,8 +5,7 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/stage_scope.hpp"
-#include "estimate/extent.hpp"
-#include "estimate/keeping.hpp"
+#include "estimate/keeping_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/request.hpp"
 #include "verbose_mpi.hpp"
@@ -37,7 +36,7 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     const Options& options = call.options;
     const bool reads_kept = !call.is_spread && reads_kept_tree(options, mpi::size_of(self.comm));
     call.box = summary.box;
-    call.settlement.prepare(options, call.is_spread, reads_kept, self);
+    prepare_to_settle(call, reads_kept, self);
     if (call.is_spread) call.decision.verdict.answer = Answer::weights;
     if (call.is_spread) return;
     if (reads_kept && may_keep) append_extent(summary, points.dimension(), call.mine.extents);
@@ -45,23 +44,11 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     add_records(points, summary.box, mpi::size_of(self.comm), options, call.mine);
 }
 
-/// Makes the parts, from the cuts of rank 0 if it makes them. Collective.
-void settle(Call& call, Participant& self) {
-    Settlement& settlement = call.settlement;
-    const Verdict& verdict = call.decision.verdict;
-    if (call.is_spread) {
-        settlement.search(*call.host, verdict, call.result, self);
-    } else if (is_refined(call.options) && verdict.num_points > 0) {
-        settlement.refine(call.points, call.box, call.decision, call.result, self);
-    } else {
-        settlement.assign(call.points, verdict.kept_imbalance < not_kept, call.result, self);
-    }
-}
-
 /// Makes the parts that the ranks hold the result. Collective.
 void keep(Call& call, Participant& self) {
     Decision& decision = call.decision;
     const bool is_known = decision.verdict.answer == Answer::kept;
+    decision.cuts = std::move(call.result.cuts);
     const StageScope stage(call.options.observer, is_known ? Stage::assignment : Stage::broadcast,
                            self.arithmetic);
     if (is_known) {
@@ -69,16 +56,16 @@ void keep(Call& call, Participant& self) {
     } else {
         broadcast_kept(decision, self);
     }
-    KeptTree& kept = decision.kept;
+    call.result.cuts = std::move(decision.cuts);
+    const Cuts& cuts = call.result.cuts;
     Report& report = call.result.report;
-    report.kept = is_in_order(kept);
+    report.kept = is_in_order(cuts, decision.parts);
     report_measured(decision.verdict.kept_imbalance, call.options.imbalance_tolerance, report);
-    report.part_weights = std::move(kept.part_weights);
+    report.part_weights = std::move(decision.part_weights);
     report.details.coincident_cuts = static_cast<int>(
-        std::ranges::count_if(kept.cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
-    const Part part = kept.parts[mpi::rank_of(self.comm)];
+        std::ranges::count_if(cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
+    const Part part = decision.parts[mpi::rank_of(self.comm)];
     self.attempt([&] { call.points.renumber(std::span(&part, 1)); });
-    call.result.cuts = std::move(kept.cuts);
 }
 
 }  // namespace
@@ -92,11 +79,11 @@ Balance balance_from_scratch(PointPasses& points, const Options& given, bool may
     const double kept = call.decision.verdict.kept_imbalance;
     bool is_kept = keeps_at_once(kept, options.imbalance_tolerance);
     if (!is_kept) {
-        settle(call, self);
+        settle(call, kept < not_kept, self);
         is_kept = kept < not_kept && !is_worth_moving(kept, call.result.report.imbalance, options);
     }
     if (is_kept) keep(call, self);
-    if (call.is_spread) hold_cuts(*call.host, options, call.result, self);
+    if (call.is_spread) hold_cuts(call, self);
     self.attempt([&] { complete(call); });
     return std::move(call.result);
 }
@@ -123,9 +110,9 @@ namespace {
 Balance balance_over(MPI_Comm comm, const Points& points, const Options& options,
                      const Cuts& previous, std::vector<Part> memory = {}) {
     Participant self = mpi::enter(comm, CallName::balance);
-    Balance result = aloud(self, [&] {
-        return balance(points, options, given(previous), true, self, std::move(memory));
-    });
+    const double start = MPI_Wtime();
+    Balance result = balance(points, options, given(previous), true, self, std::move(memory));
+    print_line(result, start, self);
     self.throw_failed_message();
     return result;
 }
@@ -143,8 +130,9 @@ void balance_into(Balance& result, const Points& points, const Options& options,
 
 Balance balance(PointPasses& points, const Options& options, const Cuts& previous, MPI_Comm comm) {
     Participant self = mpi::enter(comm, CallName::balance);
-    Balance result =
-        aloud(self, [&] { return balance(points, options, given(previous), true, self); });
+    const double start = MPI_Wtime();
+    Balance result = balance(points, options, given(previous), true, self);
+    print_line(result, start, self);
     // The last passes may fail, which no other message carries.
     agree(self);
     return result;

@@ -1,12 +1,11 @@
 #pragma once
 
 #include "balance_mpi.hpp"
-#include "estimate/contribution.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "passes/host_passes.hpp"
-#include "settlement_mpi.hpp"
+#include "search/refinement_mpi.hpp"
 
-#include <rrcb/passes.hpp>
+#include <optional>
 
 // What calls from scratch and from earlier cuts share.
 
@@ -27,7 +26,9 @@ struct Call {
     Contribution mine;
     Decision decision;
     Box box;  ///< of the points of this rank
-    Settlement settlement;
+    PartSums sums;
+    std::optional<Refinement> refinement;     ///< if cuts of rank 0 may move
+    std::optional<SpreadRefinement> of_many;  ///< if many ranks make the parts
     Balance result;
 };
 
@@ -35,8 +36,22 @@ struct Call {
 void introduce(const Options& given, const PointSummary& summary, const Cuts* previous, Call& call,
                const Participant& self);
 
+/// Makes the buffers of settle(); `counts` if it may have to count. Not collective.
+void prepare_to_settle(Call& call, bool counts, const Participant& self);
+
 /// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
 void estimate(Call& call, Participant& self);
+
+/// Makes the parts: by a search of many ranks, or from the cuts of rank 0, which move by counts of
+/// all ranks unless the options forbid it; `counts` if parts are counted all the same. Collective.
+void settle(Call& call, bool counts, Participant& self);
+
+/// Gives each rank the cuts by Options::cuts after many ranks made the parts; with all cuts also
+/// the weights of all parts.
+///
+/// Collective: two reductions for all cuts. No messages for HeldCuts::own, unless coincident points
+/// are divided: then as assign_all(), because look-ups find the upper side of a cut.
+void hold_cuts(Call& call, Participant& self);
 
 /// Replaces the ends of the tree by parts, and counts by weights; reports the points near cuts.
 /// Overwrites the sizes of the parts. Not collective.

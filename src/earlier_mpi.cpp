@@ -1,15 +1,26 @@
+#include "arithmetic/part_share.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "call_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
 #include "collective/stage_scope.hpp"
 #include "cuts/cut_limits.hpp"
-#include "estimate/better_mpi.hpp"
+#include "cuts/owned_cuts.hpp"
+#include "cuts/packed_tree.hpp"
 #include "estimate/earlier_cuts.hpp"
-#include "estimate/keeping.hpp"
+#include "estimate/keeping_mpi.hpp"
+#include "lists/tier_search_mpi.hpp"
 #include "options/call_kind.hpp"
-#include "spread_reuse_mpi.hpp"
+#include "passes/assignment.hpp"
 
+#include <rrcb/plan.hpp>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -17,10 +28,114 @@ namespace rrcb {
 
 namespace {
 
+void add(std::span<const double> a, std::span<const double> b, std::vector<double>& joined) {
+    std::ranges::transform(a, b, std::back_inserter(joined), std::plus<>());
+}
+
+/// Reuse of earlier cuts, distributed or complete, in a call in which many ranks make the parts.
+/// Memory is in proportion to the parts of a rank's points, and the cuts above them.
+class SpreadReuse {
+  public:
+    /// Assigns the points by the cuts of the decision that this rank knows; `was_whole` if all
+    /// ranks had all cuts. Borrows the call. Not collective; throws std::bad_alloc, and Error if
+    /// the rank lacks a cut that it owns.
+    SpreadReuse(Call& call, bool was_whole, MPI_Comm comm)
+        : call_(call),
+          was_whole_(was_whole),
+          totals_(call.host->assign_known(call.decision.cuts)),
+          search_(PathSearch(call.decision.cuts, call.host->points(), call.host->parts_here()),
+                  comm),
+          sums_(mpi::rank_of(comm), mpi::size_of(comm), add) {}
+
+    /// Finds the parts of all points and counts them. Returns false if they are not within the
+    /// tolerance. Otherwise it completes the report, and stores the cuts above the points and parts
+    /// of this rank.
+    ///
+    /// Collective: one pass through the ranks to find the parts, or more if one lacks cuts, one to
+    /// add up and one to compare.
+    bool ends(Participant& self) {
+        Report& report = call_.result.report;
+        search_together(search_, self);
+        Cuts known = search_.search.take();
+        self.attempt([&] { add_up(known.num_parts); });
+        search_.messages.run(sums_, Butterfly::to_owners, {}, self);
+        const double largest = largest_share(known.num_parts);
+        sums_.clear();
+        search_.messages.run(sums_, Butterfly::to_owners, {0, largest}, self);
+        if (report.details.num_points > 0) {
+            report_measured(sums_.flags()[1], call_.options.imbalance_tolerance, report);
+            if (!report.within_tolerance) return false;
+        }
+        self.attempt([&] { call_.result.cuts = kept(std::move(known)); });
+        agree(self);
+        report.details.rounds = report.details.num_points > 0 ? 1 : 0;
+        return true;
+    }
+
+  private:
+    /// Adds up the parts found at once, and those of points that were searched one by one.
+    void add_up(int num_parts) {
+        const bool by_count = call_.decision.verdict.is_counted();
+        const std::vector<double>& known = by_count ? totals_.counts : totals_.weights;
+        for (std::size_t k = 0; k < known.size(); ++k)
+            if (!is_unknown(totals_.parts[k]) && totals_.counts[k] > 0)
+                weights_[totals_.parts[k]] += known[k];
+        for (const LocalIndex i : search_.search.searched())
+            weights_[call_.host->parts_here()[i]] += call_.host->points().weight(i);
+        for (const auto& [part, weight] : weights_) {
+            const RankRange ranks = ranks_of_part(part, num_parts, sums_.num_ranks());
+            sums_.add(static_cast<Key>(part), ranks.first_rank, std::array{weight});
+        }
+    }
+
+    /// Returns the largest weight of a part that this rank owns over its ideal weight.
+    double largest_share(int num_parts) const {
+        const std::vector<double>& sizes = call_.options.part_sizes;
+        const double all_sizes = sizes.empty() ? num_parts : sum_of(sizes);
+        double largest = 0;
+        sums_.owned().for_each([&](const Record& part) {
+            const double ideal = (sizes.empty() ? 1 : sizes[part.key]) / all_sizes;
+            const double total = call_.decision.verdict.balanced_weight();
+            largest = std::max(largest, over_ideal(part.payload[0], total, ideal));
+        });
+        return largest;
+    }
+
+    /// Returns all cuts if each rank has and gets them; otherwise those above the points and the
+    /// parts of this rank.
+    Cuts kept(Cuts&& known) const {
+        Cuts kept{known.dimension, known.num_parts, {}, {}, known.shape};
+        if (was_whole_ && call_.options.cuts == HeldCuts::whole) {
+            kept.tree = std::move(known.tree);
+            return kept;
+        }
+        std::vector<Part> needed;
+        const auto [first, end] = parts_on(sums_.rank(), known.num_parts, sums_.num_ranks());
+        for (Part part = first; part < end; ++part) needed.push_back(part);
+        for (const auto& [part, weight] : weights_) needed.push_back(part);
+        std::ranges::sort(needed);
+        for (std::size_t k = 0; k < known.nodes.size(); ++k) {
+            const Descent at = node_at(known, static_cast<std::size_t>(known.nodes[k])).at;
+            const auto next = std::ranges::lower_bound(needed, at.first_part);
+            if (next == needed.end() || *next >= at.first_part + at.num_parts) continue;
+            kept.nodes.push_back(known.nodes[k]);
+            kept.tree.push_back(known.tree[k]);
+        }
+        return kept;
+    }
+
+    Call& call_;
+    bool was_whole_;
+    KnownTotals totals_;  ///< of this rank
+    SearchBuffers<PathSearch> search_;
+    Butterfly sums_;
+    std::map<Part, double> weights_{};  ///< of the points here, in each part
+};
+
 /// Counts of the parts of earlier cuts.
 struct EarlierParts {
-    KnownTotals totals{};                 ///< of this rank
-    std::optional<SpreadReuse> spread{};  ///< if many ranks weigh the parts; else rank 0 does
+    PartTotals totals{};                  ///< of this rank, which rank 0 weighs ...
+    std::optional<SpreadReuse> spread{};  ///< ... unless many ranks do
 };
 
 /// Returns true if the call may begin with earlier cuts.
@@ -41,22 +156,21 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
     introduce(given, summary, &previous, call, self);
     if (!may_reuse(previous, call)) return;
     const Options& options = call.options;
-    const Cuts& cuts = take_earlier(call.decision, options, call.is_spread, previous);
+    take_earlier(call.decision, options, call.is_spread, previous);
+    const Cuts& cuts = call.decision.cuts;
     if (call.is_spread) {
-        earlier.totals = call.host->assign_known(cuts);
-        earlier.spread.emplace(cuts, earlier.totals, is_whole(previous), options,
-                               call.host->points(), call.host->parts_here(), self.comm);
+        earlier.spread.emplace(call, is_whole(previous), self.comm);
         return;
     }
-    if (counts_earlier_parts(options)) earlier.totals = {points.assign(cuts, true)};
-    call.settlement.prepare(options, false, are_cuts_limited(options), self);
+    if (counts_earlier_parts(options)) earlier.totals = points.assign(cuts, true);
+    prepare_to_settle(call, are_cuts_limited(options), self);
     add_totals(earlier.totals, near_share(cuts, points, cuts.near.reach, 1024), call.mine);
 }
 
 /// Returns true if the earlier cuts are kept; the report then has their imbalance. Collective if
 /// many ranks weigh their parts.
 bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
-    if (earlier.spread) return earlier.spread->ends(call.decision.verdict, call.result, self);
+    if (earlier.spread) return earlier.spread->ends(self);
     const Options& options = call.options;
     Report& report = call.result.report;
     if (report.details.num_points == 0) return true;
@@ -84,13 +198,12 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
             limits.require_room();
             move_into_places(limits, call.result.cuts);
         });
-    if (!is_refined(options)) return call.settlement.assign(call.points, true, call.result, self);
-    if (counts_earlier_parts(options))
-        call.settlement.take_counts(
+    if (is_refined(options) && counts_earlier_parts(options))
+        call.sums.set(
             decision.verdict.is_counted() ? earlier.totals.counts : earlier.totals.weights,
             decision.part_weights);
-    bracket_earlier(call.result.cuts, whole, decision.bisection.brackets);
-    call.settlement.refine(call.points, call.box, decision, call.result, self);
+    if (is_refined(options)) bracket_earlier(call.result.cuts, whole, decision.brackets);
+    settle(call, true, self);
 }
 
 }  // namespace
@@ -107,7 +220,7 @@ Balance balance_from_earlier(PointPasses& points, const Options& given, const Cu
     const bool is_kept = keeps_earlier(call, earlier, self);
     if (call.is_spread) {
         if (!is_kept) return balance_from_scratch(points, given, may_keep, self);
-        hold_cuts(*call.host, call.options, call.result, self);
+        hold_cuts(call, self);
         complete(call);
         return std::move(call.result);
     }

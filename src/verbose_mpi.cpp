@@ -9,19 +9,21 @@
 
 namespace rrcb {
 
-void print_line(const Balance& made, double seconds) {
+bool is_verbosity_asked() {
+    const char* value = std::getenv("RRCB_VERBOSE");
+    return value != nullptr && *value != '\0' && std::string_view(value) != "0";
+}
+
+void print_line(const Balance& made, double start, const Participant& self) {
+    if (!is_verbosity_asked() || mpi::rank_of(self.comm) != 0) return;
     const Report& report = made.report;
     const bool is_measured = !std::isnan(report.imbalance);
     const double imbalance = is_measured ? report.imbalance : report.details.estimated_imbalance;
     std::printf("RRCB %s: %lld points in %d parts, imbalance %.4f%s, %d rounds, %.2f ms\n",
                 version(), static_cast<long long>(report.details.num_points), made.cuts.num_parts,
-                imbalance, is_measured ? "" : " (estimated)", report.details.rounds, 1e3 * seconds);
+                imbalance, is_measured ? "" : " (estimated)", report.details.rounds,
+                1e3 * (MPI_Wtime() - start));
     std::fflush(stdout);
-}
-
-bool is_verbosity_asked() {
-    const char* value = std::getenv("RRCB_VERBOSE");
-    return value != nullptr && *value != '\0' && std::string_view(value) != "0";
 }
 
 }  // namespace rrcb

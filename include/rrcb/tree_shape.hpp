@@ -4,9 +4,9 @@ namespace rrcb {
 
 /// Shape of a tree of cuts: the number of parts on each side of each cut.
 ///
-/// A group is a set of parts with a node of its own, such as the parts of one machine. A node above
-/// several groups halves their number; a node within a group halves the number of its parts. By
-/// default a group has one part, so every node halves its parts.
+/// The tree divides groups of parts, then the parts of each group. A group may be the parts of one
+/// machine; by default it is a single part. A node above several groups halves their number, a node
+/// within a group the number of its parts.
 ///
 /// The ends of the tree, from the lowest, are the parts of the first group, of the second, and so
 /// on. End k is part k, unless parts are dealt.

@@ -12,40 +12,14 @@ namespace rrcb {
 
 namespace {
 
-/// Head of a block of records.
-struct BlockOfCells {
-    double num_cells;
-    double exponent;    ///< of the lattice, or of lean weights
-    double unit;        ///< of the weights
-    double num_packed;  ///< doubles of lean cells; 0 if the cells are those of a lattice
-};
-
-void append_block(const BlockOfCells& block, std::vector<double>& records) {
-    records.insert(records.end(), {block.num_cells, block.exponent, block.unit, block.num_packed});
-}
-
-void append_vector(const Vector& x, int dimension, std::vector<double>& records) {
-    records.insert(records.end(), x.begin(), x.begin() + dimension);
-}
-
-std::span<const double> take(std::span<const double>& records, std::size_t count) {
-    const auto taken = records.first(count);
-    records = records.subspan(count);
-    return taken;
-}
-
-Vector take_vector(std::span<const double>& records, int dimension) {
-    Vector x{};
-    const auto taken = take(records, dimension);
-    std::copy(taken.begin(), taken.end(), x.begin());
-    return x;
-}
+/// Doubles in the head of a block: the number of cells, the exponent of the lattice, or of lean
+/// weights, the unit of the weights, and the doubles of lean cells, 0 if they are of a lattice.
+constexpr std::size_t head_length = 4;
 
 /// Doubles of one cell: number, count, weight, then mean and deviation per axis.
 void append_cell(const CellMoments& cell, int dimension, std::vector<double>& records) {
-    records.push_back(static_cast<double>(cell.cell));
-    records.push_back(static_cast<double>(cell.moments.count));
-    records.push_back(cell.moments.weight);
+    records.insert(records.end(), {static_cast<double>(cell.cell),
+                                   static_cast<double>(cell.moments.count), cell.moments.weight});
     append_vector(cell.moments.mean, dimension, records);
     append_vector(cell.moments.deviation, dimension, records);
 }
@@ -111,6 +85,23 @@ void take_lattice(std::span<const double>& records, std::size_t count, int dimen
 
 }  // namespace
 
+void append_vector(const Vector& x, int dimension, std::vector<double>& records) {
+    records.insert(records.end(), x.begin(), x.begin() + dimension);
+}
+
+std::span<const double> take(std::span<const double>& records, std::size_t count) {
+    const auto taken = records.first(count);
+    records = records.subspan(count);
+    return taken;
+}
+
+Vector take_vector(std::span<const double>& records, int dimension) {
+    Vector x{};
+    const auto taken = take(records, dimension);
+    std::copy(taken.begin(), taken.end(), x.begin());
+    return x;
+}
+
 Vector cube_of(const Vector& position, int dimension, int exponent) {
     Vector cube{};
     for (int a = 0; a < dimension; ++a) cube[a] = std::floor(std::ldexp(position[a], -exponent));
@@ -121,9 +112,9 @@ void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& me
                        std::vector<double>& records) {
     const LeanCells lean = pack_cells(cells, mesh);
     const std::size_t num_packed = (lean.bytes.size() + sizeof(double) - 1) / sizeof(double);
-    append_block({static_cast<double>(cells.size()), static_cast<double>(lean.exponent), unit,
-                  static_cast<double>(num_packed)},
-                 records);
+    records.insert(records.end(),
+                   {static_cast<double>(cells.size()), static_cast<double>(lean.exponent), unit,
+                    static_cast<double>(num_packed)});
     append_mesh(mesh, records);
     records.resize(records.size() + num_packed);
     std::ranges::copy(lean.bytes,
@@ -131,29 +122,27 @@ void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& me
 }
 
 void append_cells(const CellSet& merged, int dimension, double unit, std::vector<double>& records) {
-    append_block(
-        {static_cast<double>(merged.cells.size()), static_cast<double>(merged.exponent), unit, 0},
-        records);
+    records.insert(records.end(), {static_cast<double>(merged.cells.size()),
+                                   static_cast<double>(merged.exponent), unit, 0});
     for (const CellMoments& cell : merged.cells) append_cell(cell, dimension, records);
 }
 
 CellSet read_cells(std::span<const double> records, int dimension, bool in_units) {
     CellSet all;
     while (!records.empty()) {
-        const auto head = take(records, sizeof(BlockOfCells) / sizeof(double));
-        const BlockOfCells block{head[0], head[1], head[2], head[3]};
-        const auto count = static_cast<std::size_t>(block.num_cells);
-        const auto exponent = static_cast<int>(block.exponent);
-        if (block.num_packed == 0) {
+        const auto head = take(records, head_length);
+        const auto count = static_cast<std::size_t>(head[0]);
+        const auto exponent = static_cast<int>(head[1]);
+        const auto num_packed = static_cast<std::size_t>(head[3]);
+        if (num_packed == 0) {
             take_lattice(records, count, dimension, exponent, all);
         } else {
             const SupportMesh mesh = take_mesh(records, dimension);
-            const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
+            const auto packed = take(records, num_packed);
             unpack_cells(exponent, std::as_bytes(packed), count, mesh, all.cells);
         }
         if (in_units) continue;
-        for (CellMoments& cell : std::span(all.cells).last(count))
-            cell.moments.weight *= block.unit;
+        for (CellMoments& cell : std::span(all.cells).last(count)) cell.moments.weight *= head[2];
     }
     return all;
 }

@@ -10,6 +10,15 @@
 
 namespace rrcb {
 
+/// Appends the coordinates of a vector.
+void append_vector(const Vector& x, int dimension, std::vector<double>& records);
+
+/// Takes doubles off the front.
+std::span<const double> take(std::span<const double>& records, std::size_t count);
+
+/// Takes a vector off the front; 0 beyond the dimension.
+Vector take_vector(std::span<const double>& records, int dimension);
+
 /// Cells of several ranks, of their support meshes or of a lattice.
 ///
 /// The lattice of an exponent e divides all of space into cubes with edges of 2^e and corners at

@@ -9,12 +9,23 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace rrcb {
 
+/// Totals of the points of one rank, or of several.
+struct Totals {
+    std::int64_t num_points = 0;
+    std::int64_t num_cells = 0;
+    double weight = 0;
+    double lightest = std::numeric_limits<double>::infinity();  ///< weight of one point
+    double heaviest = 0;
+    Box box{};
+};
+
 /// Summary of one rank, or of all ranks of a subtree: failures, requests and totals.
-struct Summary {
+struct Summary : Totals {
     std::int32_t first_rank = 0;             ///< lowest rank of the summary
     std::int32_t failing_rank = no_rank;     ///< lowest of the ranks that failed
     std::int32_t differing_rank = no_rank;   ///< one with another request than ...
@@ -23,15 +34,9 @@ struct Summary {
     std::int32_t unweighted_rank = no_rank;  ///< one whose points have none
     std::uint64_t difference = 0;            ///< see name_of_request
     Request request{};                       ///< of the first rank
-    std::int64_t num_points = 0;
-    std::int64_t num_cells = 0;
     std::int64_t num_doubles = 0;
     std::int64_t num_extent_doubles = 0;  ///< of them, behind the cells
     std::int64_t num_total_doubles = 0;   ///< of them, the last ones
-    double weight = 0;
-    double lightest = std::numeric_limits<double>::infinity();  ///< weight of one point
-    double heaviest = 0;
-    Box box;  ///< of the points
 
     bool is_usable() const { return failing_rank == no_rank && differing_rank == no_rank; }
     /// Returns true if all points weigh the same: they are counted, in units of this weight.
@@ -47,10 +52,6 @@ struct Contribution {
     /// of points near the cuts and the number times their spread, if the call counts them.
     std::vector<double> part_totals{};
 };
-
-/// Returns the cells per axis of a rank's mesh if the options leave it open: several for each part,
-/// at little cost compared with the points, and not nearly empty.
-int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options);
 
 /// Returns the totals of a rank's points, from one reading of these.
 Summary summarize(const PointSummary& points, bool are_weighted, int rank);
@@ -70,10 +71,11 @@ std::size_t most_cells(const Options& options);
 /// Adds the totals of the ranks that follow, and their failures and differences.
 void join(Summary& mine, const Summary& next);
 
-/// Adds the records, extents and part totals of the ranks that follow, already at the end of
-/// `mine.records`: joins the summaries, adds the totals up, and coarsens to `most` cells if there
-/// are more than twice as many. Not collective.
-void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
+/// Adds the ranks that follow, whose cells, extents and part totals are the `doubles`: appends
+/// them, adds the totals up, and coarsens to `most` cells if there are more than twice as many. Not
+/// collective.
+void absorb(Contribution& mine, const Summary& next, std::span<const double> doubles, int dimension,
+            std::size_t most);
 
 /// Returns the domain that the root bisects, from the contributions of all ranks.
 StatisticalDomain build_domain(const Contribution& all, int dimension);

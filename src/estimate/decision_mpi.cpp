@@ -9,8 +9,7 @@
 #include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
 #include "estimate/earlier_cuts.hpp"
-#include "estimate/extent.hpp"
-#include "estimate/keeping.hpp"
+#include "estimate/keeping_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 
@@ -29,25 +28,6 @@
 namespace rrcb {
 
 namespace {
-
-Verdict verdict_of(const Summary& summary, const Bisection& bisection,
-                   std::span<const double> part_sizes) {
-    Verdict verdict;
-    if (summary.weight == 0)
-        verdict.common_weight = 1;
-    else if (summary.is_counted())
-        verdict.common_weight = summary.heaviest;
-    verdict.heaviest = verdict.is_counted() ? 1 : summary.heaviest;
-    verdict.num_points = summary.num_points;
-    verdict.num_records = summary.num_cells;
-    verdict.total_weight = summary.weight;
-    verdict.box = summary.box;
-    verdict.near = bisection.cuts.near;
-    const bool estimates = !bisection.part_weights.empty() || summary.num_points == 0;
-    verdict.estimated_imbalance =
-        estimates ? imbalance(bisection.part_weights, part_sizes) : not_known;
-    return verdict;
-}
 
 /// Returns the least imbalance of points of one weight in parts of these relative sizes: each point
 /// beyond the whole numbers of the shares goes to the part that it makes the least too heavy.
@@ -82,66 +62,58 @@ double least_imbalance(const Verdict& verdict, int num_parts, std::span<const do
                static_cast<double>(count);
     if (verdict.is_counted()) return least_imbalance_by_count(count, part_sizes);
     const double parts = is_even ? num_parts : sum_of(part_sizes) / std::ranges::max(part_sizes);
-    return std::max(1.0, verdict.heaviest / verdict.weight() * parts);
+    return std::max(1.0, verdict.balanced_heaviest() / verdict.balanced_weight() * parts);
 }
 
-/// Throws Error if the ranks differ or one has failed.
-void check_together(const Summary& summary) {
-    if (summary.differing_rank != no_rank)
-        reject(difference(name_of_request(summary.difference), Shared{}.fix, summary.reference_rank,
-                          summary.differing_rank));
-    if (summary.weighted_rank != no_rank && summary.unweighted_rank != no_rank) {
-        const Shared weights = weights_given({});
-        reject(
-            difference(weights.name, weights.fix, summary.weighted_rank, summary.unweighted_rank));
-    }
-    if (!std::isfinite(summary.weight))
-        reject("the sum of the weights of all ranks overflows; scale them down");
-}
-
-/// Calls `visit` with each array of the message, by the answer.
-template <class Visit>
-void for_each_array(Decision& decision, Visit&& visit) {
+/// Returns the arrays that the answer has, as bytes.
+std::array<std::span<std::byte>, 3> arrays_of(Decision& decision) {
+    const auto bytes = [](auto& array) { return std::as_writable_bytes(std::span(array)); };
     switch (decision.verdict.answer) {
-        case Answer::weights:
-            return visit(std::span(decision.part_weights));
         case Answer::cuts:
-            visit(std::span(decision.bisection.cuts.tree));
-            return visit(std::span(decision.bisection.brackets));
+            return {bytes(decision.cuts.tree), bytes(decision.brackets)};
+        case Answer::weights:
+            return {bytes(decision.part_weights)};
         case Answer::kept:
-            visit(std::span(decision.kept.cuts.tree));
-            visit(std::span(decision.kept.part_weights));
-            visit(std::span(decision.kept.parts));
+            break;
+    }
+    return {bytes(decision.cuts.tree), bytes(decision.part_weights), bytes(decision.parts)};
+}
+
+std::size_t num_bytes(Decision& decision) {
+    std::size_t length = sizeof(Verdict);
+    for (const auto array : arrays_of(decision)) length += array.size();
+    return length;
+}
+
+/// Writes the arrays into the message, behind the verdict.
+void pack(Decision& decision, std::span<std::byte> message) {
+    auto to = message.begin() + sizeof(Verdict);
+    for (const auto array : arrays_of(decision)) to = std::ranges::copy(array, to).out;
+}
+
+void unpack(Decision& decision, std::span<const std::byte> message) {
+    std::size_t from = sizeof(Verdict);
+    for (const auto array : arrays_of(decision)) {
+        std::ranges::copy(message.subspan(from, array.size()), array.begin());
+        from += array.size();
     }
 }
 
-/// Returns the message, as long as its arrays.
-std::span<std::byte> message_of(Decision& decision) {
-    std::size_t length = 0;
-    for_each_array(decision, [&](auto array) { length += array.size_bytes(); });
-    return std::span(decision.message).first(length);
+/// Bytes of the first message from rank 0, for any options.
+constexpr std::size_t head_length = 2048;
+
+/// Allocates memory for the message with this many bytes of arrays.
+void make_message(std::size_t arrays, Decision& decision) {
+    decision.message.resize(std::max(head_length, sizeof(Verdict) + arrays));
 }
 
-void pack(Decision& decision) {
-    auto to = decision.message.begin();
-    for_each_array(decision,
-                   [&](auto array) { to = std::ranges::copy(std::as_bytes(array), to).out; });
-}
-
-void unpack(Decision& decision) {
-    auto from = std::as_const(decision.message).begin();
-    for_each_array(decision, [&](auto array) {
-        const std::span<std::byte> to = std::as_writable_bytes(array);
-        std::copy_n(from, to.size(), to.begin());
-        from += std::ssize(to);
-    });
-}
-
-void broadcast_head(Head& head, Verdict& verdict, Participant& self) {
-    std::memcpy(head.data(), &verdict, sizeof verdict);
-    broadcast_and_meet(head, self);
-    std::memcpy(&verdict, head.data(), sizeof verdict);
-    fail_together(verdict.failing_rank, self);
+/// Takes what the ranks hold as the decision.
+void keep(Decision& decision) {
+    decision.verdict.answer = Answer::kept;
+    if (!decision.held) return;
+    decision.cuts = std::move(decision.held->cuts);
+    decision.part_weights = std::move(decision.held->part_weights);
+    decision.parts = std::move(decision.held->parts);
 }
 
 Bisection bisect_gathered(const Contribution& all, const Options& options, int dimension,
@@ -168,7 +140,7 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     const std::size_t num_parts = decision.part_weights.size();
     if (num_parts == 0 || all.summary.num_points == 0) return;
     const std::span<const double> totals(all.part_totals);
-    const bool is_counted = decision.verdict.is_counted() || !(all.summary.weight > 0);
+    const bool is_counted = decision.verdict.is_counted();
     std::ranges::copy(totals.subspan(is_counted ? num_parts : 0, num_parts),
                       decision.part_weights.begin());
     weigh_near(totals.subspan(2 * num_parts), all.summary, is_counted, decision.verdict);
@@ -184,31 +156,52 @@ bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contributio
 
 /// Reads the parts that the ranks hold from the extents of their points.
 void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
-    const Cuts& estimate = decision.bisection.cuts;
+    const Cuts& estimate = decision.cuts;
     std::vector<PointSummary> extents = read_extents(all.extents, estimate.dimension);
-    if (extents.empty() || extents.size() != decision.kept.parts.size()) return;
+    if (extents.empty() || extents.size() != decision.parts.size()) return;
     if (all.summary.num_points == 0) return;
     if (decision.verdict.is_counted())
         for (PointSummary& extent : extents) extent.weight = static_cast<double>(extent.count);
-    auto kept = read_kept_tree(extents, estimate, options);
-    if (!kept || !crosses_good_axes(kept->cuts, estimate, all, options)) return;
-    decision.verdict.kept_imbalance = kept->imbalance;
-    if (keeps_at_once(kept->imbalance, options.imbalance_tolerance))
-        decision.verdict.answer = Answer::kept;
-    decision.kept = std::move(*kept);
+    auto held = read_kept_tree(extents, estimate, options);
+    if (!held || !crosses_good_axes(held->cuts, estimate, all, options)) return;
+    decision.verdict.kept_imbalance = held->imbalance;
+    decision.held = std::move(held);
+    if (keeps_at_once(decision.verdict.kept_imbalance, options.imbalance_tolerance)) keep(decision);
 }
 
 }  // namespace
 
+void check_together(const Summary& summary) {
+    if (summary.differing_rank != no_rank)
+        reject(difference(name_of_request(summary.difference), Shared{}.fix, summary.reference_rank,
+                          summary.differing_rank));
+    if (summary.weighted_rank != no_rank && summary.unweighted_rank != no_rank) {
+        const Shared weights = weights_given({});
+        reject(
+            difference(weights.name, weights.fix, summary.weighted_rank, summary.unweighted_rank));
+    }
+    if (!std::isfinite(summary.weight))
+        reject("the sum of the weights of all ranks overflows; scale them down");
+}
+
+Verdict verdict_of(const Summary& summary, const NearCuts& near, std::span<const double> estimated,
+                   std::span<const double> part_sizes) {
+    Verdict verdict{summary};
+    verdict.near = near;
+    if (!estimated.empty() || summary.num_points == 0)
+        verdict.estimated_imbalance = imbalance(estimated, part_sizes);
+    return verdict;
+}
+
 Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes) {
     Report report;
     report.details.num_points = verdict.num_points;
-    report.details.num_records = verdict.num_records;
-    report.details.total_weight = verdict.total_weight;
+    report.details.num_records = verdict.num_cells;
+    report.details.total_weight = verdict.weight;
     report.details.estimated_imbalance = verdict.estimated_imbalance;
     report.imbalance = verdict.measured_imbalance;
     if (verdict.num_points == 0) report_measured(1, 1, report);
-    report.details.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
+    report.details.all_weights_zero = verdict.num_points > 0 && verdict.weight == 0;
     report.details.least_imbalance = least_imbalance(verdict, num_parts, part_sizes);
     report.details.surplus_parts =
         static_cast<int>(std::max(GlobalCount{0}, num_parts - verdict.num_points));
@@ -224,73 +217,75 @@ bool counts_earlier_parts(const Options& options) {
     return !are_cuts_limited(options) && options.refine != Refine::exact;
 }
 
-const Cuts& take_earlier(Decision& decision, const Options& options, bool spread,
-                         const Cuts& previous) {
-    Cuts& cuts = decision.bisection.cuts;
+void take_earlier(Decision& decision, const Options& options, bool spread, const Cuts& previous) {
+    Cuts& cuts = decision.cuts;
     decision.verdict.answer = Answer::weights;
     cuts = fitted(previous, options);
     if (spread && is_whole(cuts)) {
         cuts.nodes.resize(cuts.tree.size());
         std::iota(cuts.nodes.begin(), cuts.nodes.end(), 0);
     }
-    if (spread) return cuts;
-    decision.bisection.brackets.reserve(is_refined(options) ? cuts.tree.size() : 0);
-    decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
-    decision.message.resize(std::span(decision.part_weights).size_bytes());
-    return cuts;
+    if (!spread) {
+        decision.brackets.reserve(is_refined(options) ? cuts.tree.size() : 0);
+        decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
+    }
+    make_message(std::span(decision.part_weights).size_bytes(), decision);
 }
 
 void make_buffers(Decision& decision, const Options& options, int dimension, bool may_keep) {
     const std::size_t num_parts = options.part_sizes.size();
     const std::size_t num_cuts = num_parts - 1;
-    Bisection& bisection = decision.bisection;
-    bisection.cuts.dimension = dimension;
-    bisection.cuts.num_parts = static_cast<int>(num_parts);
-    bisection.cuts.shape = options.tree;
-    bisection.cuts.tree.resize(num_cuts);
-    bisection.brackets.resize(is_refined(options) ? num_cuts : 0);
+    Cuts& cuts = decision.cuts;
+    cuts = {dimension, static_cast<int>(num_parts), std::vector<Cut>(num_cuts), {}, options.tree};
+    decision.brackets.resize(is_refined(options) ? num_cuts : 0);
     if (may_keep) {
-        decision.kept.cuts = bisection.cuts;
-        decision.kept.part_weights.resize(num_parts);
-        decision.kept.parts.resize(num_parts);
+        decision.part_weights.resize(num_parts);
+        decision.parts.resize(num_parts);
     }
-    const std::size_t beside_cuts =
-        std::max(bisection.brackets.size() * sizeof(Bracket),
-                 decision.kept.parts.size() * (sizeof(double) + sizeof(Part)));
-    decision.message.resize(num_cuts * sizeof(Cut) + beside_cuts);
+    make_message(
+        num_cuts * sizeof(Cut) + std::max(decision.brackets.size() * sizeof(Bracket),
+                                          decision.parts.size() * (sizeof(double) + sizeof(Part))),
+        decision);
 }
 
 void decide(const Contribution& all, const Options& options, Decision& decision) {
     check_together(all.summary);
-    Bisection& bisection = decision.bisection;
     const Answer answer = decision.verdict.answer;
+    std::vector<double> estimated;
     if (answer == Answer::cuts) {
-        const bool with_brackets = is_refined(options);
-        bisection = bisect_gathered(all, options, bisection.cuts.dimension, with_brackets);
-        bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
+        const std::size_t num_brackets = decision.brackets.size();
+        Bisection made =
+            bisect_gathered(all, options, decision.cuts.dimension, is_refined(options));
+        decision.cuts = std::move(made.cuts);
+        decision.brackets = std::move(made.brackets);
+        decision.brackets.resize(num_brackets);
+        estimated = std::move(made.part_weights);
     }
-    decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
-    decision.verdict.answer = answer;
+    Verdict& verdict = decision.verdict;
+    verdict = verdict_of(all.summary, decision.cuts.near, estimated, options.part_sizes);
+    verdict.answer = answer;
     if (answer == Answer::weights) weigh_parts(all, options, decision);
     weigh_kept(all, options, decision);
 }
 
 void broadcast(Decision& decision, Participant& self) {
-    Head head{};
-    const std::span<std::byte> space = std::span(head).subspan(sizeof(Verdict));
-    const auto in_head = [&] {
-        const std::span<std::byte> message = message_of(decision);
-        return message.first(std::min(message.size(), space.size()));
-    };
-    if (mpi::rank_of(self.comm) == root && decision.verdict.failing_rank == no_rank) {
-        pack(decision);
-        std::ranges::copy(in_head(), space.begin());
+    // A rank without memory for the message throws after its head.
+    std::array<std::byte, head_length> spare{};
+    Verdict& verdict = decision.verdict;
+    std::span<std::byte> message = decision.message;
+    if (message.empty()) message = spare;
+    const std::span<std::byte> head = message.first(head_length);
+    if (mpi::rank_of(self.comm) == root) {
+        std::memcpy(head.data(), &verdict, sizeof verdict);
+        if (verdict.failing_rank == no_rank) pack(decision, message);
     }
-    broadcast_head(head, decision.verdict, self);
+    broadcast_and_meet(head, self);
+    std::memcpy(&verdict, head.data(), sizeof verdict);
+    fail_together(verdict.failing_rank, self);
     // All ranks now know the length of the message.
-    std::ranges::copy(space.first(in_head().size()), in_head().begin());
-    mpi::broadcast(message_of(decision).subspan(in_head().size()), root, self.comm);
-    unpack(decision);
+    const std::size_t length = std::max(head_length, num_bytes(decision));
+    mpi::broadcast(message.first(length).subspan(head_length), root, self.comm);
+    unpack(decision, message);
 }
 
 void decide_together(const Contribution& all, const Options& options, Decision& decision,
@@ -318,10 +313,11 @@ Box box_together(Box box, const Participant& self) {
 }
 
 void broadcast_kept(Decision& decision, const Participant& self) {
-    decision.verdict.answer = Answer::kept;
-    if (mpi::rank_of(self.comm) == root) pack(decision);
-    mpi::broadcast(message_of(decision), root, self.comm);
-    unpack(decision);
+    keep(decision);
+    const auto message = std::span(decision.message).first(num_bytes(decision));
+    if (mpi::rank_of(self.comm) == root) pack(decision, message);
+    mpi::broadcast(message.subspan(sizeof(Verdict)), root, self.comm);
+    unpack(decision, message);
 }
 
 }  // namespace rrcb

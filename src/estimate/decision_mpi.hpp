@@ -1,5 +1,6 @@
 #pragma once
 
+#include "collective/merge_tree.hpp"
 #include "collective/participant.hpp"
 #include "estimate/contribution.hpp"
 #include "estimate/kept_tree.hpp"
@@ -7,10 +8,8 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/method/bisection.hpp>
 
-#include <mpi.h>
-
-#include <array>
 #include <limits>
+#include <optional>
 
 namespace rrcb {
 
@@ -27,41 +26,49 @@ enum class Answer : std::int32_t {
     kept      ///< the points are kept
 };
 
-/// Beginning of the decision of rank 0: whether there are cuts, and the totals.
-struct Verdict {
+/// Beginning of the decision of rank 0: its kind, and the totals of all ranks.
+struct Verdict : Totals {
     std::int32_t failing_rank = no_rank;
     Answer answer = Answer::cuts;
-    double heaviest = 0;       ///< weight of the heaviest point, 1 by count
-    double common_weight = 0;  ///< > 0: points are counted, all having this weight or none
-    std::int64_t num_points = 0;
-    std::int64_t num_records = 0;
-    double total_weight = 0;
-    double estimated_imbalance = 1;
-    Box box{};                              ///< of all points, if cells were gathered
+    double estimated_imbalance = not_known;
     double kept_imbalance = not_kept;       ///< of the parts that the ranks hold
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
     NearCuts near{};                        ///< of the new cuts, or counted for the earlier ones
     double near_per_cut = 0;                ///< of the earlier cuts, see NearCuts::share
 
-    bool is_counted() const { return common_weight > 0; }
+    /// Returns true if points are counted, because all have the same weight or none.
+    bool is_counted() const { return weight == 0 || lightest == heaviest; }
+    /// Returns the weight of a counted point.
+    double unit() const { return weight == 0 ? 1 : heaviest; }
     /// Returns the weight of all points, or their number if they are counted.
-    double weight() const {
-        const bool is_number = is_counted() || total_weight == 0;
-        return is_number ? static_cast<double>(num_points) : total_weight;
+    double balanced_weight() const {
+        return is_counted() ? static_cast<double>(num_points) : weight;
     }
+    /// Returns the weight of the heaviest point, 1 if they are counted.
+    double balanced_heaviest() const { return is_counted() ? 1 : heaviest; }
 };
 
-/// First message from the root, for any options: the verdict, and as much of the decision as fits.
-using Head = std::array<std::byte, 2048>;
-
-/// Decision of the root: its verdict, and the cuts to assign by or to start from.
+/// Decision of rank 0: a verdict, and the arrays that its answer has.
+///
+/// cuts:    the cuts, with brackets if they may move
+/// weights: of the parts of `cuts`, which all ranks have, if counted
+/// kept:    the cuts, weights and parts that the ranks hold
 struct Decision {
     Verdict verdict;
-    Bisection bisection;
-    KeptTree kept{};                     ///< on all ranks once the points are kept
-    std::vector<double> part_weights{};  ///< of the parts of earlier cuts, if counted
-    std::vector<std::byte> message;      ///< the cuts, or the kept parts, as sent
+    Cuts cuts{};                         ///< to assign by, or to start from
+    std::vector<Bracket> brackets{};     ///< one per cut that may move
+    std::vector<double> part_weights{};  ///< counted
+    std::vector<Part> parts{};           ///< of each rank's points
+    std::optional<KeptTree> held{};      ///< what the ranks hold, on rank 0 if that may be kept
+    std::vector<std::byte> message{};    ///< verdict and arrays, as sent
 };
+
+/// Throws Error if the ranks differ or one has failed.
+void check_together(const Summary& summary);
+
+/// Returns the totals, and the imbalance of estimated parts, if there are any.
+Verdict verdict_of(const Summary& summary, const NearCuts& near, std::span<const double> estimated,
+                   std::span<const double> part_sizes);
 
 /// Returns the report on a partition that was not measured. Empty sizes: equal parts.
 Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes);
@@ -69,8 +76,7 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
 /// Adds the counted imbalance.
 void report_measured(double imbalance, double tolerance, Report& report);
 
-/// Makes buffers for the decision; for kept parts only if rank 0 may read them. Not
-/// collective.
+/// Makes buffers for the decision; for kept parts only if rank 0 may read them. Not collective.
 void make_buffers(Decision& decision, const Options& options, int dimension, bool may_keep);
 
 /// Returns true if the parts of earlier cuts are counted: they may be good enough, and no limits
@@ -79,22 +85,27 @@ bool counts_earlier_parts(const Options& options);
 
 /// Takes earlier cuts as the decision, fitted to the options. Makes buffers for the weights of
 /// their parts, which rank 0 weighs; if `spread`, numbers the cuts instead. Not collective.
-const Cuts& take_earlier(Decision& decision, const Options& options, bool spread,
-                         const Cuts& previous);
+void take_earlier(Decision& decision, const Options& options, bool spread, const Cuts& previous);
+
+/// Sends the contributions of all ranks to rank 0, merged on the way. Collective.
+///
+/// A rank that failed, before or here, sends its number instead of records. A later failure is held
+/// back until the next agreement.
+void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
+              Participant& self);
 
 /// Bisects the cells of all ranks on rank 0, or weighs the parts of earlier cuts. Determines
 /// whether the ranks already hold parts good enough to be kept. Throws Error if the ranks differ or
 /// one has failed.
 void decide(const Contribution& all, const Options& options, Decision& decision);
 
-/// Sends the root's decision to all ranks, or throws its error on all. Collective.
+/// Sends the decision of rank 0 to all ranks, or throws the error of one rank on all. Collective.
 ///
 /// One message for a few dozen cuts, two for more: the first has a fixed length, because the other
 /// ranks do not know how many are coming.
 void broadcast(Decision& decision, Participant& self);
 
-/// Decides on rank 0, and sends every rank the decision, or throws the error of one rank on all.
-/// Collective.
+/// Decides on rank 0, and sends every rank the decision, as decide() and broadcast(). Collective.
 void decide_together(const Contribution& all, const Options& options, Decision& decision,
                      Participant& self);
 

@@ -2,9 +2,8 @@
 
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/position_order.hpp"
-#include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
-#include "estimate/extent.hpp"
+#include "estimate/cell_records.hpp"
 #include "options/allowed_axes.hpp"
 
 #include <rrcb/quality.hpp>
@@ -170,9 +169,38 @@ class Reader {
 
 }  // namespace
 
-bool is_in_order(const KeptTree& kept) {
-    for (std::size_t rank = 0; rank < kept.parts.size(); ++rank)
-        if (part_at(kept.cuts, kept.parts[rank]) != static_cast<Part>(rank)) return false;
+void join(PointSummary& extent, const PointSummary& other, int dimension) {
+    extent.count += other.count;
+    extent.weight += other.weight;
+    for (int a = 0; a < dimension; ++a) {
+        const PositionOrder is_before(a, 0, dimension);
+        extent.first[a] = std::min(extent.first[a], other.first[a], is_before);
+        extent.last[a] = std::max(extent.last[a], other.last[a], is_before);
+    }
+}
+
+void append_extent(const PointSummary& extent, int dimension, std::vector<double>& doubles) {
+    doubles.insert(doubles.end(), {static_cast<double>(extent.count), extent.weight});
+    for (const auto& ends : {extent.first, extent.last})
+        for (int a = 0; a < dimension; ++a) append_vector(ends[a], dimension, doubles);
+}
+
+std::vector<PointSummary> read_extents(std::span<const double> doubles, int dimension) {
+    std::vector<PointSummary> extents;
+    while (!doubles.empty()) {
+        PointSummary& extent = extents.emplace_back();
+        const auto totals = take(doubles, 2);
+        extent.count = static_cast<LocalIndex>(totals[0]);
+        extent.weight = totals[1];
+        for (auto* ends : {&extent.first, &extent.last})
+            for (int a = 0; a < dimension; ++a) (*ends)[a] = take_vector(doubles, dimension);
+    }
+    return extents;
+}
+
+bool is_in_order(const Cuts& cuts, std::span<const Part> parts) {
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+        if (part_at(cuts, parts[rank]) != static_cast<Part>(rank)) return false;
     return true;
 }
 

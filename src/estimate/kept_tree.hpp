@@ -10,6 +10,15 @@
 
 namespace rrcb {
 
+/// Adds the points of another extent: count, weight, first and last of a summary.
+void join(PointSummary& extent, const PointSummary& other, int dimension);
+
+/// Appends an extent as 2 + 2 dimension^2 doubles.
+void append_extent(const PointSummary& extent, int dimension, std::vector<double>& doubles);
+
+/// Returns the extents in the order appended.
+std::vector<PointSummary> read_extents(std::span<const double> doubles, int dimension);
+
 /// The current distribution over the ranks, as a bisection.
 struct KeptTree {
     Cuts cuts;
@@ -18,8 +27,9 @@ struct KeptTree {
     double imbalance = 1;
 };
 
-/// Returns true if rank r holds part r for every rank: then nothing moves.
-bool is_in_order(const KeptTree& kept);
+/// Returns true if rank r holds part r for every rank: then nothing moves. `parts` are ends of the
+/// tree.
+bool is_in_order(const Cuts& cuts, std::span<const Part> parts);
 
 /// Reads the extents of the ranks, one each, as a bisection into the parts of the complete
 /// `options`, one per rank; nullopt if they are no bisection. Not collective.

@@ -107,36 +107,30 @@ int exponent_of(std::span<const CellMoments> cells) {
 
 /// Faces of a mesh across each axis, bit-identical to those of cell_box(). Saves 2 to 7 % of rank
 /// 0's instructions in few parts.
-class Faces {
-  public:
-    explicit Faces(const SupportMesh& mesh) : mesh_(mesh) {
+struct Faces {
+    std::array<std::vector<double>, max_dimension> across{};
+
+    explicit Faces(const SupportMesh& mesh) {
         LocalIndex stride = 1;
         for (int a = 0; a < mesh.dimension; ++a) {
             const auto count = static_cast<LocalIndex>(mesh.cells[a]);
-            for (LocalIndex k = 0; k < count; ++k) {
-                const Box box = cell_box(mesh, k * stride);
-                faces_[a].push_back(box.lower[a]);
-                if (k + 1 == count) faces_[a].push_back(box.upper[a]);
-            }
+            for (LocalIndex k = 0; k < count; ++k)
+                across[a].push_back(cell_box(mesh, k * stride).lower[a]);
+            across[a].push_back(cell_box(mesh, (count - 1) * stride).upper[a]);
             stride *= count;
         }
     }
 
     Box box(LocalIndex cell) const {
         Box box;
-        for (int a = 0; a < mesh_.dimension; ++a) {
-            const auto count = static_cast<LocalIndex>(mesh_.cells[a]);
-            const double* face = &faces_[a][cell % count];
-            box.lower[a] = face[0];
-            box.upper[a] = face[1];
+        for (std::size_t a = 0; a < max_dimension && !across[a].empty(); ++a) {
+            const std::size_t count = across[a].size() - 1;
+            box.lower[a] = across[a][cell % count];
+            box.upper[a] = across[a][cell % count + 1];
             cell /= count;
         }
         return box;
     }
-
-  private:
-    const SupportMesh& mesh_;
-    std::array<std::vector<double>, max_dimension> faces_;
 };
 
 }  // namespace

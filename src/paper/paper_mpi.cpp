@@ -4,17 +4,16 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/stage_scope.hpp"
+#include "estimate/cell_records.hpp"
 #include "estimate/decision_mpi.hpp"
-#include "estimate/merge_tree_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
-#include "paper/paper_records.hpp"
 #include "paper/paper_words.hpp"
 #include "paper/point_selection.hpp"
+#include "passes/host_passes.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
-#include <rrcb/quality.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -60,60 +59,65 @@ void agree_on(const PaperOptions& options, const Points& points, Participant& se
 }
 
 /// Step 1: reduces the local points to the moments of cells; the paper's RCB keeps the points.
-std::vector<double> reduce_points(const Points& points, const Box& box,
-                                  const PaperOptions& options) {
-    if (options.domain == PaperDomain::points) return pack_points(points);
-    std::vector<CellMoments> cells;
-    if (points.count > 0)
-        cells =
-            cell_moments(points, make_support_mesh(box, points.dimension, options.support_mesh));
-    return pack_moments(points, cells);
+Contribution reduce_points(const Points& points, const PointSummary& summary,
+                           const PaperOptions& options, int rank) {
+    Contribution mine{summarize(summary, !points.weights.empty(), rank), {}};
+    if (options.domain == PaperDomain::points) {
+        for (LocalIndex i = 0; i < points.count; ++i) {
+            append_vector(points.position(i), points.dimension, mine.records);
+            mine.records.push_back(points.weight(i));
+        }
+        mine.summary.num_cells = mine.summary.num_points;
+    } else if (points.count > 0) {
+        const CellSet set{cell_moments(points, make_support_mesh(summary.box, points.dimension,
+                                                                 options.support_mesh)),
+                          0};
+        append_cells(set, points.dimension, 1, mine.records);
+        mine.summary.num_cells = std::ssize(set.cells);
+    }
+    return mine;
 }
 
 /// Step 2: gathers the cells or points of all ranks on rank 0. Collective.
-void gather(std::vector<double>& packed, StageObserver* observer, Participant& self) {
+void gather(Contribution& mine, int dimension, StageObserver* observer, Participant& self) {
     const StageScope stage(observer, Stage::gather, self.arithmetic);
-    gather_records(packed, self);
+    const int num_ranks = mpi::size_of(self.comm);
+    merge_up(mine, dimension, {num_ranks, num_ranks}, std::numeric_limits<std::size_t>::max(),
+             self);
 }
 
-/// Returns the report of a bisection, on rank 0.
-Verdict verdict_of(const PaperRecords& all, std::span<const double> part_weights,
-                   const PaperOptions& options) {
-    Verdict verdict;
-    verdict.num_points = all.num_points;
-    verdict.num_records =
-        options.domain == PaperDomain::sampled ? std::ssize(all.cells) : all.num_points;
-    verdict.total_weight = all.weight;
-    verdict.estimated_imbalance = imbalance(part_weights, options.part_sizes);
-    verdict.heaviest = all.weight == 0 ? 1 : all.heaviest;
-    return verdict;
+/// Step 3, on rank 0: makes the statistical domain, of random points or the real ones.
+std::vector<MassPoint> make_domain(const Contribution& all, int dimension,
+                                   const PaperOptions& options) {
+    std::span<const double> records(all.records);
+    if (options.domain == PaperDomain::sampled)
+        return sample_points(read_cells(records, dimension, true).cells, dimension, options);
+    std::vector<MassPoint> domain;
+    while (!records.empty()) {
+        const Vector position = take_vector(records, dimension);
+        const double weight = take(records, 1)[0];
+        domain.push_back({position, all.summary.weight > 0 ? weight : 1.0});
+    }
+    return domain;
 }
 
-/// Steps 3 and 4, on rank 0: makes the statistical domain, of random points or the real ones, and
-/// bisects it.
-Verdict bisect_domain(std::span<const double> packed, PaperOptions options, Cuts& cuts) {
-    normalize(options.part_sizes, options.num_parts);
-    const int dimension = cuts.dimension;
-    const bool draws = options.domain == PaperDomain::sampled;
-    const PaperRecords all =
-        draws ? unpack_moments(packed, dimension) : unpack_points(packed, dimension);
-    std::vector<MassPoint> domain =
-        draws ? sample_points(all.cells, dimension, options)
-              : mass_points(interleaved_points(all.coordinates, dimension, all.weights));
-    Bisection bisection = bisect_points(std::move(domain), dimension, options.num_parts,
-                                        options.part_sizes, options.cut_rule, options.plain_cuts);
-    cuts.tree = std::move(bisection.cuts.tree);
-    return verdict_of(all, bisection.part_weights, options);
+/// Step 4, on rank 0: bisects the domain.
+void bisect_domain(const Contribution& all, const PaperOptions& options,
+                   std::span<const double> part_sizes, Decision& decision) {
+    check_together(all.summary);
+    const int dimension = decision.cuts.dimension;
+    Bisection made =
+        bisect_points(make_domain(all, dimension, options), dimension, options.num_parts,
+                      part_sizes, options.cut_rule, options.plain_cuts);
+    decision.cuts = std::move(made.cuts);
+    decision.verdict = verdict_of(all.summary, {}, made.part_weights, part_sizes);
 }
 
 /// Step 5: sends the cuts to every rank, or throws the error of one rank on all. Collective.
-void broadcast(Verdict& verdict, std::vector<Cut>& tree, StageObserver* observer,
-               Participant& self) {
+void send_cuts(Decision& decision, StageObserver* observer, Participant& self) {
     const StageScope stage(observer, Stage::broadcast, self.arithmetic);
-    if (mpi::rank_of(self.comm) == root) verdict.failing_rank = self.failing_rank();
-    mpi::broadcast(std::as_writable_bytes(std::span(&verdict, 1)), root, self.comm);
-    fail_together(verdict.failing_rank, self);
-    mpi::broadcast(std::as_writable_bytes(std::span(tree)), root, self.comm);
+    decision.verdict.failing_rank = self.failing_rank();
+    broadcast(decision, self);
 }
 
 }  // namespace
@@ -125,32 +129,38 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& options, M
 
 Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Participant& self) {
     PaperOptions options;
+    Options plain;
     Balance result;
-    std::vector<double> packed;
+    Contribution mine;
+    Decision decision;
     self.attempt([&] {
         const StageScope stage(given.observer, Stage::moments, self.arithmetic);
         options = given;
         if (options.num_parts == 0) options.num_parts = mpi::size_of(self.comm);
-        const Box box = check_points(points);
+        const PointSummary summary = HostPasses(points).summary(true);
         check(options, points.dimension);
-        packed = reduce_points(points, box, options);
-        result.cuts = {points.dimension, options.num_parts, {}};
-        result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;
-        result.cuts.points = hash_of(points);
-        result.cuts.tree.resize(static_cast<std::size_t>(options.num_parts) - 1);
+        mine = reduce_points(points, summary, options, mpi::rank_of(self.comm));
+        plain.part_sizes = options.part_sizes;
+        normalize(plain.part_sizes, options.num_parts);
+        plain.refine = Refine::none;
+        plain.tree = TreeShape{};
+        make_buffers(decision, plain, points.dimension, false);
         result.parts.resize(points.count);
     });
     agree_on(options, points, self);
-    if (!options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
-    gather(packed, options.observer, self);
-    Verdict verdict;
-    if (mpi::rank_of(self.comm) == root)
+    gather(mine, points.dimension, options.observer, self);
+    if (mpi::rank_of(self.comm) == root) {
+        self.hear_of(mine.summary.failing_rank);
         self.attempt([&] {
             const StageScope stage(options.observer, Stage::bisection, self.arithmetic);
-            verdict = bisect_domain(packed, options, result.cuts);
+            bisect_domain(mine, options, plain.part_sizes, decision);
         });
-    broadcast(verdict, result.cuts.tree, options.observer, self);
-    result.report = report_of(verdict, options.num_parts, options.part_sizes);
+    }
+    send_cuts(decision, options.observer, self);
+    result.report = report_of(decision.verdict, options.num_parts, plain.part_sizes);
+    result.cuts = std::move(decision.cuts);
+    result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;
+    result.cuts.points = hash_of(points);
     const StageScope stage(options.observer, Stage::assignment, self.arithmetic);
     self.attempt([&] { assign(result.cuts, points, result.parts); });
     agree(self);

@@ -3,7 +3,6 @@
 // are refined by what all sub-domains hold.
 #include "../support/clouds.hpp"
 #include "estimate/decision_mpi.hpp"
-#include "estimate/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
 #include "passes/host_passes.hpp"
 #include "search/refinement_mpi.hpp"
@@ -66,8 +65,7 @@ struct VirtualRanks {
             const std::size_t length = theirs.records.size();
             longest_message = std::max(longest_message, length);
             root_in += rank == 0 ? length : 0;
-            all.records.insert(all.records.end(), theirs.records.begin(), theirs.records.end());
-            absorb(all, theirs.summary, 2, most_cells(options));
+            absorb(all, theirs.summary, theirs.records, 2, most_cells(options));
         });
         return all;
     }
@@ -93,8 +91,8 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     Participant self{MPI_COMM_SELF};
     Refinement refinement(ranks.options, self, sums);
     HostPasses passes(points, std::vector<Part>(points.count));
-    Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
-                      static_cast<double>(points.count), decision.verdict.common_weight};
+    Estimate estimate{decision.cuts, decision.brackets, static_cast<double>(points.count),
+                      decision.verdict.is_counted() ? 1.0 : 0.0};
     const Refined refined =
         refinement.refine(std::move(estimate), passes, bounding_box(points), self);
 

@@ -1,5 +1,7 @@
 #include "estimate/contribution.hpp"
 
+#include "estimate/mesh.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -103,8 +105,8 @@ TEST(Extents, are_taken_off_the_records_in_the_order_of_the_ranks) {
     Summary next = summary_of(1, 4);
     next.num_doubles = 5;
     next.num_extent_doubles = 4;
-    all.records = {10, 3, 4, 5, 6};
-    absorb(all, next, 2, most_cells(Options{}));
+    all.records = {};
+    absorb(all, next, std::vector<double>{10, 3, 4, 5, 6}, 2, most_cells(Options{}));
     EXPECT_EQ(all.records, (std::vector<double>{10}));
     EXPECT_EQ(all.extents, (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }

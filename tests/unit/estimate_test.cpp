@@ -1,8 +1,8 @@
 // How good the cuts are that the statistics alone give, before any is moved: points of many ranks
 // in one process, whose contributions merge up the tree that so many ranks have.
 #include "../support/clouds.hpp"
+#include "collective/merge_tree.hpp"
 #include "estimate/contribution.hpp"
-#include "estimate/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
 #include "passes/host_passes.hpp"
 
@@ -105,8 +105,7 @@ struct Ranks {
         add_records(mine, summary.box, num_ranks, options, all);
         MergeTree{num_ranks}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);
-            all.records.insert(all.records.end(), theirs.records.begin(), theirs.records.end());
-            absorb(all, theirs.summary, 2, most_cells(options));
+            absorb(all, theirs.summary, theirs.records, 2, most_cells(options));
         });
         return all;
     }

@@ -1,6 +1,5 @@
-#include "estimate/extent.hpp"
-
 #include "arithmetic/position_order.hpp"
+#include "estimate/kept_tree.hpp"
 #include "passes/summary.hpp"
 
 #include <rrcb/error.hpp>

@@ -1,4 +1,4 @@
-#include "estimate/keeping.hpp"
+#include "estimate/keeping_mpi.hpp"
 
 #include <gtest/gtest.h>
 

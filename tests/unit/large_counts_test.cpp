@@ -76,7 +76,7 @@ TEST(LargeCounts, are_divided_and_reported_by_the_root) {
     make_buffers(decision, options, 1, false);
     decide(large_contribution(options), options, decision);
     // Half of the weight is two thirds of the first cell's.
-    EXPECT_DOUBLE_EQ(decision.bisection.cuts.tree[0].at[0], 2.0 / 3);
+    EXPECT_DOUBLE_EQ(decision.cuts.tree[0].at[0], 2.0 / 3);
     const Report report = report_of(decision.verdict, 2, options.part_sizes);
     EXPECT_EQ(report.details.num_points, two_to_the_32 * 4);
     EXPECT_EQ(report.details.total_weight, 0x1p34);

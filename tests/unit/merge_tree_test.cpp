@@ -1,4 +1,4 @@
-#include "estimate/merge_tree_mpi.hpp"
+#include "collective/merge_tree.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,12 @@
 #pragma once
 
-#include <rrcb/options.hpp>
+#include "collective/participant.hpp"
+
+#include <rrcb/passes.hpp>
+
+#include <span>
+
+// When points stay in parts that they have.
 
 namespace rrcb {
 
@@ -23,5 +29,19 @@ bool is_worth_moving(double kept, double offered, const Options& options);
 /// Returns true if parts from earlier cuts are so uneven, although `least` is possible, that the
 /// axes of these cuts, which are kept, may be why.
 bool may_be_poor(double imbalance, double least, const Options& options);
+
+/// Returns true if NearCuts::share has grown so much that other axes may save ghosts.
+bool may_save_ghosts(const Options& options, const NearCuts& chosen, double share_now);
+
+/// Returns NearCuts::share for later calls, if the axes are kept; `chosen` is that of the call
+/// before, 0 after a comparison. It falls by a twentieth if cuts were moved: other axes may have
+/// become better, so calls that go on moving cuts compare new ones now and then.
+double reference(double chosen, double share_now, bool are_moved);
+
+/// Returns the better balance: that from scratch if its balance is worth moving points, or if
+/// `compares_ghosts` and it has much fewer points near its cuts; otherwise the points get back
+/// their `parts` by the cuts reused. Collective.
+Balance better(Balance&& reused, std::span<const Part> parts, Balance&& anew, PointPasses& points,
+               const Options& options, bool compares_ghosts, Participant& self);
 
 }  // namespace rrcb

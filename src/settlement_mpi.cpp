@@ -64,6 +64,8 @@ void Settlement::refine(PointPasses& points, const Box& box, Decision& decision,
     const StageScope stage(options_->observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
     const Verdict& verdict = decision.verdict;
+    // Kept parts would still be sent.
+    if (!(verdict.kept_imbalance < not_kept)) decision.message = std::vector<std::byte>();
     Estimate estimate{std::move(result.cuts),
                       std::move(decision.bisection.brackets),
                       verdict.weight(),

@@ -86,6 +86,8 @@ Refined refine(Call& call, Participant& self) {
     const Verdict& verdict = call.decision.verdict;
     const ReportDetails& details = call.result.report.details;
     const bool is_earlier = verdict.answer == Answer::weights;
+    // Kept parts would still be sent.
+    if (!(verdict.kept_imbalance < not_kept)) call.decision.message = std::vector<std::byte>();
     Estimate estimate{std::move(call.result.cuts),
                       std::move(call.decision.brackets),
                       verdict.balanced_weight(),

@@ -121,7 +121,8 @@ void Butterfly::note_asked(int step, int rank, RecordReader incoming) {
 /// Merges records, both in the order of their keys.
 Records Butterfly::merged(RecordReader mine, RecordReader others) const {
     Records result;
-    result.reserve_bytes(std::max(mine.words().size_bytes(), others.words().size_bytes()));
+    // Records that add up leave the rest of this memory untouched.
+    result.reserve_bytes(mine.words().size_bytes() + others.words().size_bytes());
     Record a{};
     Record b{};
     bool has_a = !mine.at_end();

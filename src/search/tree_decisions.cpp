@@ -122,7 +122,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     if (search.stage == CutSearch::over_points) {
         decide_by_first_count(node, records, search);
     } else if (search.stage == CutSearch::over_candidates) {
-        decide_by_bins(search, node.target, layout_, records);
+        decide_by_bins(search, node.target, layout_of(search), records);
     } else {
         is_centred = decide_among(search, node.target, records, dimension_);
     }
@@ -138,7 +138,8 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
 /// Takes weight and box of the node from the first count.
 void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
                                        CutSearch& search) {
-    const double weight = node.content.weight = sum_of(weights_in(histogram, layout_));
+    const HistogramLayout layout = layout_of(search);
+    const double weight = node.content.weight = sum_of(weights_in(histogram, layout));
     if (!is_central()) {
         node.content.box = box_in(histogram);
         const CutSearch anew = first_search(node.at, node.content.box, weight);
@@ -147,14 +148,14 @@ void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histo
             return;
         }
     }
-    if (node.counts_parts && take_sums(node, histogram.subspan(layout_.length()))) return;
+    if (node.counts_parts && take_sums(node, histogram.subspan(layout.length()))) return;
     node.target = tree_.rule.target_of(node.at, weight, node.below);
     node.target.places = node.places;
     node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;
-    const auto count = static_cast<GlobalCount>(sum_of(counts_in(histogram, layout_)));
+    const auto count = static_cast<GlobalCount>(sum_of(counts_in(histogram, layout)));
     if (node.target.places.all())
         node.target.counts = tree_.rule.count_limits(node.at, count, weight);
-    decide_by_bins(search, node.target, layout_, histogram);
+    decide_by_bins(search, node.target, layout, histogram);
 }
 
 }  // namespace rrcb

@@ -39,7 +39,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
         points_.append(node.candidates, payload);
         return;
     }
-    payload.resize(1 + layout_.length());
+    payload.resize(1 + layout_of(node.search).length());
     payload[0] = mark_of_histogram;
     count_points(node, std::span(payload).subspan(1));
     if (!node.counts_parts) return;
@@ -51,14 +51,15 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
 void TreeSearch::count_points(const Node& node, std::span<double> histogram) const {
     const CutSearch& search = node.search;
     const bool is_first = search.stage == CutSearch::over_points;
+    const HistogramLayout layout = layout_of(search);
     clear_histogram(histogram);
     rrcb::count(points_.points(), is_first ? node.content.entries : node.candidates,
-                current_axis(search), bins_of(search, layout_), layout_, histogram);
+                current_axis(search), bins_of(search, layout), layout, histogram);
     if (is_first && is_central()) {
-        count_settled(node.below_here, guide_->box, 0, layout_, histogram);
-        count_settled(node.above_here, guide_->box, layout_.num_bins + 1, layout_, histogram);
+        count_settled(node.below_here, guide_->box, 0, layout, histogram);
+        count_settled(node.above_here, guide_->box, layout.num_bins + 1, layout, histogram);
     }
-    round_weights(search.quantum, layout_, histogram);
+    if (layout.is_weighted) round_weights(search.quantum, layout, histogram);
 }
 
 /// Appends this rank's points of a lot or a part.
@@ -93,12 +94,12 @@ void TreeSearch::join(std::span<const double> a, std::span<const double> b,
 }
 
 void TreeSearch::follow(const Butterfly& butterfly) {
-    std::vector<Node> before = std::exchange(nodes_, {});
-    nodes_.reserve(before.size());
+    std::deque<Node> before = std::exchange(nodes_, {});
     RecordReader answers = butterfly.answers().read();
     Record answer;
     // Both ascend. Answers for other ranks may have passed through this one.
-    for (Node& node : before) {
+    for (; !before.empty(); before.pop_front()) {
+        Node& node = before.front();
         while (!answers.at_end() && (answer.payload.empty() || answer.key < key_of(node.at)))
             answer = answers.next();
         const bool is_answered = !answer.payload.empty() && answer.key == key_of(node.at);
@@ -154,15 +155,16 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
 /// points that are to be collected.
 void TreeSearch::keep_chosen(const CutSearch& before, Node& node) {
     const int slot = node.search.chosen;
-    const Bins bins = bins_of(before, layout_);
+    const HistogramLayout layout = layout_of(before);
+    const Bins bins = bins_of(before, layout);
     const bool is_first = before.stage == CutSearch::over_points;
     node.candidates =
         between(slot == 0 ? -infinity : bins.edge(slot - 1),
-                slot > layout_.num_bins ? infinity : bins.edge(slot), current_axis(before),
+                slot > layout.num_bins ? infinity : bins.edge(slot), current_axis(before),
                 is_first ? node.content.entries : node.candidates, points_.points());
     if (!is_central() || !is_first) return;
     node.is_wide = (slot == 0 && node.below_here.count > 0) ||
-                   (slot > layout_.num_bins && node.above_here.count > 0);
+                   (slot > layout.num_bins && node.above_here.count > 0);
 }
 
 }  // namespace rrcb

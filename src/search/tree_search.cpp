@@ -194,7 +194,26 @@ CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double wei
     search.lower = bracket.lower;
     search.upper = bracket.upper;
     search.quantum = quantum_for(weight);
+    search.num_bins = static_cast<std::int16_t>(num_bins_for(axis, weight));
     return search;
+}
+
+/// Returns the number of bins for the first count of a node: fewer for few points, whose records
+/// are then shorter. Points of different weights are not counted before.
+int TreeSearch::num_bins_for(int axis, double weight) const {
+    constexpr double bins_per_point = 4;
+    constexpr double least = 8;
+    if (layout_.is_weighted || layout_.limits[static_cast<std::size_t>(axis)].has_grid())
+        return layout_.num_bins;
+    return static_cast<int>(
+        std::clamp(bins_per_point * weight, least, static_cast<double>(layout_.num_bins)));
+}
+
+/// Returns the layout of the histogram of a search.
+HistogramLayout TreeSearch::layout_of(const CutSearch& search) const {
+    HistogramLayout layout = layout_;
+    layout.num_bins = search.num_bins;
+    return layout;
 }
 
 /// Returns the axes that free cuts may cross.

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <span>
 #include <utility>
@@ -190,6 +191,8 @@ class TreeSearch {
     Bracket interval_of(const Descent& at, int depth, double& shifted) const;
     double missing_below(const Descent& at, double weight, double below) const;
     void count(const Node& node, std::vector<double>& payload);
+    int num_bins_for(int axis, double weight) const;
+    HistogramLayout layout_of(const CutSearch& search) const;
     void add_lot(const Node& node, std::vector<double>& payload) const;
     void count_points(const Node& node, std::span<double> histogram) const;
     void keep_chosen(const CutSearch& before, Node& node);
@@ -213,7 +216,7 @@ class TreeSearch {
     double all_sizes_ = 0;  ///< sum of the sizes of all parts
     HistogramLayout layout_;
     CollectedTree points_;
-    std::vector<Node> nodes_;                         ///< ascending
+    std::deque<Node> nodes_;  ///< ascending; gives memory back as it is followed
     std::vector<std::pair<std::size_t, Cut>> known_;  ///< cuts of nodes, after a spread search
     double imbalance_ = 0;
     int num_coincident_ = 0;

@@ -127,6 +127,16 @@ TEST(Buffers, serve_cuts_that_many_ranks_make) {
     expect_no_memory(cloud, options, false, 20);
 }
 
+TEST(Buffers, need_little_for_many_parts) {
+    const Cloud cloud(10000, 3);
+    constexpr long most_bytes_a_part = 650;
+    Options options = options_of(Refine::tolerance);
+    options.num_parts = 10000 * num_ranks();
+    const Cost cost = cost_of([&] { balance(cloud.points, options, {}, MPI_COMM_WORLD); });
+    EXPECT_LE(cost.bytes, most_bytes_a_part * options.num_parts);
+    RecordProperty("bytes_a_part", static_cast<int>(cost.bytes / options.num_parts));
+}
+
 TEST(Buffers, follow_the_number_of_points) {
     Balance result;
     for (const std::size_t count : {many, std::size_t{0}, std::size_t{100}, 2 * many, many / 2}) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rrcb/kokkos/passes.hpp>
-#include <rrcb/kokkos/plan.hpp>
+#include <rrcb/plan.hpp>
 
 #include <mpi.h>
 
@@ -20,7 +20,7 @@ template <class Execution>
 concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
 
 template <class Views>
-concept KokkosPoints = Kokkos::is_view<typename PointViews<Views>::View>::value;
+concept KokkosPoints = Kokkos::is_view<typename ViewOf<Views>::Type>::value;
 
 /// Weights of points that all weigh 1.
 template <class Views>
@@ -95,12 +95,12 @@ void assign(const Execution& exec, const Cuts& cuts, const Views& x,
     assign(cuts, Points{.dimension = cuts.dimension}, {});  // checks the cuts
     using NoWeights = detail::NoWeights<Views>;
     KokkosPasses<Execution, Views, NoWeights> passes(exec, x, NoWeights(), parts);
-    if (passes.dimension() != cuts.dimension)
-        detail::reject_on_device("positions must have the dimension of the cuts");
-    if (parts.extent(0) != passes.count())
-        detail::reject_on_device("parts must have one entry per point");
-    if (!is_whole(cuts))
-        detail::reject_on_device("look-ups on a device need complete cuts; call gather_cuts()");
+    detail::require_on_device(passes.dimension() == cuts.dimension,
+                              "positions must have the dimension of the cuts");
+    detail::require_on_device(parts.extent(0) == passes.count(),
+                              "parts must have one entry per point");
+    detail::require_on_device(is_whole(cuts),
+                              "look-ups on a device need complete cuts; call gather_cuts()");
     passes.assign(cuts, false);
     if (cuts.shape.dealt == 0) return;
     std::vector<Part> numbers;
@@ -131,26 +131,20 @@ KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySp
     int num_ranks = 1;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &num_ranks);
-    const std::size_t count = balance.parts.extent(0);
-    detail::Device<Execution, MemorySpace> device(exec);
-    KokkosPlan<MemorySpace> plan;
-    plan.ranks = device.template allocate<int>(count);
-    plan.order = device.template allocate<LocalIndex>(count);
-    const std::vector<int> table = detail::ranks_of_parts(balance.cuts.num_parts, rank, num_ranks);
-    const auto rank_of_part = device.copy_in(table);
-    const auto ranks = plan.ranks;
-    const auto parts = balance.parts;
-    Kokkos::parallel_for(
-        "rrcb::ranks", device.range(static_cast<std::int64_t>(count)),
-        KOKKOS_LAMBDA(const std::int64_t i) { ranks(i) = rank_of_part(parts(i)); });
-    const std::vector<std::int64_t> ends =
-        detail::list_by_rank(device, num_ranks, plan.ranks, plan.order);
-    for (int to = 0; to < num_ranks; ++to) {
-        const std::int64_t before = to == 0 ? 0 : ends[to - 1];
-        if (ends[to] > before)
-            plan.counts.push_back({to, static_cast<LocalIndex>(ends[to] - before)});
+    std::vector<int> rank_of_part;
+    for (Part part = 0; part < balance.cuts.num_parts; ++part) {
+        const RankRange to = ranks_of_part(part, balance.cuts.num_parts, num_ranks);
+        rank_of_part.push_back(to.contains(rank) ? rank : to.first_rank + rank % to.count);
     }
-    return plan;
+    detail::Device<Execution, MemorySpace> device(exec);
+    const auto parts = balance.parts;
+    const auto ranks = device.template allocate<int>(parts.extent(0));
+    const auto order = device.template allocate<LocalIndex>(parts.extent(0));
+    const auto table = device.copy_in(rank_of_part);
+    Kokkos::parallel_for(
+        "rrcb::ranks", device.range(parts.extent(0)),
+        KOKKOS_LAMBDA(const std::int64_t i) { ranks(i) = table(parts(i)); });
+    return {ranks, order, detail::list_by_rank(device, num_ranks, ranks, order)};
 }
 
 }  // namespace rrcb

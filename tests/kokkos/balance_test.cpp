@@ -129,14 +129,15 @@ TEST(KokkosBalance, throws_the_error_of_one_rank_on_all) {
 /// Copies and fences of a call, as Kokkos reports them: fences since version 4.
 struct Traffic {
     std::uint64_t bytes = 0;
-    int copies = 0;        ///< and fills
+    int copies = 0;
     int fences = 0;        ///< of the instance that was passed
     int other_fences = 0;  ///< to free memory
 };
 Traffic traffic;
 
 void add_copy(Kokkos::Tools::SpaceHandle, const char*, const void*, Kokkos::Tools::SpaceHandle,
-              const char*, const void*, std::uint64_t size) {
+              const char* source, const void*, std::uint64_t size) {
+    if (std::string_view(source) == "(none)") return;  // a number that fills a view
     traffic.bytes += size;
     ++traffic.copies;
 }
@@ -172,19 +173,18 @@ TEST(KokkosBalance, copies_little_and_rarely_waits) {
         const int steps = is_weighted ? 5 : 4;
         const Traffic tolerant = traffic_to(Refine::tolerance);
         EXPECT_GT(tolerant.bytes, 0u);
-        EXPECT_LT(tolerant.bytes, 1000000u);
-        EXPECT_LE(tolerant.copies, 12);
-        EXPECT_LE(tolerant.fences, steps);
-        // Open points are counted with the parts, then copied and settled.
+        EXPECT_LT(tolerant.bytes, 60000u);
+        EXPECT_EQ(tolerant.copies, steps + 4);
+        // Open points are counted with the parts, then copied and settled: 52 or 60 bytes for each.
         const Traffic exact = traffic_to(Refine::exact);
-        EXPECT_LT(exact.bytes, 2000000u);
-        EXPECT_LE(exact.copies, 15);
-        EXPECT_LE(exact.fences, steps + 2);
-#if KOKKOS_VERSION >= 40000
-        EXPECT_GT(tolerant.fences, 0);
+        EXPECT_LT(exact.bytes, is_weighted ? 1100000u : 1000000u);
+        EXPECT_EQ(exact.copies, steps + 7);
+        // Older versions do not report fences.
+        const bool has_fences = KOKKOS_VERSION >= 40000;
+        EXPECT_EQ(tolerant.fences, has_fences ? steps : 0);
+        EXPECT_EQ(exact.fences, has_fences ? steps + 2 : 0);
         EXPECT_LE(tolerant.other_fences, 1);
         EXPECT_LE(exact.other_fences, 3);
-#endif
     }
 }
 

@@ -16,16 +16,15 @@
 
 namespace rrcb::detail {
 
-[[noreturn]] inline void reject_on_device(const std::string& what) {
-    throw Error(ErrorCode::invalid_argument, what);
+/// Throws Error unless a condition holds.
+inline void require_on_device(bool holds, const std::string& what) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, what);
 }
 
-/// Throws Error unless Kokkos can run kernels.
 inline void require_kokkos() {
-    if (!Kokkos::is_initialized())
-        reject_on_device(
-            "Kokkos is not initialized; call Kokkos::initialize() before, and "
-            "Kokkos::finalize() after all calls with views");
+    require_on_device(Kokkos::is_initialized(),
+                      "Kokkos is not initialized; call Kokkos::initialize() before, and "
+                      "Kokkos::finalize() after all calls with views");
 }
 
 /// True for execution spaces that run on the host.
@@ -48,17 +47,19 @@ class Device {
     const Execution& exec() const { return exec_; }
 
     /// Returns indices 0 ... count - 1, of 64 bits, for a kernel.
-    auto range(std::int64_t count) const {
-        return Kokkos::RangePolicy<Execution, Kokkos::IndexType<std::int64_t>>(exec_, 0, count);
+    template <class Count>
+    auto range(Count count) const {
+        return Kokkos::RangePolicy<Execution, Kokkos::IndexType<std::int64_t>>(
+            exec_, 0, static_cast<std::int64_t>(count));
     }
 
     /// Returns memory of its own for numbers. Throws std::bad_alloc.
     template <class T>
     Kokkos::View<T*, Memory> allocate(std::size_t size) const {
         try {
-            const auto how =
-                Kokkos::view_alloc(exec_, std::string("rrcb"), Kokkos::WithoutInitializing);
-            return Kokkos::View<T*, Memory>(how, size);
+            const std::string name = "rrcb";
+            return Kokkos::View<T*, Memory>(
+                Kokkos::view_alloc(exec_, name, Kokkos::WithoutInitializing), size);
         } catch (const std::exception&) {
             // Versions of Kokkos throw different types.
             throw std::bad_alloc();
@@ -78,30 +79,25 @@ class Device {
         lent_ += bytes;
         return Lent<T>(first, size);
     }
-    template <class T>
-    Lent<T> lend_zeros(std::size_t size) {
-        const Lent<T> view = lend<T>(size);
-        Kokkos::deep_copy(exec_, view, T{});
-        return view;
-    }
 
-    /// Copies numbers of the host, which must stay until the next fence, to a view.
-    template <class Values, class View>
-    void copy_in(const Values& values, const View& view) const {
-        using T = typename Values::value_type;
-        if (!values.empty())
-            Kokkos::deep_copy(exec_, view, OnHost<const T>(values.data(), values.size()));
-    }
+    /// Returns a copy of numbers of the host, which must stay until the next fence.
     template <class Values>
     auto copy_in(const Values& values) {
-        const auto view = lend<typename Values::value_type>(values.size());
-        copy_in(values, view);
+        using T = typename Values::value_type;
+        const Lent<T> view = lend<T>(values.size());
+        if (!values.empty())
+            Kokkos::deep_copy(exec_, view, OnHost<const T>(values.data(), values.size()));
         return view;
     }
-    /// Copies a view to as many numbers of the host, where they are after the next fence.
-    template <class View, class T>
-    void copy_out(const View& view, std::span<T> to) const {
-        if (!to.empty()) Kokkos::deep_copy(exec_, OnHost<T>(to.data(), to.size()), view);
+    /// Returns a copy on the host. A fence.
+    template <class View>
+    auto copy_out(const View& view) {
+        using T = typename View::non_const_value_type;
+        std::vector<T> values(view.extent(0));
+        if (!values.empty())
+            Kokkos::deep_copy(exec_, OnHost<T>(values.data(), values.size()), view);
+        fence();
+        return values;
     }
 
     void fence() {
@@ -122,5 +118,108 @@ class Device {
     std::size_t lent_ = 0;  ///< bytes
     std::vector<Kokkos::View<char*, Memory>> full_{};
 };
+
+/// Integers that atomic operations of all devices add; negative numbers wrap.
+using Word = unsigned long long;
+
+/// Points that a team adds up in a word for each bin: up to 2^15 numbers below 2^47.
+inline constexpr int block_length = 1 << 15;
+
+/// Sums of integers in bins, exact and so the same in any order. Sums of all blocks have two words,
+/// for the higher and the lower bits, and hold 2^40 numbers.
+template <class Execution>
+struct Bins {
+    static constexpr int low_bits = 24;
+    static constexpr Word low_mask = (Word{1} << low_bits) - 1;
+
+    Word* of_block;  ///< a word for each; null: only those of all
+    Word* of_all;
+
+    KOKKOS_INLINE_FUNCTION void add(std::int64_t bin, std::int64_t value) const {
+        if (of_block == nullptr) {
+            add_to_all(bin, value);
+        } else if constexpr (runs_on_host<Execution>) {
+            of_block[bin] += static_cast<Word>(value);
+        } else {
+            Kokkos::atomic_fetch_add(&of_block[bin], static_cast<Word>(value));
+        }
+    }
+    KOKKOS_INLINE_FUNCTION void add_to_all(std::int64_t bin, std::int64_t value) const {
+        const Word low = static_cast<Word>(value) & low_mask;
+        const auto high = static_cast<Word>(value >> low_bits);
+        if (high != 0) Kokkos::atomic_fetch_add(&of_all[2 * bin], high);
+        if (low != 0) Kokkos::atomic_fetch_add(&of_all[2 * bin + 1], low);
+    }
+    static double total(Word high, Word low) {
+        high += low >> low_bits;
+        return static_cast<double>(static_cast<std::int64_t>(high)) * (low_mask + 1) +
+               static_cast<double>(low & low_mask);
+    }
+};
+
+// A thread of the host is a team, with memory of its own; the scratch of a device is fast at 0.
+template <class Execution>
+inline constexpr int scratch_level = runs_on_host<Execution> ? 1 : 0;
+
+/// Returns the number of bins for which a team has fast memory.
+template <class Execution>
+std::int64_t bins_in_scratch(const Execution& exec) {
+    const Kokkos::TeamPolicy<Execution> policy(exec, 1, 1);
+    return (policy.scratch_size_max(scratch_level<Execution>) - 64) /
+           static_cast<std::int64_t>(sizeof(Word));
+}
+
+/// Calls body(i, bins) for i = 0 ... count - 1, which adds to bins whose sums are in `of_all`.
+template <class Device, class Body>
+void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins, Word* of_all,
+                 const Body& body) {
+    using Execution = typename Device::Execution;
+    using Policy = Kokkos::TeamPolicy<Execution>;
+    const int in_block =
+        num_bins <= bins_in_scratch(device.exec()) ? static_cast<int>(num_bins) : 0;
+    const int bytes = in_block * static_cast<int>(sizeof(Word));
+    const int teams = static_cast<int>(count / block_length) + 1;
+    Policy policy(device.exec(), teams, Kokkos::AUTO);
+    if constexpr (runs_on_host<Execution>) policy = Policy(device.exec(), teams, 1);
+    if (in_block > 0)
+        policy.set_scratch_size(scratch_level<Execution>, Kokkos::PerTeam(bytes + 64));
+    Kokkos::parallel_for(
+        "rrcb::add_in_bins", policy, KOKKOS_LAMBDA(const typename Policy::member_type& team) {
+            const std::int64_t first = static_cast<std::int64_t>(team.league_rank()) * block_length;
+            const std::int64_t rest = count - first;
+            const int length = static_cast<int>(rest < block_length ? rest : block_length);
+            Bins<Execution> bins{nullptr, of_all};
+            if (in_block > 0)
+                bins.of_block = static_cast<Word*>(
+                    team.team_scratch(runs_on_host<Execution> ? 1 : 0).get_shmem(bytes));
+            Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block),
+                                 [&](int bin) { bins.of_block[bin] = 0; });
+            team.team_barrier();
+            const Body add = body;  // a copy, which stays in registers
+            Kokkos::parallel_for(Kokkos::TeamThreadRange(team, length),
+                                 [&](int k) { add(first + k, bins); });
+            team.team_barrier();
+            Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block), [&](int bin) {
+                bins.add_to_all(bin, static_cast<std::int64_t>(bins.of_block[bin]));
+            });
+        });
+}
+
+/// Returns the sums of what each body(i, bins) adds for i = 0 ... count - 1, one body after the
+/// other. A fence.
+template <class Device, class Body>
+std::vector<double> sum_in_bins(Device& device, std::int64_t count, std::int64_t num_bins,
+                                const std::vector<Body>& bodies) {
+    const std::size_t num_words = 2 * static_cast<std::size_t>(num_bins);
+    const auto sums = device.template lend<Word>(num_words * bodies.size());
+    Kokkos::deep_copy(device.exec(), sums, 0);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+        add_in_bins(device, count, num_bins, sums.data() + num_words * k, bodies[k]);
+    const std::vector<Word> words = device.copy_out(sums);
+    std::vector<double> totals;
+    for (std::size_t k = 0; k < words.size(); k += 2)
+        totals.push_back(Bins<typename Device::Execution>::total(words[k], words[k + 1]));
+    return totals;
+}
 
 }  // namespace rrcb::detail

@@ -1,16 +1,13 @@
 #pragma once
 
 #include <rrcb/kokkos/points.hpp>
-#include <rrcb/kokkos/sums.hpp>
 #include <rrcb/method/moments.hpp>
 #include <rrcb/method/support_mesh.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace rrcb::detail {
@@ -49,38 +46,32 @@ struct Layers {
 };
 
 /// Adds up fields of points in the cells of a mesh: their number, their weight if they have any,
-/// then for each axis the first and second moment about the middle of the cell.
+/// then for each of some axes the first and second moment about the middle of the cell.
 template <class T, class W>
 struct AddMoments {
     Positions<T> x;
     Weights<W> weights;
     Layers layers[max_dimension];
-    std::int64_t num_cells;
-    int begin;  ///< first field that is added
-    int end;    ///< behind the last one
+    int num_fields;
+    int first_axis;
+    int end_axis;
 
     template <class Bins>
     KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, const Bins& bins) const {
         double offset[max_dimension] = {};
-        std::int64_t cell = 0;
+        std::int64_t bin = 0;
         for (int a = max_dimension; a-- > 0;)
-            if (a < x.dimension)
-                cell = cell * layers[a].number + layers[a].find(x(i, a), offset[a]);
-        const double weight = weights.values == nullptr ? 1 : weights.relative(i);
-        int field = 0;
-        add(bins, field++, cell, 1);
-        if (weights.values != nullptr) add(bins, field++, cell, to_units(weight, weight_bits));
+            if (a < x.dimension) bin = bin * layers[a].number + layers[a].find(x(i, a), offset[a]);
+        bin *= num_fields;
+        bins.add(bin++, 1);
+        const double weight = weights.relative(i);
+        if (weights.values != nullptr) bins.add(bin++, to_units(weight, weight_bits));
         for (int a = 0; a < max_dimension; ++a) {
-            if (a >= x.dimension) break;
+            if (a < first_axis || a >= end_axis) continue;
             const double first = weight * offset[a];
-            add(bins, field++, cell, to_units(first, weight_bits));
-            add(bins, field++, cell, to_units(first * offset[a], square_bits));
+            bins.add(bin++, to_units(first, weight_bits));
+            bins.add(bin++, to_units(first * offset[a], square_bits));
         }
-    }
-    template <class Bins>
-    KOKKOS_INLINE_FUNCTION void add(const Bins& bins, int field, std::int64_t cell,
-                                    std::int64_t value) const {
-        if (field >= begin && field < end) bins.add((field - begin) * num_cells + cell, value);
     }
 };
 
@@ -102,52 +93,48 @@ inline std::vector<Layer> layers_of(const SupportMesh& mesh, Layers (&layers)[ma
     return all;
 }
 
-/// Returns the sums of fields, [field][cell]: as many fields at once as a team has scratch for, all
-/// at once if it is too small for an axis. A fence.
-template <class Device, class T, class W>
-std::vector<double> sums_of_cells(Device& device, AddMoments<T, W> body) {
-    const int fields = (body.weights.values == nullptr ? 1 : 2) + 2 * body.x.dimension;
-    const auto all = static_cast<std::size_t>(fields * body.num_cells);
-    const auto sums = device.template lend_zeros<Word>(2 * all);
-    const auto fitting = static_cast<int>(
-        std::min<std::int64_t>(fields, bins_in_scratch(device.exec()) / body.num_cells));
-    const int step = fitting < 3 ? fields : fitting;
-    for (body.begin = 0; body.begin < fields; body.begin = body.end) {
-        body.end = std::min(body.begin + step, fields);
-        add_in_bins(device, body.x.count, (body.end - body.begin) * body.num_cells,
-                    sums.data() + 2 * body.begin * body.num_cells, body);
-    }
-    return totals_of_bins(device, sums);
-}
-
 /// Returns the moments of every cell that holds weight, as cell_moments(): mean and deviation to
 /// within 1e-6 of the sides of a cell unless its points are lighter than a millionth of the
-/// heaviest; the same bits in any order of the points. A fence.
+/// heaviest; the same bits in any order of the points. Adds up as many axes at once as a team has
+/// scratch for, all if it is too small for one. A fence.
 template <class Device, class T, class W>
 std::vector<CellMoments> moments_on(Device& device, const Positions<T>& x,
                                     const Weights<W>& weights, const SupportMesh& mesh) {
     const std::size_t num_cells = rrcb::num_cells(mesh);
-    AddMoments<T, W> body{x, weights, {}, static_cast<std::int64_t>(num_cells), 0, 0};
+    AddMoments<T, W> body{x, weights, {}, 0, 0, 0};
     const std::vector<Layer> layers = layers_of(mesh, body.layers);
     const auto on_device = device.copy_in(layers);
     const Layer* first = on_device.data();
     for (int a = 0; a < mesh.dimension; first += body.layers[a++].number)
         body.layers[a].first = first;
-    const std::vector<double> sums = sums_of_cells(device, body);
     const bool weighs = weights.values != nullptr;
+    const int head = weighs ? 2 : 1;
+    const auto bins = static_cast<std::size_t>(bins_in_scratch(device.exec()));
+    const int fitting = (static_cast<int>(bins / num_cells) - head) / 2;
+    const int num_axes = fitting < 1 ? mesh.dimension : std::min(fitting, mesh.dimension);
+    body.num_fields = head + 2 * num_axes;
+    std::vector<AddMoments<T, W>> bodies;
+    for (; body.first_axis < mesh.dimension; body.first_axis = body.end_axis) {
+        body.end_axis = std::min(body.first_axis + num_axes, mesh.dimension);
+        bodies.push_back(body);
+    }
+    const std::size_t num_bins = num_cells * static_cast<std::size_t>(body.num_fields);
+    const std::vector<double> sums =
+        sum_in_bins(device, x.count, static_cast<std::int64_t>(num_bins), bodies);
     std::vector<CellMoments> cells;
     for (std::size_t cell = 0; cell < num_cells; ++cell) {
-        const auto sum = [&](std::size_t field) { return sums[field * num_cells + cell]; };
-        const double units = weighs ? sum(1) : std::ldexp(sum(0), weight_bits);
+        const double* sum = &sums[cell * static_cast<std::size_t>(body.num_fields)];
+        const double units = weighs ? sum[1] : std::ldexp(sum[0], weight_bits);
         if (!(units > 0)) continue;
         CellMoments of{cell, cell_box(mesh, cell), {}};
-        of.moments.count = static_cast<GlobalCount>(sum(0));
-        of.moments.weight = weighs ? weights.from_units(units) : sum(0);
-        for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) {
+        of.moments.count = static_cast<GlobalCount>(sum[0]);
+        of.moments.weight = weighs ? weights.from_units(units) : sum[0];
+        for (int axis = 0; axis < mesh.dimension; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
             const Layer layer = layer_of(mesh, of.box, a);
-            const std::size_t field = 2 * a + (weighs ? 2 : 1);
-            const double mean = sum(field) / units;
-            const double square = std::ldexp(sum(field + 1), weight_bits - square_bits) / units;
+            const double* of_axis = sum + axis / num_axes * num_bins + head + axis % num_axes * 2;
+            const double mean = of_axis[0] / units;
+            const double square = std::ldexp(of_axis[1], weight_bits - square_bits) / units;
             of.moments.mean[a] = std::clamp((layer.middle + mean * layer.side) / mesh.scale[a],
                                             of.box.lower[a], of.box.upper[a]);
             of.moments.deviation[a] =

@@ -1,11 +1,8 @@
 #pragma once
 
 #include <rrcb/detail/sample.hpp>
-#include <rrcb/kokkos/collect.hpp>
 #include <rrcb/kokkos/moments.hpp>
-#include <rrcb/kokkos/summary.hpp>
-#include <rrcb/kokkos/tree.hpp>
-#include <rrcb/passes.hpp>
+#include <rrcb/kokkos/parts.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +44,7 @@ class KokkosPasses final : public PointPasses {
         : device_(exec),
           views_(x),
           weight_view_(weights),
-          x_(detail::PointViews<Views>::positions(x)),
+          x_(detail::positions_of(x)),
           parts_(parts) {
         if (weights.extent(0) == 0) return;
         given_.values = weights.data();
@@ -76,13 +73,14 @@ class KokkosPasses final : public PointPasses {
             summary.heaviest = ends.heaviest;
             summary.weight = detail::total_weight(device_, x_.count, given_);
         }
-        detail::check_coordinates(ends);
-        for (int a = 0; a < x_.dimension && reads_positions; ++a) {
-            const auto axis = static_cast<std::size_t>(a);
-            std::copy_n(ends.first[a].x, max_dimension, summary.first[axis].begin());
-            std::copy_n(ends.last[a].x, max_dimension, summary.last[axis].begin());
-            summary.box.lower[axis] = ends.first[a].x[a];
-            summary.box.upper[axis] = ends.last[a].x[a];
+        detail::check_coordinates(ends.coordinates);
+        for (int axis = 0; axis < x_.dimension && reads_positions; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            const detail::Position* const first = ends.positions + axis;
+            summary.first[a] = std::to_array(first->x);
+            summary.last[a] = std::to_array(first[max_dimension].x);
+            summary.box.lower[a] = summary.first[a][a];
+            summary.box.upper[a] = summary.last[a][a];
         }
         return summary;
     }
@@ -91,9 +89,8 @@ class KokkosPasses final : public PointPasses {
         std::vector<LocalIndex> indices(std::min(size, count()));
         for (std::size_t k = 0; k < indices.size(); ++k)
             indices[k] = count() <= size ? k : detail::sampled(k, count());
-        const auto on_device = device_.copy_in(indices);
-        Collected copies{.dimension = x_.dimension};
-        detail::copy_points(device_, x_, used_weights(), on_device, nullptr).append_to(copies);
+        Collected copies;
+        detail::copy_points(device_, x_, used_weights(), device_.copy_in(indices), nullptr, copies);
         PointSample sample;
         for (LocalIndex k = 0; k < copies.count(); ++k)
             sample.positions.push_back(copies.position(k));
@@ -111,7 +108,7 @@ class KokkosPasses final : public PointPasses {
 
     PartTotals assign(const Cuts& cuts, bool counts) override {
         check();
-        return find_parts(detail::PackedCuts(cuts, {}), true, detail::Opens::none, counts).settled;
+        return find_parts({cuts, {}}, true, detail::Opens::none, counts).settled;
     }
 
     void collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
@@ -119,31 +116,29 @@ class KokkosPasses final : public PointPasses {
         collected.coordinates.clear();
         collected.weights.clear();
         collected.original.clear();
-        const detail::PackedCuts packed(cuts, intervals);
-        take(find_parts(packed, !has_parts, detail::Opens::outside, true), collected);
+        take(find_parts({cuts, intervals}, !has_parts, detail::Opens::outside, true), collected);
     }
 
     std::vector<std::size_t> collect_more(std::span<const Wanted> wanted,
                                           Collected& collected) override {
+        const std::size_t num_parts = collected.settled.counts.size();
         detail::PackedCuts given;
         // At first no position.
-        given.regions.assign(collected.settled.counts.size(), {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {}});
-        std::vector<std::size_t> wanted_of_part(given.regions.size());
+        given.regions.assign(num_parts, {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {}});
+        std::vector<std::size_t> found(num_parts);
         for (std::size_t k = 0; k < wanted.size(); ++k) {
+            const Wanted& node = wanted[k];
             detail::Region region;
-            region.lower[wanted[k].axis] = wanted[k].interval.lower;
-            region.upper[wanted[k].axis] = wanted[k].interval.upper;
-            for (Part part = 0; part < wanted[k].num_parts; ++part) {
-                given.regions[wanted[k].first_part + part] = region;
-                wanted_of_part[wanted[k].first_part + part] = k;
-            }
+            region.lower[node.axis] = node.interval.lower;
+            region.upper[node.axis] = node.interval.upper;
+            std::fill_n(&given.regions[node.first_part], node.num_parts, region);
+            std::fill_n(&found[node.first_part], node.num_parts, k);
         }
-        const detail::Rows rows =
-            take(find_parts(given, false, detail::Opens::inside, true), collected);
-        std::vector<std::size_t> found;
-        for (std::size_t k = 0; k < rows.count(); ++k)
-            found.push_back(wanted_of_part[rows.part(k)]);
-        return found;
+        std::vector<std::size_t> nodes;
+        for (const Part part :
+             take(find_parts(given, false, detail::Opens::inside, true), collected))
+            nodes.push_back(found[part]);
+        return nodes;
     }
 
     std::vector<Box> boxes(int num_parts) override {
@@ -155,7 +150,7 @@ class KokkosPasses final : public PointPasses {
         const auto values = device_.copy_in(parts);
         Part* const all = known_parts();
         Kokkos::parallel_for(
-            "rrcb::settle", device_.range(static_cast<std::int64_t>(parts.size())),
+            "rrcb::settle", device_.range(parts.size()),
             KOKKOS_LAMBDA(const std::int64_t k) { all[indices(k)] = values(k); });
         device_.fence();
     }
@@ -165,43 +160,38 @@ class KokkosPasses final : public PointPasses {
         Part* const parts = known_parts();
         const bool is_one = numbers.size() == 1;
         Kokkos::parallel_for(
-            "rrcb::renumber", device_.range(x_.count),
+            "rrcb::renumber", device_.range(count()),
             KOKKOS_LAMBDA(const std::int64_t i) { parts[i] = table(is_one ? 0 : parts[i]); });
         device_.fence();
     }
 
-    std::vector<Part> parts() const override {
-        std::vector<Part> copy(parts_.extent(0));
-        device_.copy_out(parts_, std::span(copy));
-        device_.fence();
-        return copy;
-    }
+    std::vector<Part> parts() const override { return device_.copy_out(parts_); }
 
     void set_parts(std::span<const Part> parts) override {
         known_parts();
-        device_.copy_in(parts, parts_);
+        Kokkos::deep_copy(device_.exec(), parts_, device_.copy_in(parts));
         device_.fence();
     }
 
   private:
     struct Assigned {
-        LocalIndex num_open;
+        std::size_t num_open;
         PartTotals settled;
     };
 
     void check() const {
         detail::require_kokkos();
-        if (!x_.are_even)
-            detail::reject_on_device("coordinate arrays must all have the same length");
-        if (weight_view_.extent(0) != 0 && weight_view_.extent(0) != count())
-            detail::reject_on_device(
-                "weights must hold one entry per point, or none for unit weights");
+        detail::require_on_device(x_.are_even, "coordinate arrays must all have the same length");
+        const std::size_t num_weights = weight_view_.extent(0);
+        detail::require_on_device(
+            num_weights == 0 || num_weights == count(),
+            "weights must hold one entry per point, or none for unit weights");
     }
 
     bool weighs() const { return has_weights() && uses_weights_; }
     detail::Weights<W> used_weights() const { return weighs() ? given_ : detail::Weights<W>{}; }
 
-    /// Returns the weights that count, relative to the heaviest.
+    /// Returns the weights that count, relative to the heaviest. A fence at first.
     detail::Weights<W> known_weights() {
         if (weighs() && heaviest_ < 0) find_ends(false);
         return used_weights();
@@ -222,41 +212,33 @@ class KokkosPasses final : public PointPasses {
     /// Finds parts, unless they are given, marks open points, and counts the others. A fence.
     Assigned find_parts(const detail::PackedCuts& cuts, bool finds, detail::Opens opens,
                         bool counts) {
+        const int num_parts = static_cast<int>(cuts.regions.size());
         const detail::Weights<W> weights = known_weights();  // with its fence
         const auto nodes = device_.copy_in(cuts.nodes);
         const auto regions = device_.copy_in(cuts.regions);
-        const detail::Assign<T, W> assign{x_,
-                                          weights,
-                                          nodes.data(),
-                                          regions.data(),
-                                          known_parts(),
-                                          static_cast<int>(cuts.regions.size()),
-                                          finds,
-                                          opens,
-                                          counts};
+        const detail::Assign<T, W> assign{
+            x_,        weights, nodes.data(), regions.data(), known_parts(),
+            num_parts, finds,   opens,        counts};
         const std::vector<double> bins =
-            detail::sum_in_bins(device_, x_.count, assign.num_bins(), assign);
-        if (bins[assign.bad] > 0) detail::check_coordinates(find_ends(true));
-        Assigned found{static_cast<LocalIndex>(bins[assign.open]), {}};
+            detail::sum_in_bins(device_, x_.count, assign.num_bins(), std::vector{assign});
+        if (bins[assign.bad] > 0) detail::check_coordinates(find_ends(true).coordinates);
+        Assigned found{static_cast<std::size_t>(bins[assign.open]), {}};
         if (!counts) return found;
         const auto first = bins.begin() + assign.first;
-        found.settled.counts.assign(first, first + assign.num_parts);
-        found.settled.weights.assign(bins.end() - assign.num_parts, bins.end());
+        found.settled.counts.assign(first, first + num_parts);
+        found.settled.weights.assign(bins.end() - num_parts, bins.end());
         if (weighs())
             for (double& weight : found.settled.weights) weight = given_.from_units(weight);
         return found;
     }
 
-    /// Moves open points to the host, behind others. A fence.
-    detail::Rows take(Assigned&& found, Collected& collected) {
+    /// Moves open points to the host, behind others; returns their parts. A fence.
+    std::vector<Part> take(Assigned&& found, Collected& collected) {
         collected.dimension = x_.dimension;
         collected.settled = std::move(found.settled);
         if (found.num_open == 0) return {};
-        const auto indices = detail::list_marked(device_, x_.count, found.num_open, parts_.data());
-        const detail::Rows rows =
-            detail::copy_points(device_, x_, used_weights(), indices, parts_.data());
-        rows.append_to(collected);
-        return rows;
+        const auto indices = detail::list_marked(device_, count(), found.num_open, parts_.data());
+        return detail::copy_points(device_, x_, used_weights(), indices, parts_.data(), collected);
     }
 
     mutable detail::Device<ExecutionSpace, Memory> device_;

@@ -1,0 +1,258 @@
+#pragma once
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/kokkos/points.hpp>
+#include <rrcb/passes.hpp>
+#include <rrcb/plan.hpp>
+
+#include <utility>
+
+namespace rrcb::detail {
+
+/// A cut in the memory of a device: 32 bytes. The cuts below it follow, then those above.
+struct TreeNode {
+    double at[max_dimension];
+    std::int32_t axis;
+    std::int32_t lower_parts;  ///< parts below it
+
+    /// Returns true if a position is not below the cut, as is_above() of the host.
+    KOKKOS_INLINE_FUNCTION bool is_above(const Position& p, int dimension) const {
+        const double x = axis == 0 ? p.x[0] : axis == 1 ? p.x[1] : p.x[2];
+        const double plane = axis == 0 ? at[0] : axis == 1 ? at[1] : at[2];
+        if (x != plane) return x > plane;
+        for (int a = 0; a < max_dimension; ++a)
+            if (a < dimension && p.x[a] != at[a]) return p.x[a] > at[a];
+        return true;
+    }
+};
+
+/// The positions lower <= x < upper: by default all.
+struct Region {
+    double lower[max_dimension] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double upper[max_dimension] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+
+    KOKKOS_INLINE_FUNCTION bool contains(const Position& p, int dimension) const {
+        for (int a = 0; a < max_dimension; ++a)
+            if (a < dimension && !(p.x[a] >= lower[a] && p.x[a] < upper[a])) return false;
+        return true;
+    }
+};
+
+/// A tree of cuts for a device.
+struct PackedCuts {
+    std::vector<TreeNode> nodes{};
+    std::vector<Region> regions{};  ///< of each part: whose points no cut leaves to another part
+
+    PackedCuts() = default;
+    /// Packs complete cuts; without intervals they are fixed.
+    PackedCuts(const Cuts& cuts, std::span<const Bracket> intervals) {
+        add(cuts, intervals, 0, cuts.num_parts, {});
+    }
+
+  private:
+    void add(const Cuts& cuts, std::span<const Bracket> intervals, std::size_t node, int num_parts,
+             const Region& region) {
+        if (num_parts == 1) return regions.push_back(region);
+        const Cut& cut = cuts.tree[node];
+        const int lower_parts = cuts.shape.lower_parts(num_parts);
+        nodes.push_back({{cut.at[0], cut.at[1], cut.at[2]}, cut.axis, lower_parts});
+        Region below = region;
+        Region above = region;
+        if (!intervals.empty()) {
+            double& upper = below.upper[cut.axis];
+            double& lower = above.lower[cut.axis];
+            upper = std::min(upper, intervals[node].lower);
+            lower = std::max(lower, intervals[node].upper);
+        }
+        add(cuts, intervals, node + 1, lower_parts, below);
+        add(cuts, intervals, node + static_cast<std::size_t>(lower_parts), num_parts - lower_parts,
+            above);
+    }
+};
+
+/// Points that become open, by the region of their part.
+enum class Opens { none, outside, inside };
+
+/// Returns the mark of open points of a part until they are copied, or the part of a mark.
+KOKKOS_INLINE_FUNCTION Part marked(Part part) {
+    return no_part - 1 - part;
+}
+
+/// Finds the parts of points, or takes those that are given; marks the open points, and counts the
+/// others.
+template <class T, class W>
+struct Assign {
+    Positions<T> x;
+    Weights<W> weights;
+    const TreeNode* nodes;
+    const Region* regions;
+    Part* parts;
+    int num_parts;
+    bool finds;
+    Opens opens;
+    bool counts;
+
+    // Bins: coordinates that are not finite, open points; counts of parts, then their weights.
+    static constexpr int bad = 0;
+    static constexpr int open = 1;
+    static constexpr int first = 2;
+
+    std::int64_t num_bins() const {
+        return first + (counts ? num_parts : 0) * (weights.values == nullptr ? 1 : 2);
+    }
+    template <class Bins>
+    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, const Bins& bins) const {
+        const Position p = x.position(i);
+        for (int a = 0; a < max_dimension; ++a)
+            if (!is_finite(p.x[a])) bins.add(bad, 1);
+        const Part part = finds ? part_of(p) : parts[i];
+        const bool is_open = opens != Opens::none && part >= 0 &&
+                             regions[part].contains(p, x.dimension) == (opens == Opens::inside);
+        parts[i] = is_open ? marked(part) : part;
+        if (is_open) return bins.add(open, 1);
+        if (!counts || part < 0) return;
+        bins.add(first + part, 1);
+        if (weights.values != nullptr) bins.add(first + num_parts + part, weights.units(i));
+    }
+    KOKKOS_INLINE_FUNCTION Part part_of(const Position& p) const {
+        std::int32_t node = 0;
+        Part part = 0;
+        for (int below = num_parts; below > 1;) {
+            const std::int32_t lower_parts = nodes[node].lower_parts;
+            const bool is_above = nodes[node].is_above(p, x.dimension);
+            node += is_above ? lower_parts : 1;
+            part += is_above ? lower_parts : 0;
+            below = is_above ? below - lower_parts : lower_parts;
+        }
+        return part;
+    }
+};
+
+/// Adds points to those on the host, without totals; those with `parts` lose their marks for
+/// no_part. Returns their parts. A fence.
+template <class Device, class T, class W>
+std::vector<Part> copy_points(Device& device, const Positions<T>& x, const Weights<W>& weights,
+                              const typename Device::template Lent<LocalIndex>& indices,
+                              Part* parts, Collected& to) {
+    const bool weighs = weights.values != nullptr;
+    const int width = x.dimension + (weighs ? 3 : 2);
+    const auto view =
+        device.template lend<double>(indices.extent(0) * static_cast<std::size_t>(width));
+    Kokkos::parallel_for(
+        "rrcb::copy", device.range(indices.extent(0)), KOKKOS_LAMBDA(const std::int64_t k) {
+            const auto i = static_cast<std::int64_t>(indices(k));
+            double* row = view.data() + k * width;
+            *row++ = static_cast<double>(i);
+            *row++ = parts == nullptr ? no_part : marked(parts[i]);
+            if (parts != nullptr) parts[i] = no_part;
+            for (int a = 0; a < x.dimension; ++a) *row++ = x(i, a);
+            if (weighs) *row = weights(i);
+        });
+    const std::vector<double> rows = device.copy_out(view);
+    std::vector<Part> before;
+    to.dimension = x.dimension;
+    for (auto row = rows.begin(); row != rows.end(); row += width) {
+        to.original.push_back(static_cast<LocalIndex>(row[0]));
+        before.push_back(static_cast<Part>(row[1]));
+        to.coordinates.insert(to.coordinates.end(), row + 2, row + 2 + x.dimension);
+        if (weighs) to.weights.push_back(row[width - 1]);
+    }
+    return before;
+}
+
+/// Lists marked points, of which there are `number`, in ascending order of their indices.
+template <class Device>
+auto list_marked(Device& device, std::size_t count, std::size_t number, const Part* parts) {
+    const auto indices = device.template lend<LocalIndex>(number);
+    Kokkos::parallel_scan(
+        "rrcb::list", device.range(count),
+        KOKKOS_LAMBDA(const std::int64_t i, std::int64_t& before, const bool is_final) {
+            if (parts[i] >= no_part) return;
+            if (is_final) indices(before) = static_cast<LocalIndex>(i);
+            ++before;
+        });
+    return indices;
+}
+
+/// Returns the box of the points of each part. A fence.
+template <class Device, class T>
+std::vector<Box> boxes_of_parts(Device& device, const Positions<T>& x, const Part* parts,
+                                int num_parts) {
+    const std::vector<Box> empty(static_cast<std::size_t>(num_parts));
+    const auto boxes = device.copy_in(empty);
+    static_assert(sizeof(Box) == 2 * max_dimension * sizeof(double));
+    Kokkos::parallel_for(
+        "rrcb::boxes", device.range(x.count), KOKKOS_LAMBDA(const std::int64_t i) {
+            if (parts[i] < 0) return;
+            auto* const lower = reinterpret_cast<double*>(boxes.data() + parts[i]);
+            double* const upper = lower + max_dimension;
+            for (int a = 0; a < x.dimension; ++a) {
+                const double value = x(i, a);
+                // Most points need no atomic operation; an old bound costs one.
+                if (value < *static_cast<volatile double*>(lower + a))
+                    Kokkos::atomic_fetch_min(lower + a, value);
+                if (value > *static_cast<volatile double*>(upper + a))
+                    Kokkos::atomic_fetch_max(upper + a, value);
+            }
+        });
+    return device.copy_out(boxes);
+}
+
+/// Lists points by rank, each list in ascending order: a thread for each block of points counts
+/// them, and later lists them. Places are [block][rank].
+struct ListBlock {
+    const int* ranks;
+    std::int64_t count;
+    std::int64_t length;
+    int num_ranks;
+    std::int64_t* places;
+    LocalIndex* order;  ///< null: counts
+
+    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t block) const {
+        const std::int64_t end = (block + 1) * length < count ? (block + 1) * length : count;
+        for (std::int64_t i = block * length; i < end; ++i) {
+            const std::int64_t place = places[block * num_ranks + ranks[i]]++;
+            if (order != nullptr) order[place] = static_cast<LocalIndex>(i);
+        }
+    }
+};
+
+/// Fills `order` with the points by rank, each list in ascending order; returns the lengths of the
+/// lists. A fence.
+template <class Device, class Ranks, class Order>
+std::vector<RankCount> list_by_rank(Device& device, int num_ranks, const Ranks& ranks,
+                                    const Order& order) {
+    const auto count = static_cast<std::int64_t>(ranks.extent(0));
+    // So that the places need less memory than the points.
+    const std::int64_t length = std::max(4096, num_ranks);
+    const std::int64_t num_blocks = count / length + 1;
+    const auto num_places = static_cast<std::size_t>(num_blocks * num_ranks);
+    const auto places = device.template lend<std::int64_t>(num_places);
+    Kokkos::deep_copy(device.exec(), places, 0);
+    ListBlock list{ranks.data(), count, length, num_ranks, places.data(), nullptr};
+    Kokkos::parallel_for("rrcb::count_by_rank", device.range(num_blocks), list);
+    Kokkos::parallel_scan(
+        "rrcb::places", device.range(num_places),
+        KOKKOS_LAMBDA(const std::int64_t k, std::int64_t& before, const bool is_final) {
+            std::int64_t& place = places(k % num_blocks * num_ranks + k / num_blocks);
+            const std::int64_t number = place;
+            if (is_final) place = before;
+            before += number;
+        });
+    list.order = order.data();
+    Kokkos::parallel_for("rrcb::list_by_rank", device.range(num_blocks), list);
+    // Each place in the last block is now the end of a list.
+    const auto first = num_places - static_cast<std::size_t>(num_ranks);
+    std::vector<RankCount> lengths;
+    std::int64_t before = 0;
+    for (const std::int64_t end :
+         device.copy_out(Kokkos::subview(places, std::pair(first, num_places)))) {
+        lengths.push_back(
+            {static_cast<int>(lengths.size()), static_cast<LocalIndex>(end - before)});
+        before = end;
+    }
+    std::erase_if(lengths, [](const RankCount& to) { return to.count == 0; });
+    return lengths;
+}
+
+}  // namespace rrcb::detail

@@ -45,7 +45,8 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     }
     payload.resize(1 + layout_.length());
     payload[0] = mark_of_histogram;
-    count_points(node, std::span(payload).subspan(1));
+    count_points(node, node.search, std::span(payload).subspan(1));
+    if (counts_all_axes(node)) count_other_axes(node, payload);
     if (node.counts_parts) count_parts(node, payload);
 }
 
@@ -55,8 +56,8 @@ bool TreeSearch::has_points(const Node& node) const {
 }
 
 /// Counts this rank's points in the bins of a search.
-void TreeSearch::count_points(const Node& node, std::span<double> histogram) const {
-    const CutSearch& search = node.search;
+void TreeSearch::count_points(const Node& node, const CutSearch& search,
+                              std::span<double> histogram) const {
     const bool is_first = search.stage == CutSearch::over_points;
     clear_histogram(histogram);
     rrcb::count(points_.points(), is_first ? node.content.entries : node.candidates,
@@ -137,11 +138,14 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
 
 /// Searches a node further, or goes on with its children.
 void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<const double> more) {
-    const CutSearch before = std::exchange(node.search, next);
+    CutSearch before = std::exchange(node.search, next);
     if (before.stage == CutSearch::centring) return note(node.at.node, next.cut);
     if (before.stage == CutSearch::over_points) {
         node.content.is_counted = true;
-        if (!is_central()) node.content.box = read<Box>(more);
+        if (!is_central()) {
+            turn(before, node.content.box, next.cut.axis);
+            node.content.box = read<Box>(more);
+        }
     }
     if (next.stage == CutSearch::centring) {
         // The parts below do not depend on where in its gap the cut is.

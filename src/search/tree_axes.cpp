@@ -1,6 +1,7 @@
 // How a spread search finds the axes of free cuts.
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
+#include "arithmetic/quantum.hpp"
 #include "bisection/axis_choice.hpp"
 #include "options/allowed_axes.hpp"
 #include "search/marginal.hpp"
@@ -10,6 +11,22 @@
 #include <cmath>
 
 namespace rrcb {
+
+namespace {
+
+/// Adds points to the weights, unless they count as 1, and the counts in the slots along an axis.
+void add_along(int axis, const Bins bins, const Collected& points, const Entries& entries,
+               bool is_weighted, std::span<double> sums) {
+    const auto weights = sums.first(is_weighted ? sums.size() / 2 : 0);
+    const auto counts = sums.subspan(weights.size());
+    for (const LocalIndex i : entries) {
+        const auto slot = static_cast<std::size_t>(bins.slot_of(points.coordinate(i, axis)));
+        if (is_weighted) weights[slot] += points.weight(i);
+        counts[slot] += 1;
+    }
+}
+
+}  // namespace
 
 /// Returns the axes that free cuts may cross.
 std::span<const int> TreeSearch::axes() const {
@@ -38,13 +55,16 @@ bool TreeSearch::counts_all_axes(const Node& node) const {
 
 /// Appends the sums of this rank along the axes behind the first.
 void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload) const {
-    std::vector<double> histogram(layout_.length());
+    const std::size_t num_sums = layout_.length() - HistogramLayout::num_extents;
     CutSearch search = node.search;
     for (const int axis : axes().subspan(1)) {
         turn(search, node.content.box, axis);
-        count_points(node, search, histogram);
-        payload.insert(payload.end(), histogram.begin() + HistogramLayout::num_extents,
-                       histogram.end());
+        payload.resize(payload.size() + num_sums);
+        const auto sums = std::span(payload).last(num_sums);
+        add_along(axis, bins_of(search, layout_), points_.points(), node.content.entries,
+                  layout_.is_weighted, sums);
+        for (double& weight : sums.first(layout_.num_slots()))
+            weight = rounded_to(search.quantum, weight);
     }
 }
 

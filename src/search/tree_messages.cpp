@@ -45,7 +45,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     }
     payload.resize(1 + layout_.length());
     payload[0] = mark_of_histogram;
-    count_points(node, node.search, std::span(payload).subspan(1));
+    count_points(node, std::span(payload).subspan(1));
     if (counts_all_axes(node)) count_other_axes(node, payload);
     if (node.counts_parts) count_parts(node, payload);
 }
@@ -56,8 +56,8 @@ bool TreeSearch::has_points(const Node& node) const {
 }
 
 /// Counts this rank's points in the bins of a search.
-void TreeSearch::count_points(const Node& node, const CutSearch& search,
-                              std::span<double> histogram) const {
+void TreeSearch::count_points(const Node& node, std::span<double> histogram) const {
+    const CutSearch& search = node.search;
     const bool is_first = search.stage == CutSearch::over_points;
     clear_histogram(histogram);
     rrcb::count(points_.points(), is_first ? node.content.entries : node.candidates,

@@ -210,7 +210,7 @@ class TreeSearch {
     void count(const Node& node, std::vector<double>& payload);
     void count_parts(const Node& node, std::vector<double>& payload) const;
     void add_lot(const Node& node, std::vector<double>& payload) const;
-    void count_points(const Node& node, const CutSearch& search, std::span<double> histogram) const;
+    void count_points(const Node& node, std::span<double> histogram) const;
     void keep_chosen(const CutSearch& before, Node& node);
     void collect_more();
     std::vector<double> answer_to(const Record& record, const Node& node) const;

@@ -45,7 +45,7 @@ class AxisOrder {
     AxisOrder() = default;
 
     /// Cuts each box across the axis with the least weight near the cut, as estimated: those points
-    /// are ghosts of the other side. If many ranks make the parts, as longest().
+    /// are ghosts of the other side.
     static AxisOrder fewest_ghosts() { return {}; }
 
     /// Cuts each box across its own longest axis, as Zoltan's RCB.

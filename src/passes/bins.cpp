@@ -11,7 +11,13 @@ namespace rrcb {
 Bins::Bins(double lower, double upper, bool by_bits, int num_bins)
     : lower_(lower), upper_(upper), num_bins_(num_bins), by_bits_(by_bits) {
     // A bracket that includes the largest double ends at infinity; its width is still finite.
-    width_ = std::min(upper, std::numeric_limits<double>::max()) / num_bins - lower / num_bins;
+    using Limits = std::numeric_limits<double>;
+    const double end = std::min(upper, Limits::max());
+    width_ = end / num_bins - lower / num_bins;
+    if (width_ >= Limits::min()) bins_a_length_ = 1 / width_;
+    const double rounded = num_bins + std::max(std::abs(lower), std::abs(end)) * bins_a_length_;
+    const bool is_sure = bins_a_length_ > 0 && end / 2 - lower / 2 <= Limits::max() / 2;
+    if (is_sure) sure_ = 0.5 - std::ldexp(rounded, -50);
     lower_rank_ = double_rank(lower);
     // Modulo 2^64: the difference of two numbers of doubles may overflow a signed integer.
     num_doubles_ =

@@ -3,6 +3,7 @@
 #include "cuts/axis_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace rrcb {
@@ -37,8 +38,9 @@ class Bins {
 
   private:
     std::int32_t bin_by_width(double value) const {
-        const double share = width_ > 0 ? (value - lower_) / width_ : 0;
-        int bin = static_cast<int>(std::clamp(share, 0.0, num_bins_ - 1.0));
+        const double share = std::min((value - lower_) * bins_a_length_, num_bins_ - 0.5);
+        int bin = static_cast<int>(share);
+        if (std::abs(share - bin - 0.5) < sure_) return bin;
         // Rounded edges decide, because cuts are put on them.
         while (bin > 0 && value < edge(bin)) --bin;
         while (bin + 1 < num_bins_ && value >= edge(bin + 1)) ++bin;
@@ -53,6 +55,9 @@ class Bins {
     int num_bins_;
     bool by_bits_;
     double width_ = 0;               ///< of a bin
+    double bins_a_length_ = 0;       ///< 1 / width_, if that is finite
+    double sure_ = 0;                ///< distance from the middle of a bin, in bins, up to which
+                                     ///< round-off cannot put a value into another
     std::int64_t lower_rank_ = 0;    ///< of `lower` among all doubles, in ascending order
     std::uint64_t num_doubles_ = 0;  ///< in the bracket
     std::uint64_t doubles_a_bin_ = 1;

@@ -194,6 +194,7 @@ PartTree tree_of(const Options& options, int num_ranks) {
     tree.rule.part_sizes = options.part_sizes;
     if (options.axes.order.is_given()) tree.cut_axes = options.axes.order.axes();
     if (options.axes.order.is_among()) tree.axes = options.axes.order.axes();
+    tree.crosses_longest = options.axes.order.is_longest();
     tree.rule.tolerance = options.imbalance_tolerance;
     tree.rule.is_exact = options.refine == Refine::exact;
     tree.plain_cuts = options.axes.plain;

@@ -68,7 +68,7 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
     } else if (node.search.stage == CutSearch::dividing) {
         append(node.lot, answer);
     } else if (node.search.stage == CutSearch::over_points && !is_central()) {
-        append(node.content.box, answer);
+        append(node.found, answer);
     }
     return answer;
 }
@@ -140,14 +140,7 @@ void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histo
                                        CutSearch& search) {
     const HistogramLayout layout = layout_of(search);
     const double weight = node.content.weight = sum_of(weights_in(histogram, layout));
-    if (!is_central()) {
-        node.content.box = box_in(histogram);
-        const CutSearch anew = first_search(node.at, node.content.box, weight);
-        if (anew.cut.axis != search.cut.axis) {
-            search = anew;
-            return;
-        }
-    }
+    if (!is_central()) node.found = box_in(histogram);
     if (node.counts_parts && take_sums(node, histogram.subspan(layout.length()))) return;
     node.target = tree_.rule.target_of(node.at, weight, node.below);
     node.target.places = node.places;
@@ -155,6 +148,8 @@ void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histo
     const auto count = static_cast<GlobalCount>(sum_of(counts_in(histogram, layout)));
     if (node.target.places.all())
         node.target.counts = tree_.rule.count_limits(node.at, count, weight);
+    std::vector<double> along_axis;
+    if (counts_all_axes(node)) histogram = along_axis = choose_axis(node, histogram, search);
     decide_by_bins(search, node.target, layout, histogram);
 }
 

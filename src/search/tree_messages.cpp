@@ -42,6 +42,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     payload.resize(1 + layout_of(node.search).length());
     payload[0] = mark_of_histogram;
     count_points(node, std::span(payload).subspan(1));
+    if (counts_all_axes(node)) count_other_axes(node, payload);
     if (!node.counts_parts) return;
     const auto weights = points_.part_weights(node.at, node.content.entries);
     payload.insert(payload.end(), weights.begin(), weights.end());
@@ -131,11 +132,14 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
 
 /// Searches a node further, or goes on with its children.
 void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<const double> more) {
-    const CutSearch before = std::exchange(node.search, next);
+    CutSearch before = std::exchange(node.search, next);
     if (before.stage == CutSearch::centring) return note(node.at.node, next.cut);
     if (before.stage == CutSearch::over_points) {
         node.content.is_counted = true;
-        if (!is_central()) node.content.box = read<Box>(more);
+        if (!is_central()) {
+            turn(before, node.content.box, next.cut.axis);
+            node.content.box = read<Box>(more);
+        }
     }
     if (next.stage == CutSearch::centring) {
         // The parts below do not depend on where in its gap the cut is.

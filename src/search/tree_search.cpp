@@ -4,10 +4,8 @@
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
 #include "arithmetic/quantum.hpp"
-#include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/owned_cuts.hpp"
-#include "options/allowed_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +104,8 @@ void TreeSearch::add_node(const Descent& at, Content&& content) {
         node.counts_parts = recounts() && !node.content.are_parts_counted;
         return start_from_guide(node);
     }
-    node.search = first_search(at, node.content.box, node.content.weight);
+    node.found = node.content.box;
+    node.search = first_search(at, node.content);
 }
 
 /// Goes on below a cut.
@@ -214,19 +213,6 @@ HistogramLayout TreeSearch::layout_of(const CutSearch& search) const {
     HistogramLayout layout = layout_;
     layout.num_bins = search.num_bins;
     return layout;
-}
-
-/// Returns the axes that free cuts may cross.
-std::span<const int> TreeSearch::axes() const {
-    return tree_.axes.empty() ? first_axes(dimension_) : tree_.axes;
-}
-
-/// Returns the search in the box of a node, or one that weighs a part.
-CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double weight) const {
-    const int number = tree_.cut_axes.empty() || at.is_part() ? longest_axis(box, axes(), nearly)
-                                                              : tree_.cut_axes[at.node];
-    return search_across(number, {box.lower[number], std::nextafter(box.upper[number], infinity)},
-                         weight);
 }
 
 Cuts TreeSearch::cuts() const {

@@ -35,6 +35,7 @@ struct PartTree {
     double weight = 0;                ///< of all points
     std::span<const int> cut_axes{};  ///< of all cuts in preorder; empty: free
     std::span<const int> axes{};      ///< that cuts may cross if they are free; empty: all
+    bool crosses_longest = false;     ///< of a spread search; else free cuts leave fewest ghosts
     TargetRule rule{};                ///< of a spread search without the weight per size
     bool plain_cuts = false;
     bool centres_cuts = false;        ///< moves cuts to the middle between points of all ranks
@@ -63,7 +64,8 @@ struct Guide {
 /// Spread: a rank takes part in a node if it has points in it or owns one of its parts. The first
 /// rank of the first part owns the node, and only those that take part know the cut. Axes are free
 /// or given. Memory and messages are in proportion to the nodes in which a rank takes part, about
-/// 1.2 kB a node. Owners also hold gathered positions and weights.
+/// 1.2 kB a node, times the free axes in its first count. Owners also hold gathered positions and
+/// weights.
 ///
 /// Central: rank 0 owns all nodes, in which all ranks take part. Cuts start from a Guide, which
 /// fixes their axes, and may be limited. If the counted parts of a node are good enough, its cuts
@@ -157,7 +159,8 @@ class TreeSearch {
         Gap gap{};                   ///< while it is centred
         bool is_wide = false;        ///< central: the cut has left its interval
         bool counts_parts = false;   ///< the first count includes the parts of the current cuts
-        CutTarget target{};          ///< at the owner only
+        Box found{};                 ///< at the owner only: box of the points, once counted
+        CutTarget target{};          ///< likewise
         LotAnswer lot{};             ///< likewise
         double below = not_counted;  ///< weight below the current cut, if that was counted
         Places places{};             ///< allowed for the cut
@@ -186,7 +189,12 @@ class TreeSearch {
     std::vector<Bracket> intervals() const;
     CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
     std::span<const int> axes() const;
-    CutSearch first_search(const Descent& at, const Box& box, double weight) const;
+    CutSearch first_search(const Descent& at, const Content& content) const;
+    static void turn(CutSearch& search, const Box& box, int axis);
+    bool counts_all_axes(const Node& node) const;
+    void count_other_axes(const Node& node, std::vector<double>& payload) const;
+    std::vector<double> choose_axis(const Node& node, std::span<const double> histogram,
+                                    CutSearch& search) const;
     void start_from_guide(Node& node);
     Bracket interval_of(const Descent& at, int depth, double& shifted) const;
     double missing_below(const Descent& at, double weight, double below) const;

@@ -84,13 +84,24 @@ class Refinement {
     /// Collective. `box` is that of the points. Gives each point its part. A tolerance can be
     /// missed because upper levels used slack that lower ones need. Then, and if equal parts are
     /// empty although there are as many points, it searches once more, exactly, and keeps the
-    /// better cuts. Limited cuts are all searched in their places, and the estimate is kept if it
-    /// is better. Without weight the cuts are kept. A failure on one rank, before or here, is
-    /// thrown on all.
+    /// better cuts. Earlier cuts are kept if the others are no better. Limited cuts are all
+    /// searched in their places, and the estimate is kept if it is better. Without weight the cuts
+    /// are kept. A failure on one rank, before or here, is thrown on all.
     Refined refine(Estimate&& estimate, PointPasses& points, const Box& box, Participant& self);
 
   private:
+    /// Cuts and their parts.
+    struct Measured {
+        std::vector<Cut> tree{};
+        std::vector<double> sums{};
+        double imbalance = 1;
+        std::ptrdiff_t num_empty = 0;  ///< parts, see num_left_empty()
+    };
     void start(Estimate&& estimate, Participant& self);
+    bool is_least() const;
+    Measured measured() const;
+    bool is_better_than(const Measured& earlier) const;
+    void return_to(Measured&& earlier, PointPasses& points, Participant& self);
     bool accept_estimate(PointPasses& points, Participant& self);
     void search_exactly(PointPasses& points, Participant& self);
     void search_once(PointPasses& points, Participant& self);

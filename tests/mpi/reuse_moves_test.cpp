@@ -101,6 +101,27 @@ TEST(Reuse, leaves_cuts_alone_whose_parts_are_good) {
         ASSERT_EQ(result.parts[i], part_of(result.cuts, mine.points().position(i)));
 }
 
+TEST(Reuse, moves_no_points_at_rest_unless_parts_become_more_even) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        HeldPoints all{1 + static_cast<int>(seed % 3), {}};
+        all.coordinates = test::uniform_cloud(1 + seed, all.dimension, seed);
+        std::mt19937_64 engine(seed);
+        for (std::size_t i = 0; i < all.count(); ++i)
+            all.weights.push_back(seed % 2 == 0 ? 1 : test::uniform(engine, 0.5, 1.5));
+        all.scatter();
+        const Share mine(all);
+        Options options = with_parts(static_cast<int>(2 + seed % 17), 1.001);
+        options.axes.order = AxisOrder::longest();
+        const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+        constexpr double round_off = 1e-12;
+        if (again.report.imbalance < first.report.imbalance * (1 - round_off)) continue;
+        EXPECT_EQ(again.parts, first.parts) << "seed " << seed;
+        EXPECT_TRUE(same_cuts(again.cuts, first.cuts)) << "seed " << seed;
+        EXPECT_NEAR(again.report.imbalance, first.report.imbalance, 1e-9);
+    }
+}
+
 TEST(Reuse, of_a_drifting_cloud_moves_half_of_what_exact_cuts_do_at_most) {
     HeldPoints all = cloud(2, 20000, false);
     Options options = with_parts(8, 1.05);

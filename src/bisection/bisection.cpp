@@ -26,10 +26,10 @@ struct Task {
     const AxisChoice& axis_choice;
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
-    double light;  ///< weight of points too few to show the weight near a cut
+    double light = 0;  ///< weight of points too few to show the weight near a cut
     Bisection result{};
-    double near_weight = 0;                         ///< within the reach of the result
-    std::array<Profile, max_dimension> profiles{};  ///< of the piece being cut
+    double near_weight = 0;  ///< within the reach of the result
+    Profile profile{};       ///< of the piece being cut
 };
 
 double share_below_node(const Descent& at, const Options& options) {
@@ -39,24 +39,25 @@ double share_below_node(const Descent& at, const Options& options) {
 
 /// Replaces a cut across the longest axis by one across another that has clearly less weight near
 /// it.
-void choose_fewest(const Piece& piece, std::span<const int> axes, double target, const Box& extent,
-                   Task& task, Cut& best) {
+void choose_fewest(const Profile& profile, std::span<const int> axes, double target, bool plain,
+                   Cut& best) {
     // Few patches show the weight near a cut with a large error.
-    const double enough = nearly - 1 / std::sqrt(static_cast<double>(piece.domain.patches.size()));
-    const double reach = mean_half_side(piece.domain);
+    const auto num_patches = static_cast<double>(profile.domain().patches.size());
+    const double enough = nearly - 1 / std::sqrt(num_patches);
+    const double reach = profile.mean_half_side();
+    const Box& extent = profile.extent();
     const auto near = [&](const Cut& cut) {
-        return task.profiles[cut.axis].weight_near(cut.at[cut.axis], reach);
+        return profile.weight_near(cut.axis, cut.at[cut.axis], reach);
     };
     double fewest = near(best);
     for (const int axis : axes) {
         if (axis == best.axis || !(extent.lower[axis] < extent.upper[axis])) continue;
-        Profile& profile = task.profiles[axis];
-        profile.take(piece.domain, axis);
         // A coarse cut rules out most axes.
-        const double coarse = profile.range_of(target, profile.weight() / 64).value;
+        const double coarse = profile.range_of(axis, target, profile.weight() / 64).value;
         const bool is_known = std::isfinite(coarse);
-        if (is_known && profile.weight_near(coarse, reach) > (1 + enough) / 2 * fewest) continue;
-        const Cut cut = weighted_quantile(profile, target, task.options.axes.plain);
+        if (is_known && profile.weight_near(axis, coarse, reach) > (1 + enough) / 2 * fewest)
+            continue;
+        const Cut cut = weighted_quantile(profile, axis, target, plain);
         const double fewer = near(cut);
         if (!(fewer < enough * fewest)) continue;
         best = cut;
@@ -67,16 +68,13 @@ void choose_fewest(const Piece& piece, std::span<const int> axes, double target,
 /// Returns the cut that leaves the share `below` (0 ... 1) of the piece's weight below it, and
 /// takes the profile of its axis.
 Cut choose_cut(const Piece& piece, double below, Task& task) {
-    const Box extent = extent_of(piece.domain);
+    Profile& profile = task.profile;
+    profile.take(piece.domain);
+    const Box& extent = profile.extent();
     const auto axes = task.axis_choice(piece.at.node, piece.depth);
     const int longest = longest_axis(extent, axes, nearly);
-    if (task.limits && task.limits->divides(piece.at)) {
-        const Cut cut = cut_in_places(piece, below, longest, extent, task.options, *task.limits);
-        task.profiles[cut.axis].take(piece.domain, cut.axis);
-        return cut;
-    }
-    Profile& profile = task.profiles[longest];
-    profile.take(piece.domain, longest);
+    if (task.limits && task.limits->divides(piece.at))
+        return cut_in_places(piece, profile, below, longest, task.options, *task.limits);
     const double weight = profile.weight();
     // First: a side of size 0 is empty even if the domain has no weight.
     if (below >= 1) return plane(longest, infinity);
@@ -84,30 +82,34 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     // Coincident patches go to one side.
     if (extent.lower == extent.upper) return plane(longest, below < 0.5 ? -infinity : infinity);
     const double target = below * weight;
-    Cut cut = weighted_quantile(profile, target, task.options.axes.plain);
+    const bool plain = task.options.axes.plain;
+    Cut cut = weighted_quantile(profile, longest, target, plain);
     const bool shows_near = task.result.cuts.near.reach > 0 && weight > task.light;
     if (shows_near && axes.size() > 1 && !task.options.axes.order.is_longest())
-        choose_fewest(piece, axes, target, extent, task, cut);
+        choose_fewest(profile, axes, target, plain, cut);
     return cut;
 }
 
 /// Returns the range in which the exact cut is expected: the domain is an estimate. `below` is the
 /// share of the weight below the cut, `depth` the number of cuts above. It takes many steps into a
 /// small cluster.
-Bracket bracket_of(const Profile& profile, double cut, double below, int depth, int most_steps) {
+Bracket bracket_of(const Profile& profile, const Cut& cut, double below, int depth) {
     if (profile.domain().patches.empty()) return {};
     const double margin = expected_error(depth);
     const double error = margin / 8 * profile.weight();
+    constexpr int most_steps = 64;
     const auto range_of = [&](double share) {
         Profile::Range range;
         if (!(share > 0 && share < 1 && error > 0)) return range;
-        range = profile.range_of(share * profile.weight(), error, most_steps);
+        range = profile.range_of(cut.axis, share * profile.weight(), error, most_steps);
         if (std::isfinite(range.value)) range.lower = range.upper = range.value;
         return range;
     };
-    const double value = std::clamp(cut, profile.lower(), profile.upper());
-    const double lower = std::clamp(range_of(below - margin).lower, profile.lower(), value);
-    const double upper = std::clamp(range_of(below + margin).upper, value, profile.upper());
+    const double first = profile.extent().lower[cut.axis];
+    const double last = profile.extent().upper[cut.axis];
+    const double value = std::clamp(cut.at[cut.axis], first, last);
+    const double lower = std::clamp(range_of(below - margin).lower, first, value);
+    const double upper = std::clamp(range_of(below + margin).upper, value, last);
     return {lower, std::nextafter(upper, infinity)};
 }
 
@@ -120,16 +122,14 @@ void bisect_piece(Piece piece, Task& task) {
     const double below = share_below_node(at, task.options);
     const Cut cut = choose_cut(piece, below, task);
     task.result.cuts.tree.push_back(cut);
-    const Profile& profile = task.profiles[cut.axis];
+    const Profile& profile = task.profile;
     const double value = cut.at[cut.axis];
     if (std::isfinite(value))
-        task.near_weight += profile.weight_within(value, task.result.cuts.near.reach);
-    const int most_steps = task.result.cuts.near.reach > 0 ? 64 : 12;  // points are mere jumps
-    if (task.with_brackets)
-        task.result.brackets.push_back(bracket_of(profile, value, below, depth, most_steps));
+        task.near_weight += profile.weight_within(cut.axis, value, task.result.cuts.near.reach);
+    if (task.with_brackets) task.result.brackets.push_back(bracket_of(profile, cut, below, depth));
     // Parts need weights only.
     if (at.num_parts == 2 && is_plane(cut, domain.dimension) && std::isfinite(value)) {
-        const double weight_below = profile.weight_below(value);
+        const double weight_below = profile.weight_below(cut.axis, value);
         task.result.part_weights.push_back(weight_below);
         task.result.part_weights.push_back(std::max(0.0, profile.weight() - weight_below));
         return;
@@ -145,7 +145,7 @@ double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts
     const Cut& cut = cuts.tree[at.node];
     const double value = cut.at[cut.axis];
     double weight =
-        std::isfinite(value) ? Profile(domain, cut.axis).weight_within(value, reach) : 0;
+        std::isfinite(value) ? Profile(domain).weight_within(cut.axis, value, reach) : 0;
     Halves halves = split_domain(std::move(domain), cut);
     weight += weight_near(std::move(halves.lower), at.lower(), cuts, reach);
     return weight + weight_near(std::move(halves.upper), at.upper(), cuts, reach);
@@ -156,14 +156,18 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
                  GlobalCount num_points, const AxisChoice& axis_choice, CutLimits* limits) {
     constexpr double few_points = 16;
     const NonStop arithmetic;
-    const double light =
-        num_points > 0 ? few_points / static_cast<double>(num_points) * weight_of(domain) : 0;
-    Task task{options, axis_choice, limits, with_brackets, light};
+    Task task{options, axis_choice, limits, with_brackets};
+    task.profile.take(domain);
+    const double weight = task.profile.weight();
+    if (num_points > 0) task.light = few_points / static_cast<double>(num_points) * weight;
     task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
+    const auto num_parts = static_cast<std::size_t>(options.num_parts);
+    task.result.cuts.tree.reserve(num_parts - 1);
+    task.result.brackets.reserve(with_brackets ? num_parts - 1 : 0);
+    task.result.part_weights.reserve(num_parts);
     const Box region = limits ? limits->region() : everywhere;
-    const double weight = weight_of(domain);
     NearCuts& near = task.result.cuts.near;
-    near.reach = mean_half_side(domain) / 4;  // nearer to the cut-off radii of codes
+    near.reach = task.profile.mean_half_side() / 4;  // nearer to the cut-off radii of codes
     bisect_piece({std::move(domain), root_of(task.result.cuts), region, 0}, task);
     if (weight > 0) near.share = task.near_weight / weight;
     return std::move(task.result);
@@ -184,7 +188,7 @@ double expected_error(int depth) {
 
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
                  GlobalCount num_points) {
-    const AxisChoice axis_choice(options, extent_of(domain), domain.dimension);
+    const AxisChoice axis_choice(options, Profile(domain).extent(), domain.dimension);
     return bisect(std::move(domain), options, with_brackets, num_points, axis_choice, nullptr);
 }
 

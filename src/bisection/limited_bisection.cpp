@@ -4,7 +4,6 @@
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/patches.hpp"
-#include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
 
 #include <algorithm>
@@ -17,14 +16,6 @@
 namespace rrcb {
 
 namespace {
-
-double weight_below(const StatisticalDomain& domain, const Cut& plane) {
-    const int a = plane.axis;
-    double weight = 0;
-    for (const Patch& patch : domain.patches)
-        weight += weight_below(slice_of(patch, a), plane.at[a]);
-    return weight;
-}
 
 /// An axis that a cut may cross, and its places.
 struct Way {
@@ -55,23 +46,23 @@ struct Trial {
     double below;
 };
 
-Trial trial_in(const StatisticalDomain& domain, int axis, double place) {
-    const Cut cut = plane(axis, place);
-    return {cut, weight_below(domain, cut)};
+Trial trial_in(const Profile& profile, int axis, double place) {
+    return {plane(axis, place), profile.weight_below(axis, place)};
 }
 
 /// Returns the cut at an allowed place of `way` with about the weight `target` below it. Of the
 /// grid lines on both sides of the exact place, takes the one with the smaller error.
-Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, bool is_plain,
+Trial trial_at(const Profile& profile, const Way& way, double target, bool is_plain,
                const AxisLimits& limits) {
-    const Cut cut = weighted_quantile({domain, way.axis}, target, is_plain);
+    const Cut cut = weighted_quantile(profile, way.axis, target, is_plain);
     const double value = cut.at[way.axis];
     const double place = limits.nearest(value, way.places.first, way.places.last);
-    if (place == value && !is_plain) return {cut, weight_of(split_domain(domain, cut).lower)};
-    const Trial trial = trial_in(domain, way.axis, place);
+    if (place == value && !is_plain)
+        return {cut, weight_of(split_domain(profile.domain(), cut).lower)};
+    const Trial trial = trial_in(profile, way.axis, place);
     const double other = value < place ? limits.place_before(place) : limits.place_behind(place);
     if (!limits.has_grid() || other < way.places.first || other > way.places.last) return trial;
-    const Trial beside = trial_in(domain, way.axis, other);
+    const Trial beside = trial_in(profile, way.axis, other);
     return std::abs(beside.below - target) < std::abs(trial.below - target) ? beside : trial;
 }
 
@@ -89,27 +80,26 @@ void move_node(CutLimits& limits, const Descent& at, const Box& region, Cuts& cu
 
 }  // namespace
 
-Cut cut_in_places(const Piece& piece, double share, int longest, const Box& extent,
+Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int longest,
                   const Options& options, CutLimits& limits) {
     constexpr double bearable = 0.005;
-    const StatisticalDomain& domain = piece.domain;
-    const double weight = weight_of(domain);
+    const double weight = profile.weight();
     const double bearable_error = bearable * std::min(share, 1 - share) * weight;
     const bool counts_near = !options.axes.order.is_longest();
-    const double reach = counts_near ? mean_half_side(domain) : 0;
+    const double reach = counts_near ? profile.mean_half_side() : 0;
     Trial best{};
     double least = infinity;
     double fewest = infinity;
-    for (const Way& way : ways_across(piece.at, piece.region, extent, longest, limits)) {
+    for (const Way& way : ways_across(piece.at, piece.region, profile.extent(), longest, limits)) {
         const AxisLimits& across = limits.across(way.axis);
         const auto [first, last] = way.places;
         const Trial trial =
             weight > 0
-                ? trial_at(domain, way, share * weight, options.axes.plain, across)
-                : trial_in(domain, way.axis, across.nearest(first / 2 + last / 2, first, last));
+                ? trial_at(profile, way, share * weight, options.axes.plain, across)
+                : trial_in(profile, way.axis, across.nearest(first / 2 + last / 2, first, last));
         const double error = std::abs(trial.below - share * weight);
         const bool is_first_bearable = least > bearable_error && error < least;
-        const double fewer = Profile(domain, way.axis).weight_near(trial.cut.at[way.axis], reach);
+        const double fewer = profile.weight_near(way.axis, trial.cut.at[way.axis], reach);
         if (is_first_bearable || (error <= bearable_error && fewer < nearly * fewest)) {
             best = trial;
             fewest = fewer;

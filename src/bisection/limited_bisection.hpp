@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bisection/profile.hpp"
 #include "cuts/cut_limits.hpp"
 
 #include <rrcb/method/bisection.hpp>
@@ -16,10 +17,10 @@ struct Piece {
 };
 
 /// Returns the cut of a piece with the share `share` of its weight below. Among the cuts with a
-/// bearable error it is the one that the options prefer: across the longest axis of `extent`, or
+/// bearable error it is the one that the options prefer: across the longest axis of its profile, or
 /// with the least weight near it. If there is none, it is the cut with the least error. The cuts
 /// below are not considered.
-Cut cut_in_places(const Piece& piece, double share, int longest, const Box& extent,
+Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int longest,
                   const Options& options, CutLimits& limits);
 
 /// Bisects as bisect(), with all cuts at allowed places, for points in the box `points`. Throws

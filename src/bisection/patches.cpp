@@ -1,7 +1,5 @@
 #include "bisection/patches.hpp"
 
-#include "bisection/slice.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -20,35 +18,54 @@ int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
     return cut.axis;
 }
 
+/// Returns the share of [lower, upper] below `value`, which must be inside; lower < upper.
+double fraction_below(double lower, double value, double upper) {
+    const double extent = upper - lower;
+    if (std::isinf(extent)) return (value / 2 - lower / 2) / (upper / 2 - lower / 2);
+    return (value - lower) / extent;
+}
+
+/// Returns the mean of a density over the first fraction `t` of its interval.
+double mean_of_first(double t, double slope, double bow) {
+    return 1 - (1 - t) * (slope + bow * (2 * t - 1));
+}
+
+/// Restricts a density to the first fraction `t` of its interval, scaled to the mean 1; uniform if
+/// no weight is left.
+void restrict_to_first(double t, double& slope, double& bow) {
+    const double mean = mean_of_first(t, slope, bow);
+    const double least = 1e-12 * (1 + std::abs(slope) + std::abs(bow));
+    if (!(mean > least)) {
+        slope = bow = 0;
+        return;
+    }
+    slope = t * (slope - 3 * bow * (1 - t)) / mean;
+    bow = t * t * bow / mean;
+}
+
+/// Takes the part of a patch below a value between its ends along an axis; the weights add up.
+/// Returns that part.
+Patch cut_off_below(Patch& patch, int axis, double value) {
+    const double t = fraction_below(patch.lower[axis], value, patch.upper[axis]);
+    const double mean = mean_of_first(t, patch.slope[axis], patch.bow[axis]);
+    Patch below = patch;
+    below.weight = patch.weight * std::clamp(t * mean, 0.0, 1.0);
+    below.upper[axis] = patch.lower[axis] = value;
+    patch.weight -= below.weight;
+    restrict_to_first(t, below.slope[axis], below.bow[axis]);
+    // The upper part is the first of the mirror image.
+    patch.slope[axis] = -patch.slope[axis];
+    restrict_to_first(1 - t, patch.slope[axis], patch.bow[axis]);
+    patch.slope[axis] = -patch.slope[axis];
+    return below;
+}
+
 }  // namespace
 
 double weight_of(const StatisticalDomain& domain) {
     double weight = 0;
     for (const Patch& patch : domain.patches) weight += patch.weight;
     return weight;
-}
-
-Box extent_of(const StatisticalDomain& domain) {
-    Box box;
-    for (const Patch& patch : domain.patches) {
-        for (std::size_t a = 0; a < max_dimension; ++a) {
-            box.lower[a] = std::min(box.lower[a], patch.lower[a]);
-            box.upper[a] = std::max(box.upper[a], patch.upper[a]);
-        }
-    }
-    return box;
-}
-
-double mean_half_side(const StatisticalDomain& domain) {
-    double sum = 0;
-    double weight = 0;
-    for (const Patch& patch : domain.patches) {
-        double sides = 0;
-        for (int a = 0; a < domain.dimension; ++a) sides += patch.upper[a] / 2 - patch.lower[a] / 2;
-        weight += patch.weight;
-        sum += patch.weight * sides;
-    }
-    return weight > 0 && std::isfinite(sum) ? sum / domain.dimension / weight : 0;
 }
 
 Halves split_domain(StatisticalDomain domain, const Cut& cut) {

@@ -14,10 +14,6 @@ namespace rrcb {
 std::vector<double> weights_of(std::span<const CellMoments> cells);
 
 double weight_of(const StatisticalDomain& domain);
-Box extent_of(const StatisticalDomain& domain);
-
-/// Returns half the mean side of the patches, by weight.
-double mean_half_side(const StatisticalDomain& domain);
 
 /// A domain on both sides of a cut.
 struct Halves {

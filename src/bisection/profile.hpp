@@ -3,36 +3,36 @@
 #include <rrcb/method/statistical_domain.hpp>
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
 namespace rrcb {
 
-/// The weight of a domain along an axis, to be read at many values.
+/// The weight of a domain along each axis, to be read at many values, and its extent.
 class Profile {
   public:
     Profile() = default;
-    Profile(const StatisticalDomain& domain, int axis) { take(domain, axis); }
+    explicit Profile(const StatisticalDomain& domain) { take(domain); }
 
     /// Takes another domain, which is borrowed; reuses the memory.
-    void take(const StatisticalDomain& domain, int axis);
+    void take(const StatisticalDomain& domain);
 
     const StatisticalDomain& domain() const { return *domain_; }
-    int axis() const { return axis_; }
     double weight() const { return weight_; }
-    double lower() const { return lower_; }  ///< end of the patches
-    double upper() const { return upper_; }  ///< end of the patches
+    const Box& extent() const { return extent_; }
+    double mean_half_side() const { return mean_half_side_; }  ///< of the patches, by weight
 
     /// Returns the weight below a value, and within `reach` of one.
-    double weight_below(double value) const;
-    double weight_within(double value, double reach) const;
+    double weight_below(int axis, double value) const;
+    double weight_within(int axis, double value, double reach) const;
 
     /// Estimates the ghosts that a cut costs, by the weight near it; all weight if all of it is on
     /// one side.
     ///
     /// If `reach` is 0, as of patches without sides, the domain is taken as an even box: the weight
     /// over its extent. Then the longest axis costs the least.
-    double weight_near(double value, double reach) const;
+    double weight_near(int axis, double value, double reach) const;
 
     /// Range in which the cumulative weight passes a target.
     struct Range {
@@ -40,33 +40,40 @@ class Profile {
         double upper = std::numeric_limits<double>::infinity();
         /// With the target below it; NaN if none was found.
         double value = std::numeric_limits<double>::quiet_NaN();
+        double density = 0;  ///< at the value, over half lengths
     };
 
     /// Looks for the value with the target below it, give or take `error`, by Newton's method, or
-    /// false position if the weight jumps. Ends with a range after `most_steps`.
-    Range range_of(double target, double error, int most_steps = 12) const;
+    /// false position and bisection if the weight jumps. Begins with `known`, which contains it,
+    /// and ends with a range after `most_steps`, or a few if the patches are points.
+    Range range_of(int axis, double target, double error, int most_steps, const Range& known) const;
+    Range range_of(int axis, double target, double error, int most_steps = 12) const {
+        return range_of(axis, target, error, most_steps, Range());
+    }
 
-    /// Returns true if the weight grows by more than `error` just below a value, and just above.
-    bool grows_at(double value, double error) const;
-
-    using Lanes = std::array<double, 4>;
-
-    /// Slices of four patches, in units in which they reach from 0 to 1.
-    struct Block {
-        Lanes half_lower;
-        Lanes inverse;  ///< of half the extent
-        Lanes weight;
-        Lanes slope;
-        Lanes bow;
-    };
+    /// Returns true if the weight grows by more than `error` just below the value of a range, which
+    /// has `target` below it, and just above.
+    bool grows_at(int axis, const Range& range, double target, double error) const;
 
   private:
+    /// Weight below a value, and density there over half lengths.
+    struct Reading {
+        double below = 0;
+        double density = 0;
+    };
+    Reading read(int axis, double half) const;
+    std::array<double, 2> weights_below(int axis, const std::array<double, 2>& halves) const;
+    const double* numbers_of(int axis) const;
+    template <std::size_t dimension>
+    void take_patches();
+
     const StatisticalDomain* domain_ = nullptr;
-    int axis_ = 0;
-    double lower_ = 0;
-    double upper_ = 0;
     double weight_ = 0;
-    std::vector<Block> blocks_;
+    Box extent_{};
+    double mean_half_side_ = 0;
+    std::size_t stride_ = 0;       ///< number of patches, or up to three more of weight 0
+    std::vector<double> numbers_;  ///< weights, and for each axis half the lower ends, inverse half
+                                   ///< extents, slopes and bows
 };
 
 }  // namespace rrcb

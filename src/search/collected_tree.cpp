@@ -147,6 +147,9 @@ std::pair<Entries, Entries> CollectedTree::divide(Entries&& entries, const Cut& 
     std::vector<char> sides(entries.size());
     for (std::size_t k = 0; k < entries.size(); ++k) {
         const LocalIndex i = entries[k];
+        const double x = collected_.coordinate(i, cut.axis);
+        sides[k] = x > cut.at[cut.axis] ? 1 : 0;
+        if (x != cut.at[cut.axis]) continue;
         const Vector position = collected_.position(i);
         bool above = rrcb::is_above(cut, position, collected_.dimension);
         if (divides && is_at(cut, position, collected_.dimension)) {

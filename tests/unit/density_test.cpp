@@ -1,6 +1,7 @@
 #include "../support/clouds.hpp"
 #include "bisection/cell_density.hpp"
-#include "bisection/slice.hpp"
+#include "bisection/patches.hpp"
+#include "bisection/profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,76 +15,94 @@ namespace {
 
 using Number = long double;
 
-/// A density on [lower, upper] of any slope and bow with which it is nowhere negative.
-Slice random_slice(std::mt19937_64& engine) {
+struct Density {
+    double slope;
+    double bow;
+};
+
+/// A density on [-1, 1] of any slope and bow with which it is nowhere negative.
+Density random_density(std::mt19937_64& engine) {
     while (true) {
-        const Slice slice{-1, 1, 1, 6 * test::uniform(engine) - 3, 4 * test::uniform(engine) - 2};
+        const Density one{6 * test::uniform(engine) - 3, 4 * test::uniform(engine) - 2};
         bool is_density = true;
         for (int k = 0; k <= 200; ++k) {
             const double u = k / 100.0 - 1;
-            is_density &= 1 + slice.slope * u + slice.bow * (3 * u * u - 1) / 2 >= 0;
+            is_density &= 1 + one.slope * u + one.bow * (3 * u * u - 1) / 2 >= 0;
         }
-        if (is_density) return slice;
+        if (is_density) return one;
     }
 }
 
 /// Integral of the density from -1 to `u`, by its antiderivative.
-Number integral(const Slice& slice, Number u) {
+Number integral(const Density& one, Number u) {
     const auto antiderivative = [&](Number x) {
-        return x + slice.slope * x * x / 2 + slice.bow * (x * x * x - x) / 2;
+        return x + one.slope * x * x / 2 + one.bow * (x * x * x - x) / 2;
     };
     return (antiderivative(u) - antiderivative(-1)) / 2;
 }
 
-TEST(Slice, has_the_integral_of_its_density_below_a_value) {
+double weight_below(const std::vector<Patch>& patches, double value) {
+    const StatisticalDomain domain{1, patches};
+    return Profile(domain).weight_below(0, value);
+}
+
+TEST(Profile, has_the_integral_of_a_density_below_a_value) {
     std::mt19937_64 engine(1);
     for (int round = 0; round < 300; ++round) {
-        const Slice slice = random_slice(engine);
-        EXPECT_EQ(weight_below(slice, -1), 0);
-        EXPECT_EQ(weight_below(slice, 1), 1);
+        const Density density = random_density(engine);
+        const std::vector<Patch> patch{{{-1}, {1}, 1, {density.slope}, {density.bow}}};
+        EXPECT_EQ(weight_below(patch, -1), 0);
+        EXPECT_EQ(weight_below(patch, 1), 1);
         double last = 0;
         for (int k = 0; k <= 400; ++k) {
             const double u = k / 200.0 - 1;
-            const double below = weight_below(slice, u);
-            EXPECT_NEAR(below, static_cast<double>(integral(slice, u)), 1e-14);
+            const double below = weight_below(patch, u);
+            EXPECT_NEAR(below, static_cast<double>(integral(density, u)), 1e-14);
             EXPECT_GE(below, last - 1e-15);
             last = below;
         }
     }
 }
 
-TEST(Slice, of_the_largest_extent_does_not_overflow) {
+TEST(Profile, of_the_largest_extent_does_not_overflow) {
     constexpr double largest = std::numeric_limits<double>::max();
-    EXPECT_EQ(weight_below({-largest, largest, 1, 0.5, 0}, 0), 0.375);
-    EXPECT_EQ(weight_below({-largest, largest, 1, 0.5, 0}, largest), 1);
+    const std::vector<Patch> patch{{{-largest}, {largest}, 1, {0.5}, {0}}};
+    EXPECT_NEAR(weight_below(patch, 0), 0.375, 1e-14);
+    EXPECT_DOUBLE_EQ(weight_below(patch, largest), 1);
 }
 
-TEST(Slice, of_a_patch_that_was_divided_has_the_same_weight_anywhere) {
+/// Divides a patch across axis 0.
+Halves divided(const Patch& patch, double value) {
+    return split_domain({3, {patch}}, plane(0, value));
+}
+
+TEST(SplitDomain, leaves_the_weight_of_a_patch_where_it_was) {
     std::mt19937_64 engine(2);
     for (int round = 0; round < 300; ++round) {
-        const Slice slice = random_slice(engine);
-        Patch patch{{-1, 0, 0}, {1, 1, 0}, 8, {slice.slope, 1, 0}, {slice.bow, 0, 0}};
+        const Density density = random_density(engine);
+        const Patch patch{{-1, 0, 0}, {1, 1, 0}, 8, {density.slope, 1, 0}, {density.bow, 0, 0}};
         const double cut = 2 * test::uniform(engine) - 1;
-        Patch above = patch;
-        const Patch below = cut_off_below(above, 0, cut);
+        const Halves halves = divided(patch, cut);
+        const Patch& below = halves.lower.patches.at(0);
+        const Patch& above = halves.upper.patches.at(0);
         EXPECT_EQ(below.weight + above.weight, 8);
         EXPECT_EQ(below.upper[0], cut);
         EXPECT_EQ(above.lower[0], cut);
         EXPECT_EQ(below.slope[1], 1) << "along the other axis nothing changes";
         for (int k = 0; k <= 20; ++k) {
             const double u = k / 10.0 - 1;
-            const double weight =
-                weight_below(slice_of(below, 0), u) + weight_below(slice_of(above, 0), u);
-            EXPECT_NEAR(weight, 8 * static_cast<double>(integral(slice, u)), 1e-12);
+            EXPECT_NEAR(weight_below({below, above}, u),
+                        8 * static_cast<double>(integral(density, u)), 1e-12);
         }
     }
 }
 
-TEST(Slice, without_weight_on_one_side_is_divided_there) {
+TEST(SplitDomain, divides_a_patch_without_weight_on_one_side) {
     // (1 + u)^2 is 0 at -1: nothing but rounding lies next to it.
     const Patch patch{{-1, 0, 0}, {1, 0, 0}, 1, {1.5, 0, 0}, {0.5, 0, 0}};
-    Patch above = patch;
-    const Patch below = cut_off_below(above, 0, std::nextafter(-1.0, 0));
+    const Halves halves = divided(patch, std::nextafter(-1.0, 0));
+    const Patch& below = halves.lower.patches.at(0);
+    const Patch& above = halves.upper.patches.at(0);
     EXPECT_GE(below.weight, 0);
     EXPECT_LE(below.weight, 1e-15);
     EXPECT_TRUE(std::isfinite(below.slope[0]) && std::isfinite(below.bow[0]));
@@ -91,11 +110,10 @@ TEST(Slice, without_weight_on_one_side_is_divided_there) {
 }
 
 double weight_below(std::span<const DensityPiece> pieces, double value) {
-    double weight = 0;
+    std::vector<Patch> patches;
     for (const DensityPiece& piece : pieces)
-        weight += weight_below(Slice{piece.lower, piece.upper, piece.share, piece.slope, piece.bow},
-                               value);
-    return weight;
+        patches.push_back({{piece.lower}, {piece.upper}, piece.share, {piece.slope}, {piece.bow}});
+    return weight_below(patches, value);
 }
 
 struct Spread {

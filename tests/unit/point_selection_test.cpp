@@ -92,7 +92,7 @@ TEST(SelectBelow, finds_the_cut_that_the_quantile_of_patches_without_extent_has)
         const int axis = static_cast<int>(engine() % 3);
         const double target = total * test::uniform(engine, 0.01, 0.99);
         const bool plain = engine() % 4 == 0;
-        const Cut expected = weighted_quantile({domain, axis}, target, plain);
+        const Cut expected = weighted_quantile(Profile(domain), axis, target, plain);
         const Selected selected = select(points, 3, target, plain, axis);
         EXPECT_EQ(selected.cut.at, expected.at) << "round " << round;
     }

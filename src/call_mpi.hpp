@@ -25,7 +25,8 @@ struct Call {
     bool is_spread = false;  ///< many ranks make the parts
     Contribution mine;
     Decision decision;
-    Box box;  ///< of the points of this rank
+    Box box;             ///< of the points of this rank
+    PartTotals earlier;  ///< of the points of this rank in the parts of earlier cuts, if counted
     PartSums sums;
     std::optional<Refinement> refinement;     ///< if cuts of rank 0 may move
     std::optional<SpreadRefinement> of_many;  ///< if many ranks make the parts

@@ -132,12 +132,6 @@ class SpreadReuse {
     std::map<Part, double> weights_{};  ///< of the points here, in each part
 };
 
-/// Counts of the parts of earlier cuts.
-struct EarlierParts {
-    PartTotals totals{};                  ///< of this rank, which rank 0 weighs ...
-    std::optional<SpreadReuse> spread{};  ///< ... unless many ranks do
-};
-
 /// Returns true if the call may begin with earlier cuts.
 bool may_reuse(const Cuts& previous, const Call& call) {
     if (!call.is_spread) return is_whole(previous);
@@ -145,9 +139,9 @@ bool may_reuse(const Cuts& previous, const Call& call) {
 }
 
 /// Prepares a call from earlier cuts: assigns the points by them, and counts the parts if they may
-/// be kept. Not collective.
-void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, EarlierParts& earlier,
-                      const Participant& self) {
+/// be kept; for `spread` if many ranks weigh them. Not collective.
+void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call,
+                      std::optional<SpreadReuse>& spread, const Participant& self) {
     const StageScope stage(given.observer, Stage::assignment, self.arithmetic);
     PointPasses& points = call.points;
     points.use_weights(true);
@@ -159,18 +153,16 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
     take_earlier(call.decision, options, call.is_spread, previous);
     const Cuts& cuts = call.decision.cuts;
     if (call.is_spread) {
-        earlier.spread.emplace(call, is_whole(previous), self.comm);
+        spread.emplace(call, is_whole(previous), self.comm);
         return;
     }
-    if (counts_earlier_parts(options)) earlier.totals = points.assign(cuts, true);
+    if (counts_earlier_parts(options)) call.earlier = points.assign(cuts, true);
     prepare_to_settle(call, are_cuts_limited(options), self);
-    add_totals(earlier.totals, near_share(cuts, points, cuts.near.reach, 1024), call.mine);
+    add_totals(call.earlier, near_share(cuts, points, cuts.near.reach, 1024), call.mine);
 }
 
-/// Returns true if the earlier cuts are kept; the report then has their imbalance. Collective if
-/// many ranks weigh their parts.
-bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
-    if (earlier.spread) return earlier.spread->ends(self);
+/// Returns true if the cuts whose parts rank 0 weighed are kept; completes the report then.
+bool keeps_earlier(Call& call) {
     const Options& options = call.options;
     Report& report = call.result.report;
     if (report.details.num_points == 0) return true;
@@ -185,7 +177,7 @@ bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
 }
 
 /// Moves the earlier cuts, first to allowed positions if there are limits. Collective.
-void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& self) {
+void settle_from_earlier(Call& call, Participant& self) {
     const Options& options = call.options;
     Decision& decision = call.decision;
     if (counts_earlier_parts(options))
@@ -199,9 +191,8 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
             move_into_places(limits, call.result.cuts);
         });
     if (is_refined(options) && counts_earlier_parts(options))
-        call.sums.set(
-            decision.verdict.is_counted() ? earlier.totals.counts : earlier.totals.weights,
-            decision.part_weights);
+        call.sums.set(decision.verdict.is_counted() ? call.earlier.counts : call.earlier.weights,
+                      decision.part_weights);
     if (is_refined(options)) bracket_earlier(call.result.cuts, whole, decision.brackets);
     settle(call, true, self);
 }
@@ -211,20 +202,20 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
 Balance balance_from_earlier(PointPasses& points, const Options& given, const Cuts& previous,
                              bool may_keep, Participant& self) {
     Call call(points, given.observer, self);
-    EarlierParts earlier;
-    self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
+    std::optional<SpreadReuse> spread;
+    self.attempt([&] { prepare_to_reuse(given, previous, call, spread, self); });
     // Both ways begin with the same messages, so a rank that has failed does not wait alone.
     if (!self.failed() && !may_reuse(previous, call))
         return balance_from_scratch(points, given, may_keep, self);
     estimate(call, self);
-    const bool is_kept = keeps_earlier(call, earlier, self);
-    if (call.is_spread) {
-        if (!is_kept) return balance_from_scratch(points, given, may_keep, self);
+    if (spread) {
+        if (!spread->ends(self)) return balance_from_scratch(points, given, may_keep, self);
         hold_cuts(call, self);
         complete(call);
         return std::move(call.result);
     }
-    if (!is_kept) settle_from_earlier(call, earlier, self);
+    const bool is_kept = keeps_earlier(call);
+    if (!is_kept) settle_from_earlier(call, self);
     self.attempt([&] { complete(call); });
     const Report& report = call.result.report;
     const double near_now = call.decision.verdict.near_per_cut;

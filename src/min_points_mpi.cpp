@@ -58,15 +58,6 @@ void prepare_next(int num_short, GlobalCount num_points, UsedParts& used, Option
     options.part_sizes = used.used_sizes();
 }
 
-/// Returns the number of points in each part over all ranks. Collective.
-std::vector<double> counts_of_parts(const PointPasses& points, int num_parts, Participant& self) {
-    std::vector<Part> parts;
-    self.attempt([&] { parts = points.parts(); });
-    Points counted;
-    counted.count = parts.size();
-    return part_weights(counted, parts, num_parts, self);
-}
-
 /// Relates the report on the used parts to all of them.
 void report_unused(const UsedParts& used, double tolerance, Report& report) {
     const std::vector<double> sizes = used.used_sizes();
@@ -89,8 +80,12 @@ Balance balance(PointPasses& points, const Options& options, const Cuts* previou
     UsedParts used(options, num_parts);
     Options next = options;
     for (;;) {
+        std::vector<Part> parts;
+        Points counted;
+        self.attempt([&] { parts = points.parts(); });
+        counted.count = parts.size();
         const int num_short =
-            used.num_short(counts_of_parts(points, num_parts, self), options.min_points);
+            used.num_short(part_weights(counted, parts, num_parts, self), options.min_points);
         if (num_short == 0) break;
         prepare_next(num_short, num_points, used, next);
         result = balance_once(points, next, previous, may_keep, self);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/failure.hpp"
-#include "estimate/near_points.hpp"
+#include "estimate/earlier_cuts.hpp"
 #include "options/request.hpp"
 
 #include <rrcb/method/statistical_domain.hpp>

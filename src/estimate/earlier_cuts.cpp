@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace rrcb {
 
@@ -44,6 +45,24 @@ void fit(const Options& options, const Descent& at, Cut& cut) {
     cut.at[axis] = value;
 }
 
+/// Number of cuts near a position, and the end of the tree that it is in.
+struct NearCount {
+    int number = 0;
+    Part end = 0;
+};
+
+NearCount count_near(const Cuts& cuts, const Vector& position, double reach) {
+    NearCount near;
+    Descent at = root_of(cuts);
+    while (!at.is_part()) {
+        const Cut& cut = cuts.tree[at.node];
+        if (std::abs(position[cut.axis] - cut.at[cut.axis]) < reach) ++near.number;
+        at = is_above(cut, position, cuts.dimension) ? at.upper() : at.lower();
+    }
+    near.end = at.first_part;
+    return near;
+}
+
 }  // namespace
 
 Cuts fitted(Cuts cuts, const Options& options) {
@@ -56,6 +75,33 @@ Cuts fitted(Cuts cuts, const Options& options) {
 
 void bracket_earlier(const Cuts& cuts, const Box& box, std::vector<Bracket>& brackets) {
     if (box.lower[0] <= box.upper[0]) bracket_node(cuts, root_of(cuts), box, 0, brackets);
+}
+
+NearShare near_share(const Cuts& cuts, PointPasses& points, double reach, LocalIndex most) {
+    NearShare near;
+    if (!(reach > 0) || points.count() == 0) return near;
+    double weight = 0;
+    const PointSample sample = points.sample(most);
+    const std::size_t size = sample.positions.size();
+    std::vector<const Vector*> last(static_cast<std::size_t>(cuts.num_parts));  // of each part
+    double num_pairs = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+        const double own = sample.weights.empty() ? 1 : sample.weights[k];
+        const Vector& position = sample.positions[k];
+        const auto [number, end] = count_near(cuts, position, reach);
+        if (const Vector* other = std::exchange(last[end], &position)) {
+            ++num_pairs;
+            for (std::size_t a = 0; a < max_dimension; ++a)
+                near.spread[a] += std::abs(position[a] - (*other)[a]);
+        }
+        near.by_count += number;
+        near.by_weight += number * own;
+        weight += own;
+    }
+    near.by_count /= static_cast<double>(size);
+    for (double& spread : near.spread) spread = num_pairs > 0 ? spread / num_pairs : 0;
+    near.by_weight = weight > 0 ? near.by_weight / weight : 0;
+    return near;
 }
 
 }  // namespace rrcb

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/method/bisection.hpp>
+#include <rrcb/passes.hpp>
 
 #include <vector>
 
@@ -14,5 +15,16 @@ Cuts fitted(Cuts previous, const Options& options);
 /// Adds brackets about cuts, as wide as estimated cuts of evenly spread points in `box` would have;
 /// none if the box is empty. Takes memory for one per cut.
 void bracket_earlier(const Cuts& cuts, const Box& box, std::vector<Bracket>& brackets);
+
+/// Share of the local points near the cuts above them. A point near two cuts counts twice.
+struct NearShare {
+    double by_weight = 0;
+    double by_count = 0;
+    Vector spread{};  ///< mean distance of two points of a part, along each axis
+};
+
+/// Counts the local points within `reach` of the cuts, and measures their spread in the parts, from
+/// `most` of them at random if there are more; all 0 if `reach` is 0. Not collective.
+NearShare near_share(const Cuts& cuts, PointPasses& points, double reach, LocalIndex most);
 
 }  // namespace rrcb

@@ -2,7 +2,7 @@
 
 #include "collective/communicator.hpp"
 #include "estimate/decision_mpi.hpp"
-#include "estimate/near_points.hpp"
+#include "estimate/earlier_cuts.hpp"
 #include "options/call_kind.hpp"
 
 #include <algorithm>

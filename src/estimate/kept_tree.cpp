@@ -20,15 +20,16 @@ namespace {
 class Reader {
   public:
     Reader(std::span<const PointSummary> extents, const Cuts& estimate, const Options& options)
-        : extents_(extents), estimate_(estimate), options_(options), ends_(extents.size()) {
-        std::iota(ends_.begin(), ends_.end(), 0);
+        : extents_(extents), estimate_(estimate), options_(options) {
         kept_.cuts = estimate;
         kept_.parts.resize(extents.size());
         kept_.part_weights.resize(extents.size());
     }
 
     std::optional<KeptTree> read() {
-        if (!read_node(root_of(estimate_), ends_, true)) return std::nullopt;
+        std::vector<Part> ends(extents_.size());
+        std::iota(ends.begin(), ends.end(), 0);
+        if (!read_node(root_of(estimate_), ends, true)) return std::nullopt;
         kept_.imbalance = imbalance(kept_.part_weights, options_.part_sizes);
         return std::move(kept_);
     }
@@ -67,26 +68,22 @@ class Reader {
         const int num_below = at.lower().num_parts;
         std::ranges::sort(ends);
         if (!by_number) divide_across(axis, num_below, ends);
-        const PointSummary below = joined(ends.first(num_below));
-        const PointSummary above = joined(ends.subspan(num_below));
         if (!may_cross(axis, estimate_.tree[at.node].axis, as_expected, joined(ends))) return false;
-        const auto cut = cut_between(below, above, axis, by_number);
-        if (!cut) return false;
-        kept_.cuts.tree[at.node] = *cut;
-        return true;
+        const auto cut = cut_between(joined(ends.first(num_below)), joined(ends.subspan(num_below)),
+                                     axis, by_number);
+        if (cut) kept_.cuts.tree[at.node] = *cut;
+        return cut.has_value();
     }
 
+    /// Returns true if a cut of these points may be across an axis.
     bool may_cross(int axis, int usual, bool as_expected, const PointSummary& all) const {
         const AxisOrder& order = options_.axes.order;
         if (order.is_given() || order.is_grouped()) return axis == usual;
         if (!order.is_longest())
             return std::ranges::count(allowed_axes(order, estimate_.dimension), axis) > 0;
-        return as_expected || is_long(all, axis);
-    }
-
-    /// Returns true if no other axis is much longer. This is less strict than for a new cut, whose
-    /// extents are estimated; otherwise cuts might turn in every call.
-    bool is_long(const PointSummary& all, int axis) const {
+        if (as_expected) return true;
+        // Less strict than for a new cut, whose extents are estimated; otherwise cuts might turn in
+        // every call.
         constexpr double enough = 0.8;
         const auto half_extent = [&](int a) { return all.last[a][a] / 2 - all.first[a][a] / 2; };
         for (int other = 0; other < estimate_.dimension; ++other)
@@ -110,18 +107,20 @@ class Reader {
         if (options_.axes.plain || is_before(first, last)) return std::nullopt;
         cut.divides = is_before(last, first) ? 0 : 1;
         std::copy_n(first.begin(), estimate_.dimension, cut.at.begin());
-        if (cut.divides != 0 && !(by_number && may_divide())) return std::nullopt;
+        const bool may_divide = by_number && options_.tree.dealt == 0 &&
+                                options_.coincident == Coincident::divide &&
+                                options_.refine != Refine::none;
+        if (cut.divides != 0 && !may_divide) return std::nullopt;
         return cut;
     }
 
     const PointSummary& extent_at(Part end) const { return extents_[part_at(estimate_, end)]; }
 
-    /// Puts the ranks with the first points across an axis to the beginning. Coincident points are
-    /// in the order of their ranks. Ranks without points stay on their side.
+    /// Puts the ranks with the first points across an axis to the beginning of sorted ends.
+    /// Coincident points are in the order of their ranks. Ranks without points stay on their side.
     void divide_across(int axis, int num_below, std::span<Part> ends) const {
         const PositionOrder is_before(axis, 0, estimate_.dimension);
         const auto has_points = [&](Part end) { return extent_at(end).count > 0; };
-        std::ranges::sort(ends);
         std::vector<Part> filled;
         std::ranges::copy_if(ends, std::back_inserter(filled), has_points);
         const auto middle =
@@ -142,11 +141,6 @@ class Reader {
         return all;
     }
 
-    bool may_divide() const {
-        return options_.tree.dealt == 0 && options_.coincident == Coincident::divide &&
-               options_.refine != Refine::none;
-    }
-
     bool has_size(const Descent& at) const {
         const auto sizes = std::span(options_.part_sizes).subspan(at.first_part, at.num_parts);
         return std::ranges::any_of(sizes, [](double size) { return size > 0; });
@@ -163,7 +157,6 @@ class Reader {
     std::span<const PointSummary> extents_;
     const Cuts& estimate_;
     const Options& options_;
-    std::vector<Part> ends_;  ///< in the order of the parts that were read
     KeptTree kept_;
 };
 

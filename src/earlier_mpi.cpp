@@ -12,6 +12,7 @@
 #include "lists/tier_search_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "passes/assignment.hpp"
+#include "passes/host_passes.hpp"
 
 #include <rrcb/plan.hpp>
 
@@ -158,7 +159,9 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call,
     }
     if (counts_earlier_parts(options)) call.earlier = points.assign(cuts, true);
     prepare_to_settle(call, are_cuts_limited(options), self);
-    add_totals(call.earlier, near_share(cuts, points, cuts.near.reach, 1024), call.mine);
+    const double reach = cuts.near.reach;
+    const PointSample sample = reach > 0 ? points.sample(1024) : PointSample{};
+    add_totals(call.earlier, near_share(cuts, sample, reach), call.mine);
 }
 
 /// Returns true if the cuts whose parts rank 0 weighed are kept; completes the report then.
@@ -197,6 +200,26 @@ void settle_from_earlier(Call& call, Participant& self) {
     settle(call, true, self);
 }
 
+/// Makes cuts anew from samples only, and returns whether they save ghosts. Collective.
+bool sample_saves_ghosts(const Cuts& reused, const PointSample& sample, PointPasses& points,
+                         Options options, Participant& self) {
+    const int dimension = points.dimension();
+    std::vector<double> coordinates;
+    std::vector<double> weights;
+    self.attempt([&] {
+        const std::size_t size = std::max<std::size_t>(1, sample.positions.size());
+        const double scale = static_cast<double>(points.count()) / static_cast<double>(size);
+        for (const Vector& x : sample.positions)
+            coordinates.insert(coordinates.end(), x.begin(), x.begin() + dimension);
+        weights.assign(sample.positions.size(), scale);
+        for (std::size_t k = 0; k < sample.weights.size(); ++k) weights[k] *= sample.weights[k];
+    });
+    HostPasses some(interleaved_points(coordinates, dimension, weights), {});
+    options.refine = Refine::none;
+    const Balance anew = balance_from_scratch(some, options, false, self);
+    return saves_ghosts(reused, anew.cuts, sample, points.count(), self);
+}
+
 }  // namespace
 
 Balance balance_from_earlier(PointPasses& points, const Options& given, const Cuts& previous,
@@ -222,13 +245,19 @@ Balance balance_from_earlier(PointPasses& points, const Options& given, const Cu
     const bool may_save = may_save_ghosts(call.options, previous.near, near_now);
     const double chosen = may_save ? 0 : previous.near.share;
     call.result.cuts.near.share = reference(chosen, near_now, !is_kept);
-    if (!may_save && !may_be_poor(report.imbalance, report.details.least_imbalance, call.options))
+    const bool may_be_better =
+        may_be_poor(report.imbalance, report.details.least_imbalance, call.options);
+    if (!may_save && !may_be_better) return std::move(call.result);
+    PointSample sample;
+    if (may_save)
+        self.attempt([&] { sample = points.sample(sample_size(mpi::size_of(self.comm))); });
+    if (!may_be_better && !sample_saves_ghosts(call.result.cuts, sample, points, given, self))
         return std::move(call.result);
     std::vector<Part> parts;
     self.attempt([&] { parts = points.parts(); });
     Balance anew = balance_from_scratch(points, given, false, self);
-    return better(std::move(call.result), parts, std::move(anew), points, call.options, may_save,
-                  self);
+    return better(std::move(call.result), parts, std::move(anew), points, call.options,
+                  may_save ? &sample : nullptr, self);
 }
 
 }  // namespace rrcb

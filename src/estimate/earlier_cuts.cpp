@@ -5,6 +5,7 @@
 #include "cuts/tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -77,19 +78,22 @@ void bracket_earlier(const Cuts& cuts, const Box& box, std::vector<Bracket>& bra
     if (box.lower[0] <= box.upper[0]) bracket_node(cuts, root_of(cuts), box, 0, brackets);
 }
 
-NearShare near_share(const Cuts& cuts, PointPasses& points, double reach, LocalIndex most) {
+NearShare near_share(const Cuts& cuts, const PointSample& sample, double reach) {
     NearShare near;
-    if (!(reach > 0) || points.count() == 0) return near;
-    double weight = 0;
-    const PointSample sample = points.sample(most);
     const std::size_t size = sample.positions.size();
-    std::vector<const Vector*> last(static_cast<std::size_t>(cuts.num_parts));  // of each part
+    if (!(reach > 0) || size == 0) return near;
+    double weight = 0;
+    // The last point of some of the parts: enough pairs, and no memory in proportion to the parts.
+    std::array<std::pair<Part, const Vector*>, 1024> last{};
     double num_pairs = 0;
     for (std::size_t k = 0; k < size; ++k) {
         const double own = sample.weights.empty() ? 1 : sample.weights[k];
         const Vector& position = sample.positions[k];
         const auto [number, end] = count_near(cuts, position, reach);
-        if (const Vector* other = std::exchange(last[end], &position)) {
+        const std::pair<Part, const Vector*> own_end{end, &position};
+        const auto [other_end, other] =
+            std::exchange(last[static_cast<std::size_t>(end) % last.size()], own_end);
+        if (other && other_end == end) {
             ++num_pairs;
             for (std::size_t a = 0; a < max_dimension; ++a)
                 near.spread[a] += std::abs(position[a] - (*other)[a]);

@@ -3,6 +3,7 @@
 #include <rrcb/method/bisection.hpp>
 #include <rrcb/passes.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace rrcb {
@@ -23,8 +24,13 @@ struct NearShare {
     Vector spread{};  ///< mean distance of two points of a part, along each axis
 };
 
-/// Counts the local points within `reach` of the cuts, and measures their spread in the parts, from
-/// `most` of them at random if there are more; all 0 if `reach` is 0. Not collective.
-NearShare near_share(const Cuts& cuts, PointPasses& points, double reach, LocalIndex most);
+/// Returns the number of points to sample on each rank for a comparison of cuts.
+inline LocalIndex sample_size(int num_ranks) {
+    return std::max<LocalIndex>(1024, (1 << 13) / static_cast<LocalIndex>(num_ranks));
+}
+
+/// Counts the points of a sample within `reach` of the cuts, and measures their spread in the
+/// parts; all 0 if `reach` is 0. Not collective.
+NearShare near_share(const Cuts& cuts, const PointSample& sample, double reach);
 
 }  // namespace rrcb

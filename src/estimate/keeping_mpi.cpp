@@ -15,27 +15,24 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the number of this rank's points near cuts, from a large sample.
-std::int64_t num_near(const Cuts& cuts, PointPasses& points, double reach) {
-    const double share = near_share(cuts, points, reach, 1 << 14).by_count;
-    return std::llround(share * static_cast<double>(points.count()));
+/// Returns a rank's number of points near cuts.
+std::int64_t num_near(const Cuts& cuts, const PointSample& sample, LocalIndex count, double reach) {
+    return std::llround(near_share(cuts, sample, reach).by_count * static_cast<double>(count));
 }
 
-/// Compares the points near two sets of cuts. Returns true if the new ones are worth moving points.
-/// Collective.
-bool saves_ghosts(const Balance& reused, const Balance& anew, PointPasses& points,
+}  // namespace
+
+bool saves_ghosts(const Cuts& reused, const Cuts& anew, const PointSample& sample, LocalIndex count,
                   const Participant& self) {
     constexpr double fewer = 0.94;
-    const double reach = anew.cuts.near.reach;
-    std::array<std::int64_t, 2> near{num_near(reused.cuts, points, reach),
-                                     num_near(anew.cuts, points, reach)};
+    const double reach = anew.near.reach;
+    std::array<std::int64_t, 2> near{num_near(reused, sample, count, reach),
+                                     num_near(anew, sample, count, reach)};
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, near.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");
     const auto [before, after] = near;
     return static_cast<double>(after) < fewer * static_cast<double>(before);
 }
-
-}  // namespace
 
 bool reads_kept_tree(const Options& options, int num_ranks) {
     // As many as rank 0 divides by default.
@@ -78,13 +75,15 @@ double reference(double chosen, double share_now, bool are_moved) {
 }
 
 Balance better(Balance&& reused, std::span<const Part> parts, Balance&& anew, PointPasses& points,
-               const Options& options, bool compares_ghosts, Participant& self) {
+               const Options& options, const PointSample* sample, Participant& self) {
     const double kept = reused.report.imbalance;
     const double offered = anew.report.imbalance;
     const bool is_even = std::islessequal(offered, std::max(options.imbalance_tolerance, kept));
     bool gains = may_be_poor(kept, reused.report.details.least_imbalance, options) &&
                  is_worth_moving(kept, offered, options);
-    if (compares_ghosts) gains = (saves_ghosts(reused, anew, points, self) && is_even) || gains;
+    if (sample)
+        gains = (saves_ghosts(reused.cuts, anew.cuts, *sample, points.count(), self) && is_even) ||
+                gains;
     if (!gains) self.attempt([&] { points.set_parts(parts); });
     const int rounds = reused.report.details.rounds + anew.report.details.rounds;
     const double near_before = reused.report.details.near_before;

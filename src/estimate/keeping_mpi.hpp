@@ -38,10 +38,15 @@ bool may_save_ghosts(const Options& options, const NearCuts& chosen, double shar
 /// become better, so calls that go on moving cuts compare new ones now and then.
 double reference(double chosen, double share_now, bool are_moved);
 
+/// Compares the points near two sets of cuts, by samples of the `count` points of each rank.
+/// Returns true if the new cuts are worth moving points. Collective.
+bool saves_ghosts(const Cuts& reused, const Cuts& anew, const PointSample& sample, LocalIndex count,
+                  const Participant& self);
+
 /// Returns the better balance: that from scratch if its balance is worth moving points, or if
-/// `compares_ghosts` and it has much fewer points near its cuts; otherwise the points get back
+/// there is a sample and much fewer points of it are near its cuts; otherwise the points get back
 /// their `parts` by the cuts reused. Collective.
 Balance better(Balance&& reused, std::span<const Part> parts, Balance&& anew, PointPasses& points,
-               const Options& options, bool compares_ghosts, Participant& self);
+               const Options& options, const PointSample* sample, Participant& self);
 
 }  // namespace rrcb

@@ -59,18 +59,16 @@ Refined Refinement::refine(Estimate&& estimate, PointPasses& points, const Box& 
     const bool is_known = estimate_.is_counted || (is_exact && !are_cuts_limited(options_));
     has_parts_ = estimate_.is_counted || !is_known;
     const bool may_return = estimate_.is_earlier && estimate_.is_counted && !is_exact && !limits_;
-    Measured earlier;
-    if (may_return) self.attempt([&] { earlier = measured(); });
     const bool is_accepted = is_known ? may_return && is_least() : accept_estimate(points, self);
     // A search that would miss the tolerance, and be repeated exactly, is exact at once.
     const bool may_miss = !tree_.rule.is_attainable() && !limits_ && !estimate_.is_earlier;
     tree_.rule.is_exact = is_exact || (may_miss && !is_accepted);
     const bool is_searched = tree_.rule.is_exact || !is_accepted;
-    if (is_searched && limits_) search_for_better(points, self);
-    if (is_searched && !limits_) search_once(points, self);
+    const bool has_parts_to_keep = limits_ || may_return;
+    if (is_searched && has_parts_to_keep) search_for_better(points, self);
+    if (is_searched && !has_parts_to_keep) search_once(points, self);
     if (is_searched || refined_.imbalance <= options_.imbalance_tolerance)
         search_exactly(points, self);
-    if (may_return && !is_better_than(earlier)) return_to(std::move(earlier), points, self);
     refined_.cuts = std::move(estimate_.cuts);
     return std::move(refined_);
 }
@@ -128,24 +126,6 @@ bool Refinement::accept_estimate(PointPasses& points, Participant& self) {
 bool Refinement::is_least() const {
     return refined_.imbalance <= estimate_.least_imbalance * (1 + round_off) &&
            num_left_empty() == 0;
-}
-
-/// Returns a copy of the cuts, with the weights of their parts. Throws std::bad_alloc.
-Refinement::Measured Refinement::measured() const {
-    return {estimate_.cuts.tree, sums_.saved(), refined_.imbalance, num_left_empty()};
-}
-
-bool Refinement::is_better_than(const Measured& earlier) const {
-    return refined_.imbalance < earlier.imbalance * (1 - round_off) ||
-           num_left_empty() < earlier.num_empty;
-}
-
-/// Takes earlier cuts again, so that no point moves in vain. Not collective.
-void Refinement::return_to(Measured&& earlier, PointPasses& points, Participant& self) {
-    refined_.imbalance = earlier.imbalance;
-    estimate_.cuts.tree = std::move(earlier.tree);
-    sums_.restore(std::move(earlier.sums));
-    self.attempt([&] { points.assign(estimate_.cuts, false); });
 }
 
 /// Adds up the weights of the parts over all ranks. Collective; throws if one failed.

@@ -90,18 +90,8 @@ class Refinement {
     Refined refine(Estimate&& estimate, PointPasses& points, const Box& box, Participant& self);
 
   private:
-    /// Cuts and their parts.
-    struct Measured {
-        std::vector<Cut> tree{};
-        std::vector<double> sums{};
-        double imbalance = 1;
-        std::ptrdiff_t num_empty = 0;  ///< parts, see num_left_empty()
-    };
     void start(Estimate&& estimate, Participant& self);
     bool is_least() const;
-    Measured measured() const;
-    bool is_better_than(const Measured& earlier) const;
-    void return_to(Measured&& earlier, PointPasses& points, Participant& self);
     bool accept_estimate(PointPasses& points, Participant& self);
     void search_exactly(PointPasses& points, Participant& self);
     void search_once(PointPasses& points, Participant& self);

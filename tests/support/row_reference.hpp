@@ -120,10 +120,11 @@ class RowReference {
     }
 
     /// The numbers by which positions are ordered across an axis.
-    std::vector<double> key_of(const Vector& x, int axis) const {
-        std::vector<double> key{x[static_cast<std::size_t>(axis)]};
-        for (int a = 0; a < case_.dimension && !case_.plain_cuts; ++a)
-            if (a != axis) key.push_back(x[static_cast<std::size_t>(a)]);
+    Vector key_of(const Vector& x, int axis) const {
+        Vector key{x[static_cast<std::size_t>(axis)], 0, 0};
+        std::size_t next = 1;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(case_.dimension); ++a)
+            if (static_cast<int>(a) != axis && !case_.plain_cuts) key[next++] = x[a];
         return key;
     }
 

@@ -84,8 +84,8 @@ void HostPasses::collect_all(Collected& collected) const {
 
 namespace {
 
-/// Returns which of the wanted nodes holds each part, or their number; behind an entry for points
-/// without a part.
+/// Returns which of the wanted nodes holds each part, or their number; behind such a number for
+/// points without a part.
 std::vector<std::size_t> wanted_of_parts(std::span<const Wanted> wanted, std::size_t num_parts) {
     std::vector<std::size_t> of_parts(num_parts + 1, wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k)
@@ -93,15 +93,16 @@ std::vector<std::size_t> wanted_of_parts(std::span<const Wanted> wanted, std::si
     return of_parts;
 }
 
-/// Returns the sums of the weights of the points in parts, behind those of points without one.
-std::vector<double> weigh(const Points& points, std::span<const Part> parts,
-                          std::size_t num_parts) {
-    RunningSums<double> weights(num_parts + 1);
+/// Weighs once more the points that are left in parts of wanted nodes.
+void weigh_again(const Points& points, std::span<const Part> parts,
+                 std::span<const std::size_t> of_parts, std::vector<double>& part_weights) {
+    RunningSums<double> weights(of_parts.size());
     in_ranges(points.count, weights.interval(), [&](LocalIndex first, LocalIndex last) {
         for (LocalIndex i = first; i < last; ++i) weights[parts[i] + 1] += points.weights[i];
         weights.empty();
     });
-    return weights.totals();
+    for (std::size_t p = 0; p < part_weights.size(); ++p)
+        if (of_parts[p + 1] != of_parts[0]) part_weights[p] = weights.totals()[p + 1];
 }
 
 }  // namespace
@@ -127,11 +128,9 @@ std::vector<std::size_t> HostPasses::collect_more(std::span<const Wanted> wanted
     });
     if (points_.weights.empty()) {
         settled.weights = settled.counts;
-        return found;
+    } else {
+        weigh_again(points_, parts_, of_parts, settled.weights);
     }
-    const std::vector<double> weights = weigh(points_, parts_, settled.weights.size());
-    for (std::size_t p = 0; p < settled.weights.size(); ++p)
-        if (of_parts[p + 1] < wanted.size()) settled.weights[p] = weights[p + 1];
     return found;
 }
 

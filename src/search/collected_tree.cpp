@@ -53,16 +53,29 @@ void CollectedTree::add_steps(const Descent& at, std::span<const Bracket> interv
 
 std::vector<Entries> CollectedTree::collect_more(std::span<const Descent> nodes,
                                                  std::span<const Bracket> intervals) {
+    const std::vector<Entries> below = take_below(nodes);
     std::vector<Wanted> wanted;
-    std::vector<Entries> below(nodes.size());
+    std::vector<Entries> found;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        Step& step = steps_[nodes[k].node];
+        step.interval = intervals[k];
+        wanted.push_back({nodes[k].first_part, nodes[k].num_parts, step.axis, intervals[k]});
+        found.push_back(admit(nodes[k], below[k]));
+    }
+    LocalIndex next = collected_.count();
+    for (const std::size_t k : points_.collect_more(wanted, collected_)) found[k].push_back(next++);
+    collected_.parts.resize(next, no_part);
+    return found;
+}
+
+/// Takes what waits below nodes or has arrived there.
+std::vector<Entries> CollectedTree::take_below(std::span<const Descent> nodes) {
+    std::vector<Entries> taken(nodes.size());
     std::vector<std::size_t> node_of_part(arrived_.size(), nodes.size());
-    part_boxes_.clear();
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         const Descent& at = nodes[k];
-        steps_[at.node].interval = intervals[k];
-        wanted.push_back({at.first_part, at.num_parts, steps_[at.node].axis, intervals[k]});
         for (Entries& some : waiting_below(at)) {
-            below[k].insert(below[k].end(), some.begin(), some.end());
+            taken[k].insert(taken[k].end(), some.begin(), some.end());
             some.clear();
         }
         std::fill_n(node_of_part.begin() + at.first_part, at.num_parts, k);
@@ -71,15 +84,11 @@ std::vector<Entries> CollectedTree::collect_more(std::span<const Descent> nodes,
     for (LocalIndex i = 0; i < collected_.count(); ++i) {
         Part& part = collected_.parts[i];
         if (part == no_part || node_of_part[part] == nodes.size()) continue;
-        below[node_of_part[part]].push_back(i);
+        taken[node_of_part[part]].push_back(i);
         part = no_part;
     }
-    std::vector<Entries> found;
-    for (std::size_t k = 0; k < nodes.size(); ++k) found.push_back(admit(nodes[k], below[k]));
-    LocalIndex next = collected_.count();
-    for (const std::size_t k : points_.collect_more(wanted, collected_)) found[k].push_back(next++);
-    collected_.parts.resize(next, no_part);
-    return found;
+    part_boxes_.clear();
+    return taken;
 }
 
 Entries CollectedTree::all() const {

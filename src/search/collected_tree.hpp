@@ -128,6 +128,7 @@ class CollectedTree {
     void settle(LocalIndex i, Part part);
     void send(const Descent& from, LocalIndex i);
     void add_steps(const Descent& at, std::span<const Bracket> intervals);
+    std::vector<Entries> take_below(std::span<const Descent> nodes);
     void narrow(const Cut& cut, const Entries& entries, Gap& gap) const;
     void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap);
 

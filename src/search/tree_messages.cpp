@@ -77,16 +77,18 @@ void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
 
 void TreeSearch::join(std::span<const double> a, std::span<const double> b,
                       std::vector<double>& joined) {
-    joined.insert(joined.end(), a.begin(), a.end());
-    const bool is_list =
-        a.empty() || b.empty() || a[0] == mark_of_candidates || a[0] == mark_of_weights;
+    const auto add = [&](std::span<const double> more) {
+        joined.insert(joined.end(), more.begin(), more.end());
+    };
+    add(a);
+    if (a.empty() || b.empty()) return add(b);
     // Records differ only because of a failure, which all ranks learn of after the pass.
-    if (!a.empty() && !b.empty() && (a[0] != b[0] || (!is_list && a.size() != b.size()))) return;
-    const auto other = b.subspan(a.empty() || b.empty() ? 0 : 1);
-    const auto here = std::span(joined).last(is_list ? 0 : other.size());
-    if (is_list) {
-        joined.insert(joined.end(), other.begin(), other.end());
-    } else if (a[0] == mark_of_histogram) {
+    if (a[0] != b[0]) return;
+    const auto other = b.subspan(1);
+    if (a[0] == mark_of_candidates || a[0] == mark_of_weights) return add(other);
+    if (a.size() != b.size()) return;
+    const auto here = std::span(joined).last(other.size());
+    if (a[0] == mark_of_histogram) {
         join_histograms(other, here);
     } else {
         std::ranges::transform(here, other, here.begin(),

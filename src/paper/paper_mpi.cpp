@@ -113,13 +113,6 @@ void bisect_domain(const Contribution& all, const PaperOptions& options,
     decision.verdict = verdict_of(all.summary, {}, made.part_weights, part_sizes);
 }
 
-/// Step 5: sends the cuts to every rank, or throws the error of one rank on all. Collective.
-void send_cuts(Decision& decision, StageObserver* observer, Participant& self) {
-    const StageScope stage(observer, Stage::broadcast, self.arithmetic);
-    decision.verdict.failing_rank = self.failing_rank();
-    broadcast(decision, self);
-}
-
 }  // namespace
 
 Balance balance_as_in_paper(const Points& points, const PaperOptions& options, MPI_Comm comm) {
@@ -149,14 +142,9 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
     });
     agree_on(options, points, self);
     gather(mine, points.dimension, options.observer, self);
-    if (mpi::rank_of(self.comm) == root) {
-        self.hear_of(mine.summary.failing_rank);
-        self.attempt([&] {
-            const StageScope stage(options.observer, Stage::bisection, self.arithmetic);
-            bisect_domain(mine, options, plain.part_sizes, decision);
-        });
-    }
-    send_cuts(decision, options.observer, self);
+    // Step 5: every rank gets the cuts.
+    decide_together(mine, options.observer, decision, self,
+                    [&] { bisect_domain(mine, options, plain.part_sizes, decision); });
     result.report = report_of(decision.verdict, options.num_parts, plain.part_sizes);
     result.cuts = std::move(decision.cuts);
     result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;

@@ -11,7 +11,6 @@
 #include "options/validation.hpp"
 #include "paper/paper_words.hpp"
 #include "paper/point_selection.hpp"
-#include "passes/host_passes.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 
@@ -59,9 +58,15 @@ void agree_on(const PaperOptions& options, const Points& points, Participant& se
 }
 
 /// Step 1: reduces the local points to the moments of cells; the paper's RCB keeps the points.
-Contribution reduce_points(const Points& points, const PointSummary& summary,
-                           const PaperOptions& options, int rank) {
-    Contribution mine{summarize(summary, !points.weights.empty(), rank), {}};
+Contribution reduce_points(const Points& points, const Box& box, const PaperOptions& options,
+                           int rank) {
+    PointSummary totals{points.count};
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        totals.weight += points.weight(i);
+        totals.lightest = std::min(totals.lightest, points.weight(i));
+        totals.heaviest = std::max(totals.heaviest, points.weight(i));
+    }
+    Contribution mine{summarize(totals, !points.weights.empty(), rank), {}};
     if (options.domain == PaperDomain::points) {
         for (LocalIndex i = 0; i < points.count; ++i) {
             append_vector(points.position(i), points.dimension, mine.records);
@@ -69,9 +74,9 @@ Contribution reduce_points(const Points& points, const PointSummary& summary,
         }
         mine.summary.num_cells = mine.summary.num_points;
     } else if (points.count > 0) {
-        const CellSet set{cell_moments(points, make_support_mesh(summary.box, points.dimension,
-                                                                 options.support_mesh)),
-                          0};
+        const CellSet set{
+            cell_moments(points, make_support_mesh(box, points.dimension, options.support_mesh)),
+            0};
         append_cells(set, points.dimension, 1, mine.records);
         mine.summary.num_cells = std::ssize(set.cells);
     }
@@ -130,9 +135,9 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
         const StageScope stage(given.observer, Stage::moments, self.arithmetic);
         options = given;
         if (options.num_parts == 0) options.num_parts = mpi::size_of(self.comm);
-        const PointSummary summary = HostPasses(points).summary(true);
+        const Box box = check_points(points);
         check(options, points.dimension);
-        mine = reduce_points(points, summary, options, mpi::rank_of(self.comm));
+        mine = reduce_points(points, box, options, mpi::rank_of(self.comm));
         plain.part_sizes = options.part_sizes;
         normalize(plain.part_sizes, options.num_parts);
         plain.refine = Refine::none;

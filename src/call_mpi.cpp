@@ -60,7 +60,8 @@ void estimate(Call& call, Participant& self) {
                  most_cells(call.options), self);
     }
     const Options& options = call.options;
-    decide_together(call.mine, options, call.decision, self);
+    decide_together(call.mine, options.observer, call.decision, self,
+                    [&] { decide(call.mine, options, call.decision); });
     call.result.report = report_of(call.decision.verdict, options.num_parts, options.part_sizes);
     call.result.cuts = std::move(call.decision.cuts);
     call.points.use_weights(!call.decision.verdict.is_counted());

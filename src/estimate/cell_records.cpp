@@ -1,7 +1,5 @@
 #include "estimate/cell_records.hpp"
 
-#include "estimate/lean_cells.hpp"
-
 #include <rrcb/method/support_mesh.hpp>
 
 #include <algorithm>

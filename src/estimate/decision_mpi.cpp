@@ -6,7 +6,6 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/meeting_mpi.hpp"
-#include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
 #include "estimate/earlier_cuts.hpp"
 #include "estimate/keeping_mpi.hpp"
@@ -286,20 +285,6 @@ void broadcast(Decision& decision, Participant& self) {
     const std::size_t length = std::max(head_length, num_bytes(decision));
     mpi::broadcast(message.first(length).subspan(head_length), root, self.comm);
     unpack(decision, message);
-}
-
-void decide_together(const Contribution& all, const Options& options, Decision& decision,
-                     Participant& self) {
-    if (mpi::rank_of(self.comm) == root) {
-        self.hear_of(all.summary.failing_rank);
-        self.attempt([&] {
-            const StageScope stage(options.observer, Stage::bisection, self.arithmetic);
-            decide(all, options, decision);
-        });
-        decision.verdict.failing_rank = self.failing_rank();
-    }
-    const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
-    broadcast(decision, self);
 }
 
 Box box_together(Box box, const Participant& self) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "collective/agreement_mpi.hpp"
 #include "collective/merge_tree.hpp"
 #include "collective/participant.hpp"
+#include "collective/stage_scope.hpp"
 #include "estimate/contribution.hpp"
 #include "estimate/kept_tree.hpp"
 
@@ -105,9 +107,21 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
 /// ranks do not know how many are coming.
 void broadcast(Decision& decision, Participant& self);
 
-/// Decides on rank 0, and sends every rank the decision, as decide() and broadcast(). Collective.
-void decide_together(const Contribution& all, const Options& options, Decision& decision,
-                     Participant& self);
+/// Decides on rank 0 by decide(), and sends every rank the decision as broadcast(). Collective.
+template <class Decide>
+void decide_together(const Contribution& all, StageObserver* observer, Decision& decision,
+                     Participant& self, Decide&& decide) {
+    if (mpi::rank_of(self.comm) == root) {
+        self.hear_of(all.summary.failing_rank);
+        self.attempt([&] {
+            const StageScope stage(observer, Stage::bisection, self.arithmetic);
+            decide();
+        });
+        decision.verdict.failing_rank = self.failing_rank();
+    }
+    const StageScope stage(observer, Stage::broadcast, self.arithmetic);
+    broadcast(decision, self);
+}
 
 /// Returns the smallest box that holds those of all ranks. Collective.
 Box box_together(Box box, const Participant& self);

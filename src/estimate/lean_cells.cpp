@@ -1,4 +1,4 @@
-#include "estimate/lean_cells.hpp"
+#include "estimate/cell_records.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 

@@ -119,7 +119,7 @@ class NumberSearch {
                        std::vector<double>& joined);
 
   private:
-    /// Offer of a part to an origin, made or still to be made.
+    /// An origin to which a part offers its points in common, in its turn.
     struct Wish {
         double count = 0;                 ///< points in common; exact below 2^53
         bool keeps = false;               ///< the part would keep its present number

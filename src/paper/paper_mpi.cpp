@@ -11,12 +11,12 @@
 #include "options/validation.hpp"
 #include "paper/paper_words.hpp"
 #include "paper/point_selection.hpp"
-#include "passes/host_passes.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <utility>
 
 namespace rrcb {
@@ -59,9 +59,15 @@ void agree_on(const PaperOptions& options, const Points& points, Participant& se
 }
 
 /// Step 1: reduces the local points to the moments of cells; the paper's RCB keeps the points.
-Contribution reduce_points(const Points& points, const PointSummary& summary,
-                           const PaperOptions& options, int rank) {
-    Contribution mine{summarize(summary, !points.weights.empty(), rank), {}};
+Contribution reduce_points(const Points& points, const Box& box, const PaperOptions& options,
+                           int rank) {
+    PointSummary totals{points.count};
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        totals.weight += points.weight(i);
+        totals.lightest = std::min(totals.lightest, points.weight(i));
+        totals.heaviest = std::max(totals.heaviest, points.weight(i));
+    }
+    Contribution mine{summarize(totals, !points.weights.empty(), rank), {}};
     if (options.domain == PaperDomain::points) {
         for (LocalIndex i = 0; i < points.count; ++i) {
             append_vector(points.position(i), points.dimension, mine.records);
@@ -69,9 +75,9 @@ Contribution reduce_points(const Points& points, const PointSummary& summary,
         }
         mine.summary.num_cells = mine.summary.num_points;
     } else if (points.count > 0) {
-        const CellSet set{cell_moments(points, make_support_mesh(summary.box, points.dimension,
-                                                                 options.support_mesh)),
-                          0};
+        const CellSet set{
+            cell_moments(points, make_support_mesh(box, points.dimension, options.support_mesh)),
+            0};
         append_cells(set, points.dimension, 1, mine.records);
         mine.summary.num_cells = std::ssize(set.cells);
     }
@@ -113,13 +119,6 @@ void bisect_domain(const Contribution& all, const PaperOptions& options,
     decision.verdict = verdict_of(all.summary, {}, made.part_weights, part_sizes);
 }
 
-/// Step 5: sends the cuts to every rank, or throws the error of one rank on all. Collective.
-void send_cuts(Decision& decision, StageObserver* observer, Participant& self) {
-    const StageScope stage(observer, Stage::broadcast, self.arithmetic);
-    decision.verdict.failing_rank = self.failing_rank();
-    broadcast(decision, self);
-}
-
 }  // namespace
 
 Balance balance_as_in_paper(const Points& points, const PaperOptions& options, MPI_Comm comm) {
@@ -137,9 +136,9 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
         const StageScope stage(given.observer, Stage::moments, self.arithmetic);
         options = given;
         if (options.num_parts == 0) options.num_parts = mpi::size_of(self.comm);
-        const PointSummary summary = HostPasses(points).summary(true);
+        const Box box = check_points(points);
         check(options, points.dimension);
-        mine = reduce_points(points, summary, options, mpi::rank_of(self.comm));
+        mine = reduce_points(points, box, options, mpi::rank_of(self.comm));
         plain.part_sizes = options.part_sizes;
         normalize(plain.part_sizes, options.num_parts);
         plain.refine = Refine::none;
@@ -149,14 +148,9 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
     });
     agree_on(options, points, self);
     gather(mine, points.dimension, options.observer, self);
-    if (mpi::rank_of(self.comm) == root) {
-        self.hear_of(mine.summary.failing_rank);
-        self.attempt([&] {
-            const StageScope stage(options.observer, Stage::bisection, self.arithmetic);
-            bisect_domain(mine, options, plain.part_sizes, decision);
-        });
-    }
-    send_cuts(decision, options.observer, self);
+    // Step 5: every rank gets the cuts.
+    decide_together(mine, options.observer, decision, self,
+                    [&] { bisect_domain(mine, options, plain.part_sizes, decision); });
     result.report = report_of(decision.verdict, options.num_parts, plain.part_sizes);
     result.cuts = std::move(decision.cuts);
     result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;

@@ -250,6 +250,18 @@ TEST(Paper, reports_what_it_bisected_and_measures_nothing) {
     }
 }
 
+TEST(Paper, reports_the_least_imbalance_of_points_of_one_weight) {
+    const std::vector<double> x(rank() == 0 ? 4 : 0, 0.5);
+    PaperOptions options;
+    options.num_parts = 3;
+    for (const PaperDomain domain : domains) {
+        options.domain = domain;
+        const Balance result =
+            balance_as_in_paper(interleaved_points(x, 1), options, MPI_COMM_WORLD);
+        EXPECT_EQ(result.report.details.least_imbalance, 1.5);
+    }
+}
+
 TEST(Paper, balances_by_number_if_all_weights_are_zero) {
     Share mine = crowded_share(rank());
     mine.weights.assign(300, 0.0);

@@ -1,5 +1,4 @@
 #include "estimate/cell_records.hpp"
-#include "estimate/lean_cells.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-#include "estimate/lean_cells.hpp"
-
 #include "../support/clouds.hpp"
+#include "estimate/cell_records.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 

@@ -86,7 +86,7 @@ Cuts SpreadReuse::kept_cuts() const {
     std::ranges::sort(needed);
     Cuts kept{cuts_.dimension, cuts_.num_parts, {}, {}, cuts_.shape};
     for (std::size_t k = 0; k < cuts_.nodes.size(); ++k) {
-        const Descent at = node_at(cuts_, static_cast<std::size_t>(cuts_.nodes[k])).at;
+        const Descent at = node_at(cuts_, static_cast<std::size_t>(cuts_.nodes[k]));
         const auto next = std::ranges::lower_bound(needed, at.first_part);
         if (next == needed.end() || *next >= at.first_part + at.num_parts) continue;
         kept.nodes.push_back(cuts_.nodes[k]);

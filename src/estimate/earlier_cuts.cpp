@@ -49,7 +49,7 @@ void fit(const Options& options, const Descent& at, Cut& cut) {
 Cuts fitted(Cuts cuts, const Options& options) {
     for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
         const std::size_t node = is_whole(cuts) ? k : cuts.nodes[k];
-        fit(options, node_at(cuts, node).at, cuts.tree[k]);
+        fit(options, node_at(cuts, node), cuts.tree[k]);
     }
     return cuts;
 }

@@ -116,7 +116,7 @@ class SpreadReuse {
         for (const auto& [part, weight] : weights_) needed.push_back(part);
         std::ranges::sort(needed);
         for (std::size_t k = 0; k < known.nodes.size(); ++k) {
-            const Descent at = node_at(known, static_cast<std::size_t>(known.nodes[k])).at;
+            const Descent at = node_at(known, static_cast<std::size_t>(known.nodes[k]));
             const auto next = std::ranges::lower_bound(needed, at.first_part);
             if (next == needed.end() || *next >= at.first_part + at.num_parts) continue;
             kept.nodes.push_back(known.nodes[k]);

@@ -16,7 +16,7 @@ constexpr std::size_t lanes = 4;
 constexpr std::size_t arrays_per_axis = 4;
 typedef double Row __attribute__((vector_size(lanes * sizeof(double))));
 
-[[gnu::always_inline]] inline void load(const double* values, Row& row) {
+[[gnu::always_inline]] inline void fill(const double* values, Row& row) {
     std::memcpy(&row, values, sizeof row);
 }
 
@@ -29,13 +29,13 @@ struct Patches {
     Row lower, inverse, weight, slope, bow;
 };
 
-[[gnu::always_inline]] inline void load(const double* weights, const double* of_axis,
+[[gnu::always_inline]] inline void fill(const double* weights, const double* of_axis,
                                         std::size_t stride, Patches& patches) {
-    load(weights, patches.weight);
-    load(of_axis, patches.lower);
-    load(of_axis + stride, patches.inverse);
-    load(of_axis + 2 * stride, patches.slope);
-    load(of_axis + 3 * stride, patches.bow);
+    fill(weights, patches.weight);
+    fill(of_axis, patches.lower);
+    fill(of_axis + stride, patches.inverse);
+    fill(of_axis + 2 * stride, patches.slope);
+    fill(of_axis + 3 * stride, patches.bow);
 }
 
 /// The shares of patches below a value, as if they were even; and those that the slopes take away.
@@ -66,7 +66,7 @@ RRCB_ARITHMETIC_CLONES void read_patches(const double* weights, const double* of
     for (std::size_t k = 0; k < stride; k += lanes) {
         Patches patches;
         Shares shares;
-        load(weights + k, of_axis + k, stride, patches);
+        fill(weights + k, of_axis + k, stride, patches);
         find_shares(patches, half, shares);
         const auto& [even, u, rest, tilt] = shares;
         below += patches.weight * (even - rest * tilt);
@@ -85,7 +85,7 @@ RRCB_ARITHMETIC_CLONES void weigh_patches(const double* weights, const double* o
     for (std::size_t k = 0; k < stride; k += lanes) {
         Patches patches;
         Shares shares;
-        load(weights + k, of_axis + k, stride, patches);
+        fill(weights + k, of_axis + k, stride, patches);
         find_shares(patches, halves[0], shares);
         first += patches.weight * (shares.even - shares.rest * shares.tilt);
         find_shares(patches, halves[1], shares);

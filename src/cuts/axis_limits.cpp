@@ -66,16 +66,12 @@ double AxisLimits::next_behind(double face) const {
     return line(k);
 }
 
-double AxisLimits::next_before(double face) const {
-    return -AxisLimits(min_width_, {-grid_.origin, grid_.spacing}).next_behind(-face);
-}
-
 double AxisLimits::place_behind(double value) const {
     return AxisLimits(0, grid_).next_behind(value);
 }
 
 double AxisLimits::place_before(double value) const {
-    return AxisLimits(0, grid_).next_before(value);
+    return -mirrored().place_behind(-value);
 }
 
 double AxisLimits::first_behind(double face, int count) const {
@@ -84,8 +80,7 @@ double AxisLimits::first_behind(double face, int count) const {
 }
 
 double AxisLimits::last_before(double face, int count) const {
-    for (int k = 0; k < count && face > -infinity; ++k) face = next_before(face);
-    return face;
+    return -mirrored().first_behind(-face, count);
 }
 
 int AxisLimits::count_between(double lower, double upper, int most) const {

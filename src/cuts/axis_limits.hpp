@@ -47,7 +47,7 @@ class AxisLimits {
   private:
     bool is_apart(double lower, double upper) const;
     double next_behind(double face) const;
-    double next_before(double face) const;
+    AxisLimits mirrored() const { return {min_width_, {-grid_.origin, grid_.spacing}}; }
 
     double min_width_ = 0;
     GridLines grid_{0, 0};

@@ -83,30 +83,24 @@ Room CutLimits::room_in(const Box& region, int most) const {
     return room;
 }
 
-/// Returns the least place of a cut across `axis` with room for a node between `face` and it.
-double CutLimits::first_face_behind(const Descent& at, int axis, double face) const {
-    if (at.is_part()) return across(axis).first_behind(face, 1);
-    if (!divides(at)) return first_face_behind(with_parts(at), axis, face);
-    const double behind_lower = first_face_behind(at.lower(), axis, face);
-    if (axis != given_[at.node])
-        return std::max(behind_lower, first_face_behind(at.upper(), axis, face));
-    return first_face_behind(at.upper(), axis, behind_lower);
-}
-
-/// Returns the greatest place of a cut across `axis` with room for a node between it and `face`.
-double CutLimits::last_face_before(const Descent& at, int axis, double face) const {
-    if (at.is_part()) return across(axis).last_before(face, 1);
-    if (!divides(at)) return last_face_before(with_parts(at), axis, face);
-    const double before_upper = last_face_before(at.upper(), axis, face);
-    if (axis != given_[at.node])
-        return std::min(before_upper, last_face_before(at.lower(), axis, face));
-    return last_face_before(at.lower(), axis, before_upper);
+/// Returns the place of a cut across `axis`, nearest to `face` and behind or before it, with room
+/// for a node between both.
+double CutLimits::nearest_face(const Descent& at, int axis, double face, bool is_behind) const {
+    if (at.is_part())
+        return is_behind ? across(axis).first_behind(face, 1) : across(axis).last_before(face, 1);
+    if (!divides(at)) return nearest_face(with_parts(at), axis, face, is_behind);
+    const auto& [near, far] =
+        is_behind ? std::pair(at.lower(), at.upper()) : std::pair(at.upper(), at.lower());
+    const double between = nearest_face(near, axis, face, is_behind);
+    if (axis == given_[at.node]) return nearest_face(far, axis, between, is_behind);
+    const double beside = nearest_face(far, axis, face, is_behind);
+    return is_behind ? std::max(between, beside) : std::min(between, beside);
 }
 
 Places CutLimits::places(const Descent& at, const Box& region, int axis) {
     if (!given_.empty())
-        return {first_face_behind(at.lower(), axis, region.lower[axis]),
-                last_face_before(at.upper(), axis, region.upper[axis])};
+        return {nearest_face(at.lower(), axis, region.lower[axis], true),
+                nearest_face(at.upper(), axis, region.upper[axis], false)};
     const Room room = room_in(region, packing_.num_parts(at));
     const int below = packing_.least_room(at.lower(), axis, room, room[axis]);
     const int above = packing_.least_room(at.upper(), axis, room, room[axis]);

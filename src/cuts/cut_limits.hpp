@@ -62,8 +62,7 @@ class CutLimits {
     Descent with_parts(const Descent& at) const {
         return packing_.num_parts(at.lower()) > 0 ? at.lower() : at.upper();
     }
-    double first_face_behind(const Descent& at, int axis, double face) const;
-    double last_face_before(const Descent& at, int axis, double face) const;
+    double nearest_face(const Descent& at, int axis, double face, bool is_behind) const;
 
     std::array<AxisLimits, max_dimension> axes_;
     Box region_;

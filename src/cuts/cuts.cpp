@@ -119,12 +119,10 @@ bool knows_path(const Cuts& cuts, Part part) {
     return at.is_part();
 }
 
-DeepNode node_at(const Cuts& cuts, std::size_t node) {
-    DeepNode deep{root_of(cuts), 0};
-    // The node is at or below `deep.at`.
-    for (; deep.at.node != node; ++deep.depth)
-        deep.at = node >= deep.at.upper().node ? deep.at.upper() : deep.at.lower();
-    return deep;
+Descent node_at(const Cuts& cuts, std::size_t node) {
+    Descent at = root_of(cuts);
+    while (at.node != node) at = node >= at.upper().node ? at.upper() : at.lower();
+    return at;
 }
 
 Box region_of(const Cuts& cuts, Part part) {

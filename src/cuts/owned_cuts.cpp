@@ -1,5 +1,6 @@
 #include "cuts/owned_cuts.hpp"
 
+#include "arithmetic/least_number.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>
@@ -10,18 +11,9 @@ namespace {
 
 /// Returns the first part whose first rank is `rank` or a later one.
 Part first_part_from(int rank, int num_parts, int num_ranks) {
-    Part first = 0;
-    Part last = num_parts;
-    // Those below `first` begin on earlier ranks, those from `last` on do not.
-    while (first < last) {
-        const Part middle = first + (last - first) / 2;
-        if (ranks_of_part(middle, num_parts, num_ranks).first_rank < rank) {
-            first = middle + 1;
-        } else {
-            last = middle;
-        }
-    }
-    return first;
+    return least_number(0, num_parts - 1, [&](Part part) {
+        return ranks_of_part(part, num_parts, num_ranks).first_rank >= rank;
+    });
 }
 
 }  // namespace
@@ -57,7 +49,7 @@ void for_each_owned(const Cuts& cuts, int rank, int num_ranks,
                     "a cut is missing that this rank should know; give the cuts of a balance on "
                     "this communicator");
             if (is_owned) visit(at.node, *cut);
-            at = part >= at.upper().first_part ? at.upper() : at.lower();
+            at = at.towards(part);
         }
     }
 }

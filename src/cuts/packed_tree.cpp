@@ -28,17 +28,19 @@ void descend_top(const PackedTree::Top& top, const Columns& columns, LocalIndex 
     }
 }
 
+/// 1 for points of a block on a plane that breaks ties by position.
+using TiedPoints = std::array<std::int32_t, block_length>;
+
 /// Moves each point of a block down one level; if `marks`, marks those on a plane.
 template <bool marks>
-void descend_level(const double* planes, const std::int32_t* axes, const std::int32_t* lowers,
-                   const double* columns, LocalIndex length, std::int32_t* nodes,
-                   std::int32_t* tied) {
+void descend_level(const PackedTree::Node* nodes, const Columns& columns, LocalIndex length,
+                   std::int32_t* at, TiedPoints& tied) {
+    const double* const values = columns[0].data();
     for (LocalIndex i = 0; i < length; ++i) {
-        const auto node = static_cast<std::size_t>(nodes[i]);
-        const double value = columns[static_cast<std::size_t>(axes[node]) * block_length + i];
-        const double plane = planes[node];
-        if constexpr (marks) tied[i] |= value == plane ? 1 : 0;
-        nodes[i] = lowers[node] + (value >= plane ? 1 : 0);
+        const PackedTree::Node& node = nodes[at[i]];
+        const double value = values[static_cast<std::size_t>(node.axis) * block_length + i];
+        if constexpr (marks) tied[i] |= value == node.plane ? 1 : 0;
+        at[i] = node.lower + (value >= node.plane ? 1 : 0);
     }
 }
 
@@ -55,11 +57,7 @@ PackedTree::PackedTree(const Cuts& cuts, const Box& box) {
 }
 
 void PackedTree::reserve(std::size_t num_parts) {
-    const std::size_t num_nodes = 2 * num_parts;
-    planes_.reserve(num_nodes);
-    axes_.reserve(num_nodes);
-    lowers_.reserve(num_nodes);
-    items_.reserve(num_nodes);
+    nodes_.reserve(2 * num_parts);
     entries_.reserve(num_parts);
 }
 
@@ -71,23 +69,9 @@ void PackedTree::pack(const Packing& packing, const Box& box) {
     cuts_ = packing.cuts.tree;
     dimension_ = packing.cuts.dimension;
     if (!packing.prunes) reserve(cuts_.size() + 1);
-    append_node();
+    nodes_.emplace_back();
     add(packing, root_of(packing.cuts), box, 0, 0);
     find_top();
-}
-
-void PackedTree::append_node() {
-    planes_.push_back(nowhere);
-    axes_.push_back(0);
-    lowers_.push_back(0);
-    items_.push_back(0);
-}
-
-void PackedTree::drop_nodes(std::int32_t num_nodes) {
-    planes_.resize(num_nodes);
-    axes_.resize(num_nodes);
-    lowers_.resize(num_nodes);
-    items_.resize(num_nodes);
 }
 
 /// Fills `node` with the cuts at or below `at`, whose positions are all in `box`.
@@ -108,14 +92,11 @@ void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::in
         const Part part = at.first_part;
         return add_end(node, packing.entry_of ? packing.entry_of(part, box) : part);
     }
-    const auto lower = static_cast<std::int32_t>(planes_.size());
-    planes_[node] = cut->at[cut->axis];
-    axes_[node] = cut->axis;
-    lowers_[node] = lower;
-    items_[node] = static_cast<std::int32_t>(cut - cuts_.data());
+    const std::int32_t lower = num_nodes();
+    nodes_[node] = {cut->at[cut->axis], cut->axis, lower,
+                    static_cast<std::int32_t>(cut - cuts_.data())};
     if (!is_plane(*cut, dimension_)) is_plain_ = false;
-    append_node();
-    append_node();
+    nodes_.resize(nodes_.size() + 2);
     if (!packing.prunes && !packing.entry_of) {
         // Nothing reads the boxes.
         add(packing, at.lower(), box, lower, depth + 1);
@@ -125,16 +106,13 @@ void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::in
     add(packing, at.lower(), box_below(box, *cut), lower, depth + 1);
     add(packing, at.upper(), box_above(box, *cut), lower + 1, depth + 1);
     if (!is_left_out(lower) || !is_left_out(lower + 1)) return;
-    drop_nodes(lower);
+    nodes_.resize(lower);
     entries_.resize(entries_.size() - 2);
     add_end(node, left_out);
 }
 
 void PackedTree::add_end(std::int32_t node, Part entry) {
-    planes_[node] = nowhere;
-    axes_[node] = 0;
-    lowers_[node] = node;
-    items_[node] = static_cast<std::int32_t>(entries_.size());
+    nodes_[node] = {nowhere, 0, node, static_cast<std::int32_t>(entries_.size())};
     entries_.push_back(entry);
 }
 
@@ -144,23 +122,22 @@ void PackedTree::find_top() {
         const std::int32_t lower = lower_of(heap[k]);
         heap[2 * k + 1] = lower;
         heap[2 * k + 2] = is_end(heap[k]) ? lower : lower + 1;
-        top_.planes[k] = planes_[heap[k]];
-        top_.axes[k] = axes_[heap[k]];
+        top_.planes[k] = plane_of(heap[k]);
+        top_.axes[k] = axis_of(heap[k]);
     }
     for (std::size_t k = 0; k <= num_top_nodes; ++k) {
         const std::int32_t node = heap[num_top_nodes + k];
-        top_.exits[k] = depth_ <= top_levels ? items_[node] : node;
+        top_.exits[k] = depth_ <= top_levels ? nodes_[node].item : node;
     }
 }
 
 bool PackedTree::is_above_exactly(std::int32_t node, const double* position) const {
     Vector exact{};
     std::copy_n(position, dimension_, exact.begin());
-    return rrcb::is_above(cuts_[items_[node]], exact, dimension_);
+    return rrcb::is_above(cuts_[nodes_[node].item], exact, dimension_);
 }
 
 void PackedTree::find(const Columns& columns, LocalIndex length, std::int32_t* ends) const {
-    const double* values = columns[0].data();
     TiedPoints tied;
     descend_top(top_, columns, length, ends);
     if (!is_plain_) {
@@ -171,12 +148,13 @@ void PackedTree::find(const Columns& columns, LocalIndex length, std::int32_t* e
     }
     const auto descend = is_plain_ ? descend_level<false> : descend_level<true>;
     for (int level = top_levels; level < depth_; ++level)
-        descend(planes_.data(), axes_.data(), lowers_.data(), values, length, ends, tied.data());
+        descend(nodes_.data(), columns, length, ends, tied);
     if (depth_ > top_levels)
-        for (LocalIndex i = 0; i < length; ++i) ends[i] = items_[ends[i]];
+        for (LocalIndex i = 0; i < length; ++i) ends[i] = nodes_[ends[i]].item;
     if (is_plain_) return;
-    for_each_tied(tied, columns, length, dimension_,
-                  [&](LocalIndex i, const Vector& x) { ends[i] = end_of(x.data()); });
+    for (LocalIndex i = 0; i < length; ++i)
+        if (tied[i] != 0)
+            ends[i] = end_of(Vector{columns[0][i], columns[1][i], columns[2][i]}.data());
 }
 
 }  // namespace rrcb

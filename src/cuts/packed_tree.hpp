@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cuts/point_block.hpp"
 #include "cuts/tree.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -25,7 +25,15 @@ constexpr std::size_t unknown_node(Part part) {
 /// Number of a part that a search leaves out.
 inline constexpr Part left_out = std::numeric_limits<Part>::min();
 
-/// The known cuts of a tree in arrays, for many look-ups.
+inline constexpr LocalIndex block_length = 512;
+
+/// A plane with all points below it.
+inline constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// The coordinates of the points of a block, one array per axis.
+using Columns = std::array<std::array<double, block_length>, max_dimension>;
+
+/// The known cuts of a tree in one array, for many look-ups.
 ///
 /// The two nodes below a cut are neighbours. The tree ends at parts and at nodes whose cuts are
 /// unknown. An end is its own child, so all points of a block take the same number of steps.
@@ -60,18 +68,18 @@ class PackedTree {
         for (std::int32_t lower = 0; (lower = lower_of(node)) != node;)
             // No branch, which unordered positions would mispredict.
             node = lower + (is_above(node, position) ? 1 : 0);
-        return items_[node];
+        return nodes_[node].item;
     }
 
-    std::int32_t num_nodes() const { return static_cast<std::int32_t>(lowers_.size()); }
+    std::int32_t num_nodes() const { return static_cast<std::int32_t>(nodes_.size()); }
     bool is_end(std::int32_t node) const { return lower_of(node) == node; }
-    Part entry_at(std::int32_t node) const { return entries_[items_[node]]; }
+    Part entry_at(std::int32_t node) const { return entries_[nodes_[node].item]; }
 
     /// Returns the lower node of a cut, which the upper one follows.
-    std::int32_t lower_of(std::int32_t node) const { return lowers_[node]; }
+    std::int32_t lower_of(std::int32_t node) const { return nodes_[node].lower; }
 
-    int axis_of(std::int32_t node) const { return axes_[node]; }
-    double plane_of(std::int32_t node) const { return planes_[node]; }
+    int axis_of(std::int32_t node) const { return nodes_[node].axis; }
+    double plane_of(std::int32_t node) const { return nodes_[node].plane; }
 
     /// Calls visit(entry) for the ends at or below a node that a box touches, see parts_touching().
     template <class Visit>
@@ -79,7 +87,7 @@ class PackedTree {
         const std::int32_t lower = lower_of(node);
         if (lower == node) return visit(entry_at(node));
         if (!is_above(node, box.lower.data()) ||
-            holds_divided_points(box, cuts_[items_[node]], dimension_))
+            holds_divided_points(box, cuts_[nodes_[node].item], dimension_))
             visit_touching(box, visit, lower);
         if (is_above(node, box.upper.data())) visit_touching(box, visit, lower + 1);
     }
@@ -96,6 +104,14 @@ class PackedTree {
         std::array<double, num_top_nodes + 1> exits;
     };
 
+    /// A cut, or an end.
+    struct Node {
+        double plane = nowhere;  ///< nowhere at ends
+        std::int32_t axis = 0;
+        std::int32_t lower = 0;  ///< the node below the cut; of an end itself
+        std::int32_t item = 0;   ///< index of the cut, or number of the end
+    };
+
   private:
     struct Packing {
         const Cuts& cuts;
@@ -105,26 +121,21 @@ class PackedTree {
     void pack(const Packing& packing, const Box& box);
     void add(const Packing& packing, Descent at, const Box& box, std::int32_t node, int depth);
     void add_end(std::int32_t node, Part entry);
-    void append_node();
-    void drop_nodes(std::int32_t num_nodes);  ///< from this number on
     bool is_left_out(std::int32_t node) const { return is_end(node) && entry_at(node) == left_out; }
     void find_top();
 
     bool is_above(std::int32_t node, const double* position) const {
-        const double x = position[axes_[node]];
-        if (x != planes_[node]) [[likely]]
-            return x > planes_[node];
+        const double x = position[axis_of(node)];
+        if (x != plane_of(node)) [[likely]]
+            return x > plane_of(node);
         return is_above_exactly(node, position);
     }
     bool is_above_exactly(std::int32_t node, const double* position) const;
 
     std::span<const Cut> cuts_;
     int dimension_ = 0;
-    std::vector<double> planes_;  ///< nowhere at ends
-    std::vector<std::int32_t> axes_;
-    std::vector<std::int32_t> lowers_;  ///< the node below the cut; of an end itself
-    std::vector<std::int32_t> items_;   ///< index of the cut, or number of the end
-    std::vector<Part> entries_;         ///< of ends
+    std::vector<Node> nodes_;
+    std::vector<Part> entries_;  ///< of ends
     int depth_ = 0;
     bool is_plain_ = true;  ///< every cut is a plane, without ties by position
     Top top_{};

@@ -59,14 +59,8 @@ inline const Cut* find_cut(const Cuts& cuts, std::size_t node) {
 /// Returns the part of a position at or below `at`, or the first unknown node on the way.
 Descent descend(const Cuts& cuts, const Vector& position, Descent at);
 
-/// Node and the number of nodes above it.
-struct DeepNode {
-    Descent at;
-    int depth;
-};
-
 /// Returns the node with a number in preorder.
-DeepNode node_at(const Cuts& cuts, std::size_t node);
+Descent node_at(const Cuts& cuts, std::size_t node);
 
 /// Returns true if all cuts above a part are known.
 bool knows_path(const Cuts& cuts, Part part);

@@ -69,7 +69,7 @@ NearCount count_near(const Cuts& cuts, const Vector& position, double reach) {
 Cuts fitted(Cuts cuts, const Options& options) {
     for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
         const std::size_t node = is_whole(cuts) ? k : cuts.nodes[k];
-        fit(options, node_at(cuts, node).at, cuts.tree[k]);
+        fit(options, node_at(cuts, node), cuts.tree[k]);
     }
     return cuts;
 }

@@ -124,7 +124,7 @@ PathSearch::PathSearch(const Cuts& known, const Points& points, std::span<Part> 
 bool PathSearch::ask(Butterfly& asked) {
     std::vector<std::size_t> nodes;
     for (const LocalIndex i : left_) {
-        const Descent from = node_at(cuts(), unknown_node(parts_[i])).at;
+        const Descent from = node_at(cuts(), unknown_node(parts_[i]));
         const Descent at = descend(cuts(), points_.position(i), from);
         parts_[i] = at.is_part() ? at.first_part : unknown_below(at.node);
         if (!at.is_part() && (nodes.empty() || nodes.back() != at.node)) nodes.push_back(at.node);

@@ -155,6 +155,7 @@ Balance balance_from_earlier(PointPasses& points, const Options& given, const Cu
     std::vector<Part> parts;
     self.attempt([&] { parts = points.parts(); });
     Balance anew = balance_from_scratch(points, given, false, self);
+    if (may_save) self.attempt([&] { sample = points.sample(1 << 14); });
     return better(std::move(call.result), parts, std::move(anew), points, call.options,
                   may_save ? &sample : nullptr, self);
 }

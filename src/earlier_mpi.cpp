@@ -2,7 +2,6 @@
 #include "bisection/limited_bisection.hpp"
 #include "call_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
-#include "collective/communicator.hpp"
 #include "collective/stage_scope.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/owned_cuts.hpp"
@@ -160,7 +159,8 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call,
     if (counts_earlier_parts(options)) call.earlier = points.assign(cuts, true);
     prepare_to_settle(call, are_cuts_limited(options), self);
     const double reach = cuts.near.reach;
-    const PointSample sample = reach > 0 ? points.sample(1024) : PointSample{};
+    const PointSample sample =
+        reach > 0 ? points.sample(sample_size(1 << 10, call.ranks.number)) : PointSample{};
     add_totals(call.earlier, near_share(cuts, sample, reach), call.mine);
 }
 
@@ -250,12 +250,13 @@ Balance balance_from_earlier(PointPasses& points, const Options& given, const Cu
     if (!may_save && !may_be_better) return std::move(call.result);
     PointSample sample;
     if (may_save)
-        self.attempt([&] { sample = points.sample(sample_size(mpi::size_of(self.comm))); });
+        self.attempt([&] { sample = points.sample(sample_size(1 << 13, call.ranks.number)); });
     if (!may_be_better && !sample_saves_ghosts(call.result.cuts, sample, points, given, self))
         return std::move(call.result);
     std::vector<Part> parts;
     self.attempt([&] { parts = points.parts(); });
     Balance anew = balance_from_scratch(points, given, false, self);
+    if (may_save) self.attempt([&] { sample = points.sample(1 << 14); });
     return better(std::move(call.result), parts, std::move(anew), points, call.options,
                   may_save ? &sample : nullptr, self);
 }

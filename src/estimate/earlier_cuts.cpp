@@ -57,8 +57,10 @@ NearCount count_near(const Cuts& cuts, const Vector& position, double reach) {
     Descent at = root_of(cuts);
     while (!at.is_part()) {
         const Cut& cut = cuts.tree[at.node];
-        if (std::abs(position[cut.axis] - cut.at[cut.axis]) < reach) ++near.number;
-        at = is_above(cut, position, cuts.dimension) ? at.upper() : at.lower();
+        const double beyond = position[cut.axis] - cut.at[cut.axis];
+        if (std::abs(beyond) < reach) ++near.number;
+        const bool above = beyond == 0 ? is_above(cut, position, cuts.dimension) : beyond > 0;
+        at = above ? at.upper() : at.lower();
     }
     near.end = at.first_part;
     return near;

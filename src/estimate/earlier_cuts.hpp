@@ -24,9 +24,9 @@ struct NearShare {
     Vector spread{};  ///< mean distance of two points of a part, along each axis
 };
 
-/// Returns the number of points to sample on each rank for a comparison of cuts.
-inline LocalIndex sample_size(int num_ranks) {
-    return std::max<LocalIndex>(1024, (1 << 13) / static_cast<LocalIndex>(num_ranks));
+/// Returns the number of points to sample on each rank for `all` on all ranks, or more on many.
+inline LocalIndex sample_size(int all, int num_ranks) {
+    return static_cast<LocalIndex>(std::max(256, all / num_ranks));
 }
 
 /// Counts the points of a sample within `reach` of the cuts, and measures their spread in the

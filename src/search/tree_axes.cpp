@@ -4,6 +4,7 @@
 #include "arithmetic/quantum.hpp"
 #include "bisection/axis_choice.hpp"
 #include "options/allowed_axes.hpp"
+#include "passes/axis_sums.hpp"
 #include "search/marginal.hpp"
 #include "search/tree_search.hpp"
 
@@ -11,22 +12,6 @@
 #include <cmath>
 
 namespace rrcb {
-
-namespace {
-
-/// Adds points to the weights, unless they count as 1, and the counts in the slots along an axis.
-void add_along(int axis, const Bins bins, const Collected& points, const Entries& entries,
-               bool is_weighted, std::span<double> sums) {
-    const auto weights = sums.first(is_weighted ? sums.size() / 2 : 0);
-    const auto counts = sums.subspan(weights.size());
-    for (const LocalIndex i : entries) {
-        const auto slot = static_cast<std::size_t>(bins.slot_of(points.coordinate(i, axis)));
-        if (is_weighted) weights[slot] += points.weight(i);
-        counts[slot] += 1;
-    }
-}
-
-}  // namespace
 
 /// Returns the axes that free cuts may cross.
 std::span<const int> TreeSearch::axes() const {

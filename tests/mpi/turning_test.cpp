@@ -1,8 +1,9 @@
 // A flow changes its shape: cuts that keep their axes become bad ones.
+#include "../support/brute_passes.hpp"
 #include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
 
-#include <rrcb/balance.hpp>
+#include <rrcb/rrcb.hpp>
 
 #include <gtest/gtest.h>
 
@@ -134,6 +135,26 @@ TEST(TurningAxes, follow_a_pour_to_better_axes_although_the_kept_ones_are_no_wor
     Balance balance;
     EXPECT_LT(follow(Pour{}, balance), 2 * num_points);
     for (const Cut& cut : balance.cuts.tree) EXPECT_NE(cut.axis, 2);
+}
+
+TEST(TurningAxes, are_compared_by_samples_first) {
+    // A square that swings: cuts move, but no other axes save ghosts.
+    std::vector<double> mine = test::uniform_cloud(num_points, 2, 23 + rank());
+    Balance balance;
+    int num_moved = 0;
+    int num_moments = 0;
+    for (int call = 0; call < 20; ++call) {
+        for (std::size_t i = 0; i < mine.size(); i += 2)
+            mine[i] += (call % 2 == 0 ? 0.05 : -0.05) * mine[i] * (1 - mine[i]);
+        test::BrutePasses passes(mine, 2);
+        Options options;
+        options.num_parts = 4;
+        balance = rrcb::balance(passes, options, balance.cuts, MPI_COMM_WORLD);
+        num_moved += balance.report.details.rounds > 1 ? 1 : 0;
+        num_moments += passes.num_moments;
+    }
+    EXPECT_GE(num_moved, 9);
+    EXPECT_LE(num_moments, 3) << "one of the first call; samples may err";
 }
 
 TEST(TurningAxes, are_kept_by_points_at_rest_and_on_request) {

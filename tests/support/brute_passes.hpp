@@ -43,6 +43,8 @@ class BrutePasses final : public PointPasses {
         return summary;
     }
 
+    int num_moments = 0;  ///< calls of moments()
+
     PointSample sample(LocalIndex size) override {
         PointSample sample;
         for (LocalIndex k = 0; k < std::min(size, all_.count); ++k) {
@@ -54,6 +56,7 @@ class BrutePasses final : public PointPasses {
     }
 
     std::vector<CellMoments> moments(const SupportMesh& mesh) override {
+        ++num_moments;
         return cell_moments(all_, mesh);
     }
 

@@ -162,7 +162,8 @@ std::vector<Part> copy_points(Device& device, const Positions<T>& x, const Weigh
 
 /// Lists marked points, of which there are `number`, in ascending order of their indices.
 template <class Device>
-auto list_marked(Device& device, std::size_t count, std::size_t number, const Part* parts) {
+typename Device::template Lent<LocalIndex> list_marked(Device& device, std::size_t count,
+                                                       std::size_t number, const Part* parts) {
     const auto indices = device.template lend<LocalIndex>(number);
     Kokkos::parallel_scan(
         "rrcb::list", device.range(count),

@@ -11,6 +11,7 @@ namespace rrcb::test {
 namespace {
 
 TEST(Uninitialized, is_an_error_on_all_ranks) {
+    if (KOKKOS_VERSION >= 50000) GTEST_SKIP() << "this Kokkos ends a program that makes a space";
     if (rank() != 1) Kokkos::initialize();
     {
         std::array<double, 6> values{1, 2, 3, 4, 5, 6};

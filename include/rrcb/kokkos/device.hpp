@@ -161,12 +161,12 @@ struct Bins {
 template <class Execution>
 inline constexpr int scratch_level = runs_on_host<Execution> ? 1 : 0;
 
-/// Returns the number of bins for which a team has fast memory.
+/// Returns the number of bins for which a team has fast memory, at most as many as it adds numbers.
 template <class Execution>
 std::int64_t bins_in_scratch(const Execution& exec) {
     const Kokkos::TeamPolicy<Execution> policy(exec, 1, 1);
-    return (policy.scratch_size_max(scratch_level<Execution>) - 64) /
-           static_cast<std::int64_t>(sizeof(Word));
+    const int bytes = policy.scratch_size_max(scratch_level<Execution>) - 64;
+    return std::min(bytes / static_cast<int>(sizeof(Word)), 8 * block_length);
 }
 
 /// Calls body(i, bins) for i = 0 ... count - 1, which adds to bins whose sums are in `of_all`.

@@ -162,7 +162,8 @@ std::vector<Part> copy_points(Device& device, const Positions<T>& x, const Weigh
 
 /// Lists marked points, of which there are `number`, in ascending order of their indices.
 template <class Device>
-auto list_marked(Device& device, std::size_t count, std::size_t number, const Part* parts) {
+typename Device::template Lent<LocalIndex> list_marked(Device& device, std::size_t count,
+                                                       std::size_t number, const Part* parts) {
     const auto indices = device.template lend<LocalIndex>(number);
     Kokkos::parallel_scan(
         "rrcb::list", device.range(count),
@@ -184,15 +185,12 @@ std::vector<Box> boxes_of_parts(Device& device, const Positions<T>& x, const Par
     Kokkos::parallel_for(
         "rrcb::boxes", device.range(x.count), KOKKOS_LAMBDA(const std::int64_t i) {
             if (parts[i] < 0) return;
+            // Kokkos reads a bound before it writes one: most points need no atomic operation.
             auto* const lower = reinterpret_cast<double*>(boxes.data() + parts[i]);
             double* const upper = lower + max_dimension;
             for (int a = 0; a < x.dimension; ++a) {
-                const double value = x(i, a);
-                // Most points need no atomic operation; an old bound costs one.
-                if (value < *static_cast<volatile double*>(lower + a))
-                    Kokkos::atomic_fetch_min(lower + a, value);
-                if (value > *static_cast<volatile double*>(upper + a))
-                    Kokkos::atomic_fetch_max(upper + a, value);
+                Kokkos::atomic_fetch_min(lower + a, x(i, a));
+                Kokkos::atomic_fetch_max(upper + a, x(i, a));
             }
         });
     return device.copy_out(boxes);

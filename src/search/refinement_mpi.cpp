@@ -183,7 +183,7 @@ void Refinement::search_for_better(PointPasses& points, Participant& self) {
     const std::ptrdiff_t gain = empty_before - num_left_empty();
     const double most =
         gain > 0 ? std::max(imbalance_before, options_.imbalance_tolerance) : imbalance_before;
-    const double margin = gain > 0 ? round_off : gain < 0 ? -round_off : 0;
+    const double margin = gain > 0 ? round_off : -round_off;
     if (refined_.imbalance < most * (1 + margin)) return;
     refined_.imbalance = imbalance_before;
     refined_.coincident_cuts = before.coincident_cuts;

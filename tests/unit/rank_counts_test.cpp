@@ -1,7 +1,6 @@
 // Counts of many ranks in one process reach the ranks that they are for.
-#include "collective/rank_counts_mpi.hpp"
-
 #include "../support/virtual_butterfly.hpp"
+#include "collective/rank_counts_mpi.hpp"
 
 #include <gtest/gtest.h>
 

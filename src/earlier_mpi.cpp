@@ -200,6 +200,12 @@ void settle_from_earlier(Call& call, Participant& self) {
     settle(call, true, self);
 }
 
+bool are_same(const Cuts& a, const Cuts& b) {
+    return std::ranges::equal(a.tree, b.tree, [](const Cut& one, const Cut& other) {
+        return one.axis == other.axis && one.at == other.at;
+    });
+}
+
 /// Makes cuts anew from samples only, and returns whether they save ghosts. Collective.
 bool sample_saves_ghosts(const Cuts& reused, const PointSample& sample, PointPasses& points,
                          Options options, Participant& self) {
@@ -244,7 +250,8 @@ Balance balance_from_earlier(PointPasses& points, const Options& given, const Cu
     const double near_now = call.decision.verdict.near_per_cut;
     const bool may_save = may_save_ghosts(call.options, previous.near, near_now);
     const double chosen = may_save ? 0 : previous.near.share;
-    call.result.cuts.near.share = reference(chosen, near_now, !is_kept);
+    const bool are_moved = !is_kept && !are_same(call.result.cuts, previous);
+    call.result.cuts.near.share = reference(chosen, near_now, are_moved);
     const bool may_be_better =
         may_be_poor(report.imbalance, report.details.least_imbalance, call.options);
     if (!may_save && !may_be_better) return std::move(call.result);

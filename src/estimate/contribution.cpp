@@ -92,13 +92,12 @@ void add_records(PointPasses& points, const Box& box, int num_ranks, const Optio
 }
 
 void add_totals(const PartTotals& totals, const NearShare& near, Contribution& mine) {
-    mine.part_totals = totals.weights;
-    mine.part_totals.insert(mine.part_totals.end(), totals.counts.begin(), totals.counts.end());
-    if (totals.counts.empty()) return;
-    mine.part_totals.push_back(near.by_weight * mine.summary.weight);
     const auto count = static_cast<double>(mine.summary.num_points);
-    mine.part_totals.push_back(near.by_count * count);
-    for (const double spread : near.spread) mine.part_totals.push_back(spread * count);
+    std::vector<double>& all = mine.part_totals;
+    all = {near.by_weight * mine.summary.weight, near.by_count * count};
+    for (const double spread : near.spread) all.push_back(spread * count);
+    all.insert(all.end(), totals.weights.begin(), totals.weights.end());
+    all.insert(all.end(), totals.counts.begin(), totals.counts.end());
 }
 
 std::size_t most_cells(const Options& options) {

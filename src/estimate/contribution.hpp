@@ -48,13 +48,16 @@ struct Contribution {
     Summary summary;
     std::vector<double> records;    ///< the moments of their cells
     std::vector<double> extents{};  ///< of the points of each rank, if rank 0 reads these
-    /// Weights in the parts of earlier cuts, then numbers of points in them, then weight and number
-    /// of points near the cuts and the number times their spread, if the call counts them.
+    /// From earlier cuts: weight and number of points near them, the number of points times their
+    /// spread, then weights and numbers of points in the parts, if the call counts these.
     std::vector<double> part_totals{};
 };
 
 /// Returns the totals of a rank's points, from one reading of these.
 Summary summarize(const PointSummary& points, bool are_weighted, int rank);
+
+/// Totals before those of the parts.
+inline constexpr std::size_t num_near_totals = 2 + max_dimension;
 
 /// Reduces checked points in a box to the moments of their cells in the support mesh of the
 /// options. If all ranks seem to have only a few points for each part, each point is a cell.

@@ -123,26 +123,28 @@ Bisection bisect_gathered(const Contribution& all, const Options& options, int d
     return bisect(std::move(domain), options, with_brackets, all.summary.num_points);
 }
 
-/// Computes the weight near earlier cuts, from the last totals.
-void weigh_near(std::span<const double> totals, const Summary& all, bool is_counted,
-                Verdict& verdict) {
+/// Computes the weight near earlier cuts, from the first totals.
+void weigh_near(std::span<const double, num_near_totals> totals, const Summary& all,
+                bool is_counted, Verdict& verdict) {
     const auto count = static_cast<double>(all.num_points);
     NearCuts& near = verdict.near;
     near.share = is_counted ? totals[1] / count : totals[0] / all.weight;
-    const double length = std::ranges::max(totals.subspan(2)) / count;
+    const double length = std::ranges::max(totals.subspan<2>()) / count;
     const double per_cut = near.share > 0 ? near.share * (length / near.reach) : 0;
     verdict.near_per_cut = std::isfinite(per_cut) ? per_cut : 0;
 }
 
-/// Computes the imbalance of earlier cuts, if the ranks have counted points in their parts.
+/// Computes the weight near earlier cuts and, if the ranks have counted points in their parts, the
+/// imbalance.
 void weigh_parts(const Contribution& all, const Options& options, Decision& decision) {
     const std::size_t num_parts = decision.part_weights.size();
-    if (num_parts == 0 || all.summary.num_points == 0) return;
     const std::span<const double> totals(all.part_totals);
+    if (totals.empty() || all.summary.num_points == 0) return;
     const bool is_counted = decision.verdict.is_counted();
-    std::ranges::copy(totals.subspan(is_counted ? num_parts : 0, num_parts),
+    weigh_near(totals.first<num_near_totals>(), all.summary, is_counted, decision.verdict);
+    if (num_parts == 0) return;
+    std::ranges::copy(totals.subspan(num_near_totals + (is_counted ? num_parts : 0), num_parts),
                       decision.part_weights.begin());
-    weigh_near(totals.subspan(2 * num_parts), all.summary, is_counted, decision.verdict);
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
 }
 

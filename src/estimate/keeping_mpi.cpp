@@ -65,7 +65,7 @@ bool may_save_ghosts(const Options& options, const NearCuts& chosen, double shar
     constexpr double more = 1.15;
     const AxisOrder& order = options.axes.order;
     const bool are_free = !order.is_longest() && !order.is_given() && !order.is_grouped();
-    return are_free && counts_earlier_parts(options) && chosen.reach > 0 && chosen.share > 0 &&
+    return are_free && !are_cuts_limited(options) && chosen.reach > 0 && chosen.share > 0 &&
            share_now > more * chosen.share;
 }
 

@@ -25,6 +25,7 @@ constexpr std::size_t num_points = 12000;
 struct State {
     int dimension;
     double spacing;
+    Refine refine = Refine::tolerance;
     std::vector<Vector> positions{};
 
     std::vector<double> mine() const {
@@ -38,6 +39,7 @@ struct State {
     Balance balance(const Cuts& previous) const {
         Options options;
         options.num_parts = 4;
+        options.refine = refine;
         const std::vector<double> coordinates = mine();
         return rrcb::balance(interleaved_points(coordinates, dimension), options, previous,
                              MPI_COMM_WORLD);
@@ -66,12 +68,13 @@ struct State {
 
 /// A column of 1 x 2 at time 0 that is a layer of 10 x 0.2 at time 1, and drops.
 struct Flow {
+    Refine refine = Refine::tolerance;
     std::vector<double> start = test::uniform_cloud(num_points, 2, 21);
 
     State at(double time) const {
         const double width = std::pow(10, time);
         const double height = 2 * std::pow(0.1, time);
-        State state{2, std::sqrt(2.0 / num_points)};
+        State state{2, std::sqrt(2.0 / num_points), refine};
         for (std::size_t i = 0; i < num_points; ++i)
             state.positions.push_back(
                 {width * start[2 * i], (i % 300 == 0 ? 2 : height) * start[2 * i + 1], 0});
@@ -128,6 +131,12 @@ TEST(TurningAxes, follow_a_flow_and_move_few_points) {
     Balance balance;
     // Three quarters of the points change parts once.
     EXPECT_LT(follow(Flow{}, balance), 1.1 * num_points);
+    for (const Cut& cut : balance.cuts.tree) EXPECT_EQ(cut.axis, 0);
+}
+
+TEST(TurningAxes, follow_a_flow_if_cuts_are_exact) {
+    Balance balance;
+    EXPECT_LT(follow(Flow{Refine::exact}, balance), 2 * num_points);
     for (const Cut& cut : balance.cuts.tree) EXPECT_EQ(cut.axis, 0);
 }
 

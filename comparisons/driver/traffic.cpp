@@ -86,6 +86,7 @@ double reading_seconds() {
     return least;
 }
 
+double clock_s = 0;     ///< reading_seconds(), once measured
 double last_end_s = 0;  ///< of the latest call
 bool polls = false;     ///< that call found a request undone: a loop waits for it
 
@@ -100,7 +101,6 @@ class InMpi {
     }
     ~InMpi() {
         if (!counting) return;
-        static const double clock_s = reading_seconds();
         last_end_s = processor_seconds();
         traffic.seconds_in_mpi += last_end_s - start_ + clock_s;
     }
@@ -131,6 +131,7 @@ void start_counting_traffic() {
     traffic = {};
     calls.clear();
     polls = false;
+    if (!(clock_s > 0)) clock_s = reading_seconds();
     counting = true;
 }
 

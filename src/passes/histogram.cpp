@@ -57,6 +57,19 @@ void count(const Collected& collected, const Entries& entries, int axis, const B
     count<3>(collected, entries, axis, bins, layout, histogram);
 }
 
+void count_along(int axis, const Collected& collected, const Entries& entries, const Bins& bins,
+                 const HistogramLayout& layout, double quantum, std::span<double> sums) {
+    const Bins of_axis = bins;  // a copy, which no sum can overlap
+    const std::span<double> weights = sums.first(layout.is_weighted ? layout.num_slots() : 0);
+    const std::span<double> counts = sums.last(layout.num_slots());
+    for (const LocalIndex i : entries) {
+        const auto slot = static_cast<std::size_t>(of_axis.slot_of(collected.coordinate(i, axis)));
+        if (layout.is_weighted) weights[slot] += collected.weight(i);
+        counts[slot] += 1;
+    }
+    for (double& weight : weights) weight = rounded_to(quantum, weight);
+}
+
 void count_settled(const Total& total, const Box& box, int slot, const HistogramLayout& layout,
                    std::span<double> histogram) {
     if (!(total.count > 0)) return;

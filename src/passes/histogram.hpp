@@ -57,6 +57,11 @@ inline std::span<const double> counts_in(std::span<const double> histogram,
 void count(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
            const HistogramLayout& layout, std::span<double> histogram);
 
+/// Adds collected points along another axis to its sums: the weights, unless points count as 1,
+/// rounded to multiples of a quantum, and the counts in all slots.
+void count_along(int axis, const Collected& collected, const Entries& entries, const Bins& bins,
+                 const HistogramLayout& layout, double quantum, std::span<double> sums);
+
 /// Adds settled points of a box to a slot.
 void count_settled(const Total& total, const Box& box, int slot, const HistogramLayout& layout,
                    std::span<double> histogram);

@@ -166,14 +166,14 @@ void Refinement::search_for_better(PointPasses& points, Participant& self) {
     struct {
         std::vector<Cut> tree;
         std::vector<double> sums;
-        std::vector<Part> parts;
+        std::vector<Part> parts;  ///< if look-ups may not find them
         int coincident_cuts = 0;
     } before;
     self.attempt([&] {
         const auto sums = sums_.sums();
         before = {estimate_.cuts.tree,
                   {sums.begin(), sums.end()},
-                  points.parts(),
+                  tree_.divides_coincident ? points.parts() : std::vector<Part>(),
                   std::exchange(refined_.coincident_cuts, 0)};
     });
     const double imbalance_before = refined_.imbalance;
@@ -189,7 +189,10 @@ void Refinement::search_for_better(PointPasses& points, Participant& self) {
     refined_.coincident_cuts = before.coincident_cuts;
     estimate_.cuts.tree = std::move(before.tree);
     std::ranges::copy(before.sums, sums_.sums().begin());
-    self.attempt([&] { points.set_parts(before.parts); });
+    self.attempt([&] {
+        if (tree_.divides_coincident) return points.set_parts(before.parts);
+        points.assign(estimate_.cuts, false);
+    });
 }
 
 PartTree tree_of(const Options& options, int num_ranks) {

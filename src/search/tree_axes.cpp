@@ -1,10 +1,8 @@
 // How a spread search finds the axes of free cuts.
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
-#include "arithmetic/quantum.hpp"
 #include "bisection/axis_choice.hpp"
 #include "options/allowed_axes.hpp"
-#include "passes/axis_sums.hpp"
 #include "search/marginal.hpp"
 #include "search/tree_search.hpp"
 
@@ -47,10 +45,8 @@ void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload
         turn(search, node.content.box, axis);
         payload.resize(payload.size() + num_sums);
         const auto sums = std::span(payload).last(num_sums);
-        add_along(axis, bins_of(search, layout), points_.points(), node.content.entries,
-                  layout.is_weighted, sums);
-        for (double& weight : sums.first(layout.num_slots()))
-            weight = rounded_to(search.quantum, weight);
+        count_along(axis, points_.points(), node.content.entries, bins_of(search, layout), layout,
+                    search.quantum, sums);
     }
 }
 
@@ -60,16 +56,12 @@ std::vector<double> TreeSearch::choose_axis(const Node& node, std::span<const do
     constexpr std::size_t num_extents = HistogramLayout::num_extents;
     const HistogramLayout layout = layout_of(search);
     const std::size_t num_sums = layout.length() - num_extents;
-    std::vector<std::vector<double>> histograms;
-    histograms.reserve(axes().size());
     std::vector<Marginal> marginals;
     for (const int axis : axes()) {
-        const auto sums = histogram.subspan(num_extents + marginals.size() * num_sums, num_sums);
-        std::vector<double>& along =
-            histograms.emplace_back(histogram.begin(), histogram.begin() + num_extents);
-        along.insert(along.end(), sums.begin(), sums.end());
+        const std::size_t first = num_extents + marginals.size() * num_sums;
         turn(search, node.content.box, axis);
-        marginals.push_back({axis, bins_of(search, layout), weights_in(along, layout)});
+        marginals.push_back(
+            {axis, bins_of(search, layout), histogram.subspan(first, layout.num_slots())});
     }
     const int longest = longest_axis(node.found, axes(), nearly);
     auto best = static_cast<std::size_t>(std::ranges::find(axes(), longest) - axes().begin());
@@ -78,7 +70,10 @@ std::vector<double> TreeSearch::choose_axis(const Node& node, std::span<const do
         best =
             fewest_near(marginals, node.found, best, target, sum_of(counts_in(histogram, layout)));
     turn(search, node.content.box, marginals[best].axis);
-    return std::move(histograms[best]);
+    std::vector<double> along(histogram.begin(), histogram.begin() + num_extents);
+    const auto sums = histogram.subspan(num_extents + best * num_sums, num_sums);
+    along.insert(along.end(), sums.begin(), sums.end());
+    return along;
 }
 
 }  // namespace rrcb

@@ -43,16 +43,6 @@ void introduce(const Options& given, const PointSummary& summary, const Cuts* pr
     call.options = std::move(options);
 }
 
-void prepare_to_settle(Call& call, bool counts, const Participant& self) {
-    const Options& options = call.options;
-    if (call.is_spread) {
-        call.of_many.emplace(self);
-        return;
-    }
-    if (is_refined(options) || counts) call.sums = PartSums(options.part_sizes.size());
-    if (is_refined(options)) call.refinement.emplace(options, self, call.sums);
-}
-
 void estimate(Call& call, Participant& self) {
     {
         const StageScope stage(call.options.observer, Stage::gather, self.arithmetic);
@@ -65,71 +55,6 @@ void estimate(Call& call, Participant& self) {
     call.result.report = report_of(call.decision.verdict, options.num_parts, options.part_sizes);
     call.result.cuts = std::move(call.decision.cuts);
     call.points.use_weights(!call.decision.verdict.is_counted());
-}
-
-namespace {
-
-/// Assigns the points by unchanged cuts; if `counts`, counts the parts. Collective.
-void assign(Call& call, bool counts, Participant& self) {
-    const StageScope stage(call.options.observer, Stage::assignment, self.arithmetic);
-    self.attempt([&] {
-        const PartTotals totals = call.points.assign(call.result.cuts, counts);
-        if (counts) std::ranges::copy(totals.weights, call.sums.here().begin());
-    });
-    if (!counts) return agree(self);
-    const double imbalance = call.sums.add_up(call.options.part_sizes, self);
-    report_measured(imbalance, call.options.imbalance_tolerance, call.result.report);
-    call.result.report.part_weights = call.sums.take();
-}
-
-/// Moves the cuts by counts of all ranks, and assigns the points by them. Collective.
-Refined refine(Call& call, Participant& self) {
-    const Verdict& verdict = call.decision.verdict;
-    const ReportDetails& details = call.result.report.details;
-    const bool is_earlier = verdict.answer == Answer::weights;
-    // Kept parts would still be sent.
-    if (!(verdict.kept_imbalance < not_kept)) call.decision.message = std::vector<std::byte>();
-    Estimate estimate{std::move(call.result.cuts),
-                      std::move(call.decision.brackets),
-                      verdict.balanced_weight(),
-                      verdict.is_counted() ? 1.0 : 0.0,
-                      verdict.kept_imbalance,
-                      is_earlier && !call.decision.part_weights.empty(),
-                      verdict.balanced_heaviest(),
-                      is_earlier,
-                      verdict.box,
-                      details.num_points,
-                      details.least_imbalance};
-    Refined refined = call.refinement->refine(std::move(estimate), call.points, call.box, self);
-    call.result.report.part_weights = call.sums.take();
-    return refined;
-}
-
-/// Makes the parts by a search of many ranks. Collective.
-Refined search(Call& call, Participant& self) {
-    const Verdict& verdict = call.decision.verdict;
-    PartTree tree = tree_of(call.options, mpi::size_of(self.comm));
-    tree.weight = verdict.balanced_weight();
-    tree.rule.common_weight = verdict.is_counted() ? 1 : 0;
-    tree.rule.heaviest = verdict.balanced_heaviest();
-    Refined refined = call.of_many->refine(verdict.box, tree, *call.host, self);
-    agree(self);
-    return refined;
-}
-
-}  // namespace
-
-void settle(Call& call, bool counts, Participant& self) {
-    const Options& options = call.options;
-    Report& report = call.result.report;
-    const bool has_points = report.details.num_points > 0;
-    if (!call.is_spread && !(is_refined(options) && has_points)) return assign(call, counts, self);
-    const StageScope stage(options.observer, Stage::refinement, self.arithmetic);
-    Refined refined = call.is_spread ? search(call, self) : refine(call, self);
-    if (has_points) report_measured(refined.imbalance, options.imbalance_tolerance, report);
-    report.details.rounds = refined.rounds;
-    report.details.coincident_cuts = refined.coincident_cuts;
-    call.result.cuts = std::move(refined.cuts);
 }
 
 namespace {

@@ -3,7 +3,7 @@
 #include "balance_mpi.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "passes/host_passes.hpp"
-#include "search/refinement_mpi.hpp"
+#include "settlement_mpi.hpp"
 
 #include <optional>
 
@@ -25,11 +25,9 @@ struct Call {
     bool is_spread = false;  ///< many ranks make the parts
     Contribution mine;
     Decision decision;
-    Box box;             ///< of the points of this rank
-    PartTotals earlier;  ///< of the points of this rank in the parts of earlier cuts, if counted
+    Box box;  ///< of the points of this rank
     PartSums sums;
-    std::optional<Refinement> refinement;     ///< if cuts of rank 0 may move
-    std::optional<SpreadRefinement> of_many;  ///< if many ranks make the parts
+    std::optional<Refinement> refinement;  ///< if the cuts may move
     Balance result;
 };
 
@@ -37,15 +35,8 @@ struct Call {
 void introduce(const Options& given, const PointSummary& summary, const Cuts* previous, Call& call,
                const Participant& self);
 
-/// Makes the buffers of settle(); `counts` if it may have to count. Not collective.
-void prepare_to_settle(Call& call, bool counts, const Participant& self);
-
 /// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
 void estimate(Call& call, Participant& self);
-
-/// Makes the parts: by a search of many ranks, or from the cuts of rank 0, which move by counts of
-/// all ranks unless the options forbid it; `counts` if parts are counted all the same. Collective.
-void settle(Call& call, bool counts, Participant& self);
 
 /// Gives each rank the cuts by Options::cuts after many ranks made the parts; with all cuts also
 /// the weights of all parts.

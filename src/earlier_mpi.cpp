@@ -156,12 +156,13 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call,
         spread.emplace(call, is_whole(previous), self.comm);
         return;
     }
-    if (counts_earlier_parts(options)) call.earlier = points.assign(cuts, true);
+    PartTotals totals;
+    if (counts_earlier_parts(options)) totals = points.assign(cuts, true);
     prepare_to_settle(call, are_cuts_limited(options), self);
     const double reach = cuts.near.reach;
     const PointSample sample =
         reach > 0 ? points.sample(sample_size(1 << 10, call.ranks.number)) : PointSample{};
-    add_totals(call.earlier, near_share(cuts, sample, reach), call.mine);
+    add_totals(totals, near_share(cuts, sample, reach), call.mine);
 }
 
 /// Returns true if the cuts whose parts rank 0 weighed are kept; completes the report then.
@@ -194,8 +195,7 @@ void settle_from_earlier(Call& call, Participant& self) {
             move_into_places(limits, call.result.cuts);
         });
     if (is_refined(options) && counts_earlier_parts(options))
-        call.sums.set(decision.verdict.is_counted() ? call.earlier.counts : call.earlier.weights,
-                      decision.part_weights);
+        std::ranges::copy(decision.part_weights, call.sums.sums().begin());
     if (is_refined(options)) bracket_earlier(call.result.cuts, whole, decision.brackets);
     settle(call, true, self);
 }

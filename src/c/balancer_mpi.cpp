@@ -3,8 +3,8 @@
 #include "c/handle_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "options/request.hpp"
-#include "search/workspace_mpi.hpp"
 #include "verbose_mpi.hpp"
+#include "workspace_mpi.hpp"
 
 #include <algorithm>
 

@@ -2,19 +2,30 @@
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
 #include "bisection/axis_choice.hpp"
-#include "options/allowed_axes.hpp"
-#include "search/marginal.hpp"
+#include "bisection/weighted_quantile.hpp"
 #include "search/tree_search.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rrcb {
 
-/// Returns the axes that free cuts may cross.
-std::span<const int> TreeSearch::axes() const {
-    return tree_.axes.empty() ? first_axes(dimension_) : tree_.axes;
+namespace {
+
+/// Returns the weights in the bins of an axis as a domain of one dimension. An edge behind the
+/// largest double is infinite.
+StatisticalDomain domain_of(const Bins& bins, std::span<const double> slots) {
+    StatisticalDomain domain{1};
+    for (int bin = 0; bin + 2 < std::ssize(slots); ++bin)
+        domain.patches.push_back(
+            {{bins.edge(bin)},
+             {std::min(bins.edge(bin + 1), std::numeric_limits<double>::max())},
+             slots[bin + 1]});
+    return domain;
 }
+
+}  // namespace
 
 /// Turns a search in the box of a node across another axis, before anything is counted.
 void TreeSearch::turn(CutSearch& search, const Box& box, int axis) {
@@ -27,7 +38,7 @@ void TreeSearch::turn(CutSearch& search, const Box& box, int axis) {
 CutSearch TreeSearch::first_search(const Descent& at, const Content& content) const {
     CutSearch search = search_across(0, {}, content.weight);
     const bool is_free = tree_.cut_axes.empty() || at.is_part();
-    turn(search, content.box, is_free ? axes().front() : tree_.cut_axes[at.node]);
+    turn(search, content.box, is_free ? tree_.axes.front() : tree_.cut_axes[at.node]);
     return search;
 }
 
@@ -41,7 +52,7 @@ void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload
     const HistogramLayout layout = layout_of(node.search);
     const std::size_t num_sums = layout.length() - HistogramLayout::num_extents;
     CutSearch search = node.search;
-    for (const int axis : axes().subspan(1)) {
+    for (const int axis : tree_.axes.subspan(1)) {
         turn(search, node.content.box, axis);
         payload.resize(payload.size() + num_sums);
         const auto sums = std::span(payload).last(num_sums);
@@ -56,24 +67,56 @@ std::vector<double> TreeSearch::choose_axis(const Node& node, std::span<const do
     constexpr std::size_t num_extents = HistogramLayout::num_extents;
     const HistogramLayout layout = layout_of(search);
     const std::size_t num_sums = layout.length() - num_extents;
-    std::vector<Marginal> marginals;
-    for (const int axis : axes()) {
-        const std::size_t first = num_extents + marginals.size() * num_sums;
-        turn(search, node.content.box, axis);
-        marginals.push_back(
-            {axis, bins_of(search, layout), histogram.subspan(first, layout.num_slots())});
+    const auto sums = [&](std::size_t k) {
+        return histogram.subspan(num_extents + k * num_sums, num_sums);
+    };
+    const std::span<const int> axes = tree_.axes;
+    const int longest = longest_axis(node.found, axes, nearly);
+    auto best = static_cast<std::size_t>(std::ranges::find(axes, longest) - axes.begin());
+    if (!tree_.crosses_longest && node.target.target > 0) {
+        std::vector<StatisticalDomain> along;
+        for (std::size_t k = 0; k < axes.size(); ++k) {
+            turn(search, node.content.box, axes[k]);
+            along.push_back(domain_of(bins_of(search, layout), sums(k).first(layout.num_slots())));
+        }
+        best = fewest_near(along, node, best, sum_of(counts_in(histogram, layout)));
     }
-    const int longest = longest_axis(node.found, axes(), nearly);
-    auto best = static_cast<std::size_t>(std::ranges::find(axes(), longest) - axes().begin());
-    const double target = node.target.target;
-    if (!tree_.crosses_longest && target > 0)
-        best =
-            fewest_near(marginals, node.found, best, target, sum_of(counts_in(histogram, layout)));
-    turn(search, node.content.box, marginals[best].axis);
-    std::vector<double> along(histogram.begin(), histogram.begin() + num_extents);
-    const auto sums = histogram.subspan(num_extents + best * num_sums, num_sums);
-    along.insert(along.end(), sums.begin(), sums.end());
-    return along;
+    turn(search, node.content.box, axes[best]);
+    std::vector<double> chosen(histogram.begin(), histogram.begin() + num_extents);
+    chosen.insert(chosen.end(), sums(best).begin(), sums(best).end());
+    return chosen;
+}
+
+/// Returns the number of the axis to cut: `longest`, unless a cut across another has clearly less
+/// weight near it. The domains are those of a node with `num_points` points along each axis.
+std::size_t TreeSearch::fewest_near(std::span<const StatisticalDomain> along, const Node& node,
+                                    std::size_t longest, double num_points) const {
+    const auto half_extent = [&](std::size_t k) {
+        return node.found.upper[tree_.axes[k]] / 2 - node.found.lower[tree_.axes[k]] / 2;
+    };
+    // A mean spacing, but at least a bin.
+    const auto num_bins = static_cast<double>(along[longest].patches.size());
+    const double spacings =
+        std::clamp(std::pow(num_points, 1.0 / static_cast<double>(along.size())), 1.0, num_bins);
+    const double reach = 2 * (half_extent(longest) / spacings);
+    const auto near = [&](std::size_t k) {
+        const Profile profile(along[k]);
+        const Cut cut = weighted_quantile(profile, 0, node.target.target, true);
+        return profile.weight_within(0, cut.at[0], reach);
+    };
+    std::size_t best = longest;
+    double fewest = near(longest);
+    // Few points show the weight near a cut with a large error.
+    const double num_near = num_points * (fewest / node.content.weight);
+    const double enough = nearly - 1 / std::sqrt(std::max(num_near, 1.0));
+    for (std::size_t k = 0; k < along.size(); ++k) {
+        if (k == longest || !(half_extent(k) > 0)) continue;
+        const double fewer = near(k);
+        if (!(fewer < enough * fewest)) continue;
+        best = k;
+        fewest = fewer;
+    }
+    return best;
 }
 
 }  // namespace rrcb

@@ -4,11 +4,11 @@
 #include "cuts/cut_limits.hpp"
 #include "search/collected_tree.hpp"
 #include "search/cut_search.hpp"
-#include "search/part_sums_mpi.hpp"
 #include "search/target_rule.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/method/bisection.hpp>
+#include <rrcb/method/statistical_domain.hpp>
 
 #include <array>
 #include <cstdint>
@@ -34,9 +34,9 @@ struct PartTree {
     TreeShape shape{};
     double weight = 0;                ///< of all points
     std::span<const int> cut_axes{};  ///< of all cuts in preorder; empty: free
-    std::span<const int> axes{};      ///< that cuts may cross if they are free; empty: all
+    std::span<const int> axes{};      ///< that cuts may cross if they are free
     bool crosses_longest = false;     ///< of a spread search; else free cuts leave fewest ghosts
-    TargetRule rule{};                ///< of a spread search without the weight per size
+    TargetRule rule{};
     bool plain_cuts = false;
     bool centres_cuts = false;        ///< moves cuts to the middle between points of all ranks
     bool divides_coincident = false;  ///< divides coincident points, see Coincident
@@ -47,11 +47,12 @@ struct PartTree {
 struct Guide {
     Cuts& cuts;  ///< the search moves them, but keeps their axes
     std::span<const Bracket> brackets;
-    CutLimits* limits;  ///< null if cuts are not limited
-    PartSums& sums;     ///< of the parts that the cuts make, if they were counted; moved as well
-    bool is_counted;    ///< the sums are those of the cuts
-    bool has_parts;     ///< the points have their parts by the cuts
-    Box box;            ///< of the points of this rank
+    CutLimits* limits;       ///< null if cuts are not limited
+    std::span<double> sums;  ///< of the parts that the cuts make, if they were counted; moved too
+    std::span<double> here;  ///< receives the weights of this rank's points in the parts
+    bool is_counted;         ///< the sums are those of the cuts
+    bool has_parts;          ///< the points have their parts by the cuts
+    Box box;                 ///< of the points of this rank
 };
 
 /// One rank's part in the search for the cuts of a tree.
@@ -188,13 +189,14 @@ class TreeSearch {
     void weigh_part(const Descent& at, const Content& content);
     std::vector<Bracket> intervals() const;
     CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
-    std::span<const int> axes() const;
     CutSearch first_search(const Descent& at, const Content& content) const;
     static void turn(CutSearch& search, const Box& box, int axis);
     bool counts_all_axes(const Node& node) const;
     void count_other_axes(const Node& node, std::vector<double>& payload) const;
     std::vector<double> choose_axis(const Node& node, std::span<const double> histogram,
                                     CutSearch& search) const;
+    std::size_t fewest_near(std::span<const StatisticalDomain> along, const Node& node,
+                            std::size_t longest, double num_points) const;
     void start_from_guide(Node& node);
     Bracket interval_of(const Descent& at, int depth, double& shifted) const;
     double missing_below(const Descent& at, double weight, double below) const;

@@ -2,10 +2,10 @@
 // the contributions merge up the tree of so many ranks, the root bisects what arrives, and the cuts
 // are refined by what all sub-domains hold.
 #include "../support/clouds.hpp"
+#include "call_mpi.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "options/validation.hpp"
 #include "passes/host_passes.hpp"
-#include "search/refinement_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -83,24 +83,25 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     // Seven children in each of the six levels that the tree of 8^6 ranks has.
     EXPECT_LE(ranks.root_in, 6 * 7 * most * doubles_per_cell);
 
-    Decision decision;
-    make_buffers(decision, ranks.options, 2, false);
-    decide(all, ranks.options, decision);
-    const Points points = ranks.points();
-    PartSums sums(ranks.options.part_sizes.size());
     Participant self{MPI_COMM_SELF};
-    Refinement refinement(ranks.options, self, sums);
-    HostPasses passes(points, std::vector<Part>(points.count));
-    Estimate estimate{decision.cuts, decision.brackets, static_cast<double>(points.count),
-                      decision.verdict.is_counted() ? 1.0 : 0.0};
-    const Refined refined =
-        refinement.refine(std::move(estimate), passes, bounding_box(points), self);
+    HostPasses passes(ranks.points());
+    Call call(passes, nullptr, self);
+    call.options = ranks.options;
+    call.box = passes.summary(true).box;
+    make_buffers(call.decision, ranks.options, 2, false);
+    decide(all, ranks.options, call.decision);
+    call.result.report =
+        report_of(call.decision.verdict, ranks.num_ranks(), ranks.options.part_sizes);
+    call.result.cuts = std::move(call.decision.cuts);
+    prepare_to_settle(call, false, self);
+    settle(call, false, self);
+    const Report& report = call.result.report;
 
     std::vector<double> weights(ranks.options.part_sizes.size());
     for (const Part part : passes.parts_here()) weights[static_cast<std::size_t>(part)] += 1;
     EXPECT_LE(imbalance(weights, ranks.options.part_sizes), 1.01);
-    EXPECT_EQ(imbalance(weights, ranks.options.part_sizes), refined.imbalance);
-    RecordProperty("rounds", refined.rounds);
+    EXPECT_EQ(imbalance(weights, ranks.options.part_sizes), report.imbalance);
+    RecordProperty("rounds", report.details.rounds);
     RecordProperty("cells", static_cast<int>(all.summary.num_cells));
     RecordProperty("root_kilobytes", static_cast<int>(ranks.root_in * sizeof(double) / 1000));
     RecordProperty("longest_message_kilobytes",

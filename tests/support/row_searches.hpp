@@ -3,6 +3,7 @@
 
 #include "bisection/bisection.hpp"
 #include "estimate/earlier_cuts.hpp"
+#include "options/allowed_axes.hpp"
 #include "row_cases.hpp"
 #include "search/doubles.hpp"
 #include "search/tree_search.hpp"
@@ -94,8 +95,9 @@ class RowSearches {
                 box_.lower[a] = std::min(box_.lower[a], summary.box.lower[a]);
                 box_.upper[a] = std::max(box_.upper[a], summary.box.upper[a]);
             }
-            sums_.emplace_back(static_cast<std::size_t>(one.num_parts));
         }
+        here_.resize(passes_.size());
+        sums_.resize(passes_.size());
         if (one.start != Start::nothing) make_guide();
     }
 
@@ -117,8 +119,8 @@ class RowSearches {
         for (std::size_t rank = 0; rank < passes_.size(); ++rank) {
             const int number = static_cast<int>(rank);
             if (is_central()) {
-                guides.push_back({cuts_[rank], brackets_, nullptr, sums_[rank], is_counted, true,
-                                  summaries_[rank].box});
+                guides.push_back({cuts_[rank], brackets_, nullptr, sums_[rank], here_[rank],
+                                  is_counted, true, summaries_[rank].box});
                 searches_.push_back(std::make_unique<TreeSearch>(tree, number, guides.back(),
                                                                  passes_[rank], OpenPoints{}));
             } else {
@@ -152,8 +154,8 @@ class RowSearches {
     void expect_weights() {
         if (!is_central()) return;
         for (std::size_t rank = 0; rank < passes_.size(); ++rank)
-            EXPECT_TRUE(std::ranges::equal(passes_[rank].totals(case_.num_parts).weights,
-                                           sums_[rank].here()))
+            EXPECT_TRUE(
+                std::ranges::equal(passes_[rank].totals(case_.num_parts).weights, here_[rank]))
                 << case_;
     }
 
@@ -175,6 +177,7 @@ class RowSearches {
         tree.num_parts = case_.num_parts;
         tree.num_ranks = case_.num_ranks;
         tree.shape = case_.shape;
+        tree.axes = first_axes(case_.dimension);
         tree.weight = total_;
         tree.rule.part_sizes = case_.part_sizes;
         tree.rule.tolerance = case_.tolerance;
@@ -246,14 +249,12 @@ class RowSearches {
 
     /// Gives the points the parts of the latest cuts, and adds up the weights of these.
     void count_by_cuts() {
-        std::vector<PartTotals> here;
         std::vector<double> all(static_cast<std::size_t>(case_.num_parts));
         for (std::size_t rank = 0; rank < passes_.size(); ++rank) {
-            here.push_back(passes_[rank].assign(cuts_[rank], true));
-            std::ranges::transform(all, here.back().weights, all.begin(), std::plus<>());
+            here_[rank] = passes_[rank].assign(cuts_[rank], true).weights;
+            std::ranges::transform(all, here_[rank], all.begin(), std::plus<>());
         }
-        for (std::size_t rank = 0; rank < passes_.size(); ++rank)
-            sums_[rank].set(here[rank].weights, all);
+        sums_.assign(passes_.size(), all);
     }
 
     void note_cuts() {
@@ -278,7 +279,8 @@ class RowSearches {
     Box box_;
     std::vector<Cuts> cuts_;  ///< of each rank
     std::vector<Bracket> brackets_;
-    std::deque<PartSums> sums_;
+    std::vector<std::vector<double>> here_;  ///< weights of a rank's points in the parts
+    std::vector<std::vector<double>> sums_;  ///< and of all points, as each rank knows them
     std::vector<std::unique_ptr<TreeSearch>> searches_;
     std::map<std::size_t, Cut> known_;
     std::set<int> stages_;

@@ -4,6 +4,7 @@
 #include "all_collected.hpp"
 #include "estimate/contribution.hpp"
 #include "memory_layer.hpp"
+#include "options/allowed_axes.hpp"
 #include "passes/host_passes.hpp"
 #include "search/tree_search.hpp"
 #include "virtual_cloud.hpp"
@@ -126,6 +127,8 @@ class VirtualSearch {
         PartTree tree;
         tree.num_parts = tree.num_ranks = cloud.num_ranks();
         tree.weight = static_cast<double>(parts_.size());
+        tree.axes = first_axes(2);
+        tree.rule.weight_per_size = tree.weight / tree.num_parts;
         tree.rule.tolerance = tolerance;
         tree.rule.is_exact = !(tolerance > 1);
         tree.rule.common_weight = tree.rule.heaviest = 1;

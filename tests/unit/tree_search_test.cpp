@@ -5,6 +5,7 @@
 #include "../support/clouds.hpp"
 #include "../support/virtual_owners.hpp"
 #include "cuts/cut_limits.hpp"
+#include "options/allowed_axes.hpp"
 #include "passes/host_passes.hpp"
 
 #include <rrcb/plan.hpp>
@@ -64,7 +65,10 @@ class Global {
         tree.num_parts = case_.num_parts;
         tree.num_ranks = case_.num_ranks;
         tree.rule.part_sizes = case_.part_sizes;
+        tree.axes = first_axes(static_cast<int>(d_));
         tree.weight = total();
+        tree.rule.weight_per_size =
+            tree.weight / tree.rule.size_of(root_of(tree.num_parts, tree.shape));
         tree.rule.tolerance = tolerance;
         tree.rule.is_exact = case_.is_exact;
         tree.rule.common_weight = case_.weights == "equal" ? 1 : 0;

@@ -1,4 +1,4 @@
-#include "search/workspace_mpi.hpp"
+#include "workspace_mpi.hpp"
 
 #include "collective/attribute_mpi.hpp"
 #include "collective/duplicate.hpp"

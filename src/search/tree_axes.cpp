@@ -35,10 +35,10 @@ void TreeSearch::turn(CutSearch& search, const Box& box, int axis) {
 }
 
 /// Returns the search in the box of a node across the first of its axes, or one that weighs a part.
-CutSearch TreeSearch::first_search(const Descent& at, const Content& content) const {
-    CutSearch search = search_across(0, {}, content.weight);
-    const bool is_free = tree_.cut_axes.empty() || at.is_part();
-    turn(search, content.box, is_free ? tree_.axes.front() : tree_.cut_axes[at.node]);
+CutSearch TreeSearch::first_search(const Node& node) const {
+    CutSearch search = search_across(0, {}, node.weight);
+    const bool is_free = tree_.cut_axes.empty() || node.at.is_part();
+    turn(search, node.box, is_free ? tree_.axes.front() : tree_.cut_axes[node.at.node]);
     return search;
 }
 
@@ -53,10 +53,10 @@ void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload
     const std::size_t num_sums = layout.length() - HistogramLayout::num_extents;
     CutSearch search = node.search;
     for (const int axis : tree_.axes.subspan(1)) {
-        turn(search, node.content.box, axis);
+        turn(search, node.box, axis);
         payload.resize(payload.size() + num_sums);
         const auto sums = std::span(payload).last(num_sums);
-        count_along(axis, points_.points(), node.content.entries, bins_of(search, layout), layout,
+        count_along(axis, points_.points(), node.entries, bins_of(search, layout), layout,
                     search.quantum, sums);
     }
 }
@@ -76,12 +76,12 @@ std::vector<double> TreeSearch::choose_axis(const Node& node, std::span<const do
     if (!tree_.crosses_longest && node.target.target > 0) {
         std::vector<StatisticalDomain> along;
         for (std::size_t k = 0; k < axes.size(); ++k) {
-            turn(search, node.content.box, axes[k]);
+            turn(search, node.box, axes[k]);
             along.push_back(domain_of(bins_of(search, layout), sums(k).first(layout.num_slots())));
         }
         best = fewest_near(along, node, best, sum_of(counts_in(histogram, layout)));
     }
-    turn(search, node.content.box, axes[best]);
+    turn(search, node.box, axes[best]);
     std::vector<double> chosen(histogram.begin(), histogram.begin() + num_extents);
     chosen.insert(chosen.end(), sums(best).begin(), sums(best).end());
     return chosen;
@@ -107,7 +107,7 @@ std::size_t TreeSearch::fewest_near(std::span<const StatisticalDomain> along, co
     std::size_t best = longest;
     double fewest = near(longest);
     // Few points show the weight near a cut with a large error.
-    const double num_near = num_points * (fewest / node.content.weight);
+    const double num_near = num_points * (fewest / node.weight);
     const double enough = nearly - 1 / std::sqrt(std::max(num_near, 1.0));
     for (std::size_t k = 0; k < along.size(); ++k) {
         if (k == longest || !(half_extent(k) > 0)) continue;

@@ -32,7 +32,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
         return;
     }
     const bool is_empty =
-        node.content.entries.empty() && node.below_here.count + node.above_here.count == 0;
+        node.entries.empty() && node.below_here.count + node.above_here.count == 0;
     if (is_empty) return;
     if (node.search.stage == CutSearch::dividing || node.at.is_part())
         return add_lot(node, payload);
@@ -46,7 +46,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     count_points(node, std::span(payload).subspan(1));
     if (counts_all_axes(node)) count_other_axes(node, payload);
     if (!node.counts_parts) return;
-    const auto weights = points_.part_weights(node.at, node.content.entries);
+    const auto weights = points_.part_weights(node.at, node.entries);
     payload.insert(payload.end(), weights.begin(), weights.end());
 }
 
@@ -56,8 +56,8 @@ void TreeSearch::count_points(const Node& node, std::span<double> histogram) con
     const bool is_first = search.stage == CutSearch::over_points;
     const HistogramLayout layout = layout_of(search);
     clear_histogram(histogram);
-    rrcb::count(points_.points(), is_first ? node.content.entries : node.candidates,
-                current_axis(search), bins_of(search, layout), layout, histogram);
+    rrcb::count(points_.points(), is_first ? node.entries : node.candidates, current_axis(search),
+                bins_of(search, layout), layout, histogram);
     if (is_first && is_central()) {
         count_settled(node.below_here, guide_->box, 0, layout, histogram);
         count_settled(node.above_here, guide_->box, layout.num_bins + 1, layout, histogram);
@@ -67,9 +67,8 @@ void TreeSearch::count_points(const Node& node, std::span<double> histogram) con
 
 /// Appends this rank's points of a lot or a part.
 void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
-    LotRecord record{1.0 * rank_, {points_.weight_of(node.content.entries)}};
-    if (!node.at.is_part())
-        record.points = points_.points_at(node.search.cut, node.content.entries);
+    LotRecord record{1.0 * rank_, {points_.weight_of(node.entries)}};
+    if (!node.at.is_part()) record.points = points_.points_at(node.search.cut, node.entries);
     if (!(record.points.weight > 0)) return;
     if (!node.at.is_part())
         record.points.weight = rounded_to(node.search.quantum, record.points.weight);
@@ -145,7 +144,7 @@ void TreeSearch::decide(Butterfly& butterfly) {
 std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node,
                                           const CutSearch& decided) const {
     std::vector<double> answer;
-    Answer told{decided, node.content.weight};
+    Answer told{decided, node.weight};
     if (node.at.is_part()) {
         told.weight = 0;
         for (const auto& [rank, points] : records_in<LotRecord>(record.payload))
@@ -200,9 +199,8 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     if (payload.empty()) {
         // The weight was round-off.
         search.stage = CutSearch::done;
-        if (is_central())
-            search.cut = cut_unsearched(node.at, node.content, tree_.rule.share_below(node.at));
-        node.content.weight = 0;
+        if (is_central()) search.cut = cut_unsearched(node, tree_.rule.share_below(node.at));
+        node.weight = 0;
         const std::vector<double> nothing(static_cast<std::size_t>(node.at.num_parts));
         if (node.counts_parts) take_sums(node, nothing);
         return search;
@@ -229,7 +227,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
 void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
                                        CutSearch& search) {
     const HistogramLayout layout = layout_of(search);
-    const double weight = node.content.weight = sum_of(weights_in(histogram, layout));
+    const double weight = node.weight = sum_of(weights_in(histogram, layout));
     if (!is_central()) node.found = box_in(histogram);
     if (node.counts_parts && take_sums(node, histogram.subspan(layout.length()))) return;
     node.target = tree_.rule.target_of(node.at, weight, node.below);
@@ -266,15 +264,15 @@ void TreeSearch::follow(const Butterfly& butterfly) {
 void TreeSearch::follow(Node&& node, std::span<const double> payload) {
     const auto answer = read<Answer>(payload);
     const auto more = payload.subspan(sizeof answer / sizeof(double));
-    node.content.weight = answer.weight;
-    if (node.at.is_part()) return weigh_part(node.at, node.content);
+    node.weight = answer.weight;
+    if (node.at.is_part()) return weigh_part(node);
     if (node.search.stage == CutSearch::dividing) {
         node.search = answer.search;
         return end_at_cut(std::move(node), read<LotAnswer>(more));
     }
     if (std::exchange(node.counts_parts, false) && take_sums(node, more)) {
-        node.content.are_parts_counted = true;
-        return enter(node.at, std::move(node.content));
+        node.are_parts_counted = true;
+        return enter(std::move(node));
     }
     follow_search(std::move(node), answer.search, more);
 }
@@ -284,16 +282,16 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     CutSearch before = std::exchange(node.search, next);
     if (before.stage == CutSearch::centring) return note(node.at.node, next.cut);
     if (before.stage == CutSearch::over_points) {
-        node.content.is_counted = true;
+        node.is_counted = true;
         if (!is_central()) {
-            turn(before, node.content.box, next.cut.axis);
-            node.content.box = read<Box>(more);
+            turn(before, node.box, next.cut.axis);
+            node.box = read<Box>(more);
         }
     }
     if (next.stage == CutSearch::centring) {
         // The parts below do not depend on where in its gap the cut is.
-        Node centred{node.at, {}, next};
-        centred.gap = points_.gap_about(node.at, node.content.entries, next.cut);
+        Node centred{.at = node.at, .search = next};
+        centred.gap = points_.gap_about(node.at, node.entries, next.cut);
         nodes_.push_back(std::move(centred));
         return end_at_cut(std::move(node), {});
     }
@@ -314,7 +312,7 @@ void TreeSearch::keep_chosen(const CutSearch& before, Node& node) {
     node.candidates =
         between(slot == 0 ? -infinity : bins.edge(slot - 1),
                 slot > layout.num_bins ? infinity : bins.edge(slot), current_axis(before),
-                is_first ? node.content.entries : node.candidates, points_.points());
+                is_first ? node.entries : node.candidates, points_.points());
     if (!is_central() || !is_first) return;
     node.is_wide = (slot == 0 && node.below_here.count > 0) ||
                    (slot > layout.num_bins && node.above_here.count > 0);

@@ -25,7 +25,7 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Box& box, PointPass
     const PartRange own = parts_on(rank, tree.num_parts, tree.num_ranks);
     first_own_ = own.first;
     end_own_ = own.end;
-    enter(root_of(tree.num_parts, tree.shape), {points_.all(), box, tree.weight});
+    enter({root_of(tree.num_parts, tree.shape), points_.all(), box, tree.weight});
 }
 
 TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, PointPasses& points,
@@ -37,10 +37,9 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, Point
       all_sizes_(tree.rule.size_of(root_of(guide.cuts))),
       layout_{.is_weighted = tree.rule.common_weight != 1, .limits = tree.limits},
       points_(points, guide.cuts, intervals(), guide.has_parts, std::move(memory)) {
-    Content content{{}, Box{}, tree.weight};
-    if (guide.limits) content.box = guide.limits->region();
-    content.are_parts_counted = guide.is_counted;
-    enter(root_of(guide.cuts), std::move(content));
+    Node root{root_of(guide.cuts), {}, guide.limits ? guide.limits->region() : Box{}, tree.weight};
+    root.are_parts_counted = guide.is_counted;
+    enter(std::move(root));
 }
 
 int TreeSearch::owner_of(const Descent& at) const {
@@ -48,81 +47,84 @@ int TreeSearch::owner_of(const Descent& at) const {
 }
 
 /// Begins to search the cut of a node; goes on to its children if no counting is needed.
-void TreeSearch::enter(const Descent& at, Content&& content) {
-    if (is_central()) content.entries = points_.admit(at, content.entries);
-    if (ends_at(at, content)) return;
+void TreeSearch::enter(Node&& node) {
+    const Descent at = node.at;
+    if (is_central()) node.entries = points_.admit(at, node.entries);
+    if (ends_at(node)) return;
     const double share = at.is_part() ? 1 : tree_.rule.share_below(at);
     const bool divides = share > 0 && share < 1;
-    const bool stays = content.are_parts_counted && tree_.rule.may_stay(at, guide_->sums);
-    if (at.is_part() || (content.weight > 0 && divides && !stays))
-        return add_node(at, std::move(content));
-    content.are_parts_counted = content.are_parts_counted && divides;
-    const double below = content.are_parts_counted ? weight_of(at.lower(), guide_->sums)
-                         : share > 0               ? content.weight
-                                                   : 0;
-    const Cut cut = cut_unsearched(at, content, share);
+    const bool stays = node.are_parts_counted && tree_.rule.may_stay(at, guide_->sums);
+    if (at.is_part() || (node.weight > 0 && divides && !stays)) return add_node(std::move(node));
+    node.are_parts_counted = node.are_parts_counted && divides;
+    const double below = node.are_parts_counted ? weight_of(at.lower(), guide_->sums)
+                         : share > 0            ? node.weight
+                                                : 0;
+    const Cut cut = cut_unsearched(node, share);
     note(at.node, cut);
-    divide(at, std::move(content), cut, {}, below);
+    divide(std::move(node), cut, {}, below);
 }
 
 /// Returns true if there is nothing to search at a node or below; then its part is written.
-bool TreeSearch::ends_at(const Descent& at, Content& content) {
-    if (content.are_parts_counted) {
+bool TreeSearch::ends_at(Node& node) {
+    const Descent& at = node.at;
+    if (node.are_parts_counted) {
         const auto sums = guide_->sums;
-        content.weight = weight_of(at, sums);
+        node.weight = weight_of(at, sums);
         if (at.is_part()) return true;
         const bool ends = tree_.rule.are_within(at, sums);
-        if (ends) points_.put_back(at.node, std::move(content.entries));
+        if (ends) points_.put_back(at.node, std::move(node.entries));
         return ends;
     }
     if (is_central()) return at.is_part();
     const bool holds_own_parts =
         at.first_part < end_own_ && first_own_ < at.first_part + at.num_parts;
-    if (content.entries.empty() && !holds_own_parts) return true;
-    const bool ends = at.is_part() && content.is_counted && !is_tiny(at);
-    if (ends) weigh_part(at, content);
+    if (node.entries.empty() && !holds_own_parts) return true;
+    const bool ends = at.is_part() && node.is_counted && !is_tiny(at);
+    if (ends) weigh_part(node);
     return ends;
 }
 
 /// Returns the cut of a node that needs no counting. A side of size 0 gets nothing. Without weight
 /// all goes below, unless a guide's cut is kept.
-Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double share) {
+Cut TreeSearch::cut_unsearched(const Node& node, double share) const {
+    const Descent& at = node.at;
     if (!is_central())
         return plane(tree_.cut_axes.empty() ? tree_.axes.front() : tree_.cut_axes[at.node],
                      share > 0 ? infinity : -infinity);
     const Cut& cut = guide_->cuts.tree[at.node];
     if (!(share > 0 && share < 1)) return plane(cut.axis, share > 0 ? infinity : -infinity);
     if (!guide_->limits) return cut;
-    return guide_->limits->nearest(cut, guide_->limits->places(at, content.box, cut.axis));
+    return guide_->limits->nearest(cut, guide_->limits->places(at, node.box, cut.axis));
 }
 
-void TreeSearch::add_node(const Descent& at, Content&& content) {
-    Node& node = nodes_.emplace_back(Node{at, std::move(content)});
+void TreeSearch::add_node(Node&& entered) {
+    Node& node = nodes_.emplace_back(std::move(entered));
+    const Descent& at = node.at;
     if (is_central()) {
         node.below_here = points_.total_in(at.lower());
         node.above_here = points_.total_in(at.upper());
-        node.counts_parts = recounts() && !node.content.are_parts_counted;
+        node.counts_parts = recounts() && !node.are_parts_counted;
         return start_from_guide(node);
     }
-    node.found = node.content.box;
-    node.search = first_search(at, node.content);
+    node.found = node.box;
+    node.search = first_search(node);
 }
 
 /// Goes on below a cut.
-void TreeSearch::divide(const Descent& at, Content&& content, const Cut& cut, const Lot& lot,
-                        double below) {
-    auto [lower, upper] = points_.divide(std::move(content.entries), cut, lot);
+void TreeSearch::divide(Node&& node, const Cut& cut, const Lot& lot, double below) {
+    auto [lower, upper] = points_.divide(std::move(node.entries), cut, lot);
     // A side of a divided lot may weigh up to a point more or less than asked for. The next count
     // measures it; until then the node's weight is a bound.
     const bool divides_lot = lot.below > 0;
-    const double above = divides_lot ? content.weight : content.weight - below;
-    if (divides_lot) below = content.weight;
-    const auto side = [&](Entries&& entries, const Box& box, double weight) {
-        return Content{std::move(entries), box, weight, content.is_counted && !divides_lot,
-                       content.are_parts_counted};
+    const double above = divides_lot ? node.weight : node.weight - below;
+    if (divides_lot) below = node.weight;
+    const auto enter_side = [&](const Descent& at, Entries&& entries, const Box& box,
+                                double weight) {
+        enter({at, std::move(entries), box, weight, node.is_counted && !divides_lot,
+               node.are_parts_counted});
     };
-    enter(at.lower(), side(std::move(lower), box_below(content.box, cut), below));
-    enter(at.upper(), side(std::move(upper), box_above(content.box, cut), above));
+    enter_side(node.at.lower(), std::move(lower), box_below(node.box, cut), below);
+    enter_side(node.at.upper(), std::move(upper), box_above(node.box, cut), above);
 }
 
 void TreeSearch::note(std::size_t node, const Cut& cut) {
@@ -144,9 +146,9 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
                      : rank_ > told.dividing_rank ? infinity
                                                   : told.before;
     }
-    node.content.are_parts_counted = false;
+    node.are_parts_counted = false;
     if (node.search.stage != CutSearch::centring) note(node.at.node, cut);
-    divide(node.at, std::move(node.content), cut, lot, node.search.below);
+    divide(std::move(node), cut, lot, node.search.below);
 }
 
 /// Returns the lot of a search that is done, as seen by the first rank.
@@ -155,10 +157,11 @@ Lot TreeSearch::lot_at(const Descent& at, const CutSearch& search) const {
 }
 
 /// Ends a spread search at a part.
-void TreeSearch::weigh_part(const Descent& at, const Content& content) {
-    points_.settle(content.entries, at.first_part);
+void TreeSearch::weigh_part(const Node& node) {
+    const Descent& at = node.at;
+    points_.settle(node.entries, at.first_part);
     if (owner_of(at) != rank_) return;
-    imbalance_ = std::max(imbalance_, over_ideal(content.weight, tree_.weight, ideal_share(at)));
+    imbalance_ = std::max(imbalance_, over_ideal(node.weight, tree_.weight, ideal_share(at)));
 }
 
 void TreeSearch::finish() {
@@ -230,9 +233,9 @@ void TreeSearch::start_from_guide(Node& node) {
     const Descent& at = node.at;
     const Cut& cut = guide_->cuts.tree[at.node];
     Bracket bracket = guide_->brackets[at.node];
-    if (node.content.are_parts_counted) node.below = weight_of(at.lower(), guide_->sums);
+    if (node.are_parts_counted) node.below = weight_of(at.lower(), guide_->sums);
     if (guide_->limits) {
-        node.places = guide_->limits->places(at, node.content.box, cut.axis);
+        node.places = guide_->limits->places(at, node.box, cut.axis);
         const AxisLimits& limits = guide_->limits->across(cut.axis);
         bracket.lower = limits.nearest(bracket.lower, node.places.first, node.places.last);
         bracket.upper = limits.nearest(bracket.upper, bracket.lower, node.places.last);
@@ -240,12 +243,12 @@ void TreeSearch::start_from_guide(Node& node) {
         bracket = points_.interval(at.node);
         bracket.lower = std::max(bracket.lower, -std::numeric_limits<double>::max());
         // Whole intervals take 1 % more rounds; 1.5 % more points move from earlier cuts.
-        const double missing = missing_below(at, node.content.weight, node.below);
+        const double missing = missing_below(at, node.weight, node.below);
         if (missing > 0) bracket.lower = std::max(bracket.lower, cut.at[cut.axis]);
         if (missing < 0)
             bracket.upper = std::min(bracket.upper, std::nextafter(cut.at[cut.axis], infinity));
     }
-    node.search = search_across(cut.axis, bracket, node.content.weight);
+    node.search = search_across(cut.axis, bracket, node.weight);
 }
 
 /// Returns intervals in which the cuts are looked for first. Limits may move cuts anywhere.
@@ -315,7 +318,7 @@ void TreeSearch::collect_more() {
     for (Node& node : nodes_) {
         if (!std::exchange(node.is_wide, false)) continue;
         node.candidates.insert(node.candidates.end(), next->begin(), next->end());
-        node.content.entries.insert(node.content.entries.end(), next->begin(), next->end());
+        node.entries.insert(node.entries.end(), next->begin(), next->end());
         ++next;
     }
 }

@@ -139,20 +139,15 @@ class TreeSearch {
         double before = 0;  ///< weight on the ranks before it
     };
 
-    /// Points and weight of a node.
-    struct Content {
-        Entries entries;         ///< points of this rank
-        Box box;                 ///< spread: contains the points of all ranks; central: region
-                                 ///< that limits of the cuts leave, see CutLimits
-        double weight = 0;       ///< over all ranks
-        bool is_counted = true;  ///< false if the weight is wrong by up to a point
-        bool are_parts_counted = false;  ///< the guide's sums contain its parts' weights
-    };
-
     /// Node that is searched, or a part that is weighed.
     struct Node {
         Descent at;
-        Content content;
+        Entries entries{};       ///< points of this rank
+        Box box{};               ///< spread: contains the points of all ranks; central: region that
+                                 ///< limits of the cuts leave, see CutLimits
+        double weight = 0;       ///< over all ranks
+        bool is_counted = true;  ///< false if the weight is wrong by up to a point
+        bool are_parts_counted = false;  ///< the guide's sums contain its parts' weights
         CutSearch search{};
         Entries candidates{};        ///< of its entries, once it was counted
         Total below_here{};          ///< central: points of this rank known to be below the cut
@@ -179,17 +174,17 @@ class TreeSearch {
     int owner_of(const Descent& at) const;
     double ideal_share(const Descent& part) const;
     bool is_tiny(const Descent& part) const;
-    void enter(const Descent& at, Content&& content);
-    bool ends_at(const Descent& at, Content& content);
-    void add_node(const Descent& at, Content&& content);
-    Cut cut_unsearched(const Descent& at, const Content& content, double share);
-    void divide(const Descent& at, Content&& content, const Cut& cut, const Lot& lot, double below);
+    void enter(Node&& node);
+    bool ends_at(Node& node);
+    void add_node(Node&& entered);
+    Cut cut_unsearched(const Node& node, double share) const;
+    void divide(Node&& node, const Cut& cut, const Lot& lot, double below);
     void note(std::size_t node, const Cut& cut);
     void end_at_cut(Node&& node, const LotAnswer& told);
-    void weigh_part(const Descent& at, const Content& content);
+    void weigh_part(const Node& node);
     std::vector<Bracket> intervals() const;
     CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
-    CutSearch first_search(const Descent& at, const Content& content) const;
+    CutSearch first_search(const Node& node) const;
     static void turn(CutSearch& search, const Box& box, int axis);
     bool counts_all_axes(const Node& node) const;
     void count_other_axes(const Node& node, std::vector<double>& payload) const;

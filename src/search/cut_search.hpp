@@ -30,8 +30,7 @@ struct CutSearch {
     Stage stage = over_points;
     std::int32_t tied = 0;
     std::int32_t num_axes = 1;  ///< axes that may break ties, including that of the cut
-    std::int16_t by_bits = 0;   ///< 1: bins of equal numbers of doubles, see Bins
-    std::int16_t num_bins = HistogramLayout{}.num_bins;
+    std::int32_t by_bits = 0;   ///< 1: bins of equal numbers of doubles, see Bins
     Cut cut;
     double lower = 0;
     double upper = 0;

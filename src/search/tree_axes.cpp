@@ -49,24 +49,35 @@ bool TreeSearch::counts_all_axes(const Node& node) const {
 
 /// Appends the sums of this rank along the axes behind the first.
 void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload) const {
-    const HistogramLayout layout = layout_of(node.search);
-    const std::size_t num_sums = layout.length() - HistogramLayout::num_extents;
+    const std::size_t num_sums = layout_.length() - HistogramLayout::num_extents;
     CutSearch search = node.search;
     for (const int axis : tree_.axes.subspan(1)) {
         turn(search, node.box, axis);
         payload.resize(payload.size() + num_sums);
         const auto sums = std::span(payload).last(num_sums);
-        count_along(axis, points_.points(), node.entries, bins_of(search, layout), layout,
+        count_along(axis, points_.points(), node.entries, bins_of(search, layout_), layout_,
                     search.quantum, sums);
     }
+}
+
+/// Puts the bracket of a search about all points of a node, across their longest axis if the axis
+/// is free.
+void TreeSearch::frame(std::span<const double> candidates, CutSearch& search) const {
+    Box box;
+    for (; !candidates.empty(); candidates = candidates.subspan(dimension_ + 1))
+        for (int a = 0; a < dimension_; ++a) {
+            box.lower[a] = std::min(box.lower[a], candidates[a]);
+            box.upper[a] = std::max(box.upper[a], candidates[a]);
+        }
+    const bool is_free = !is_central() && tree_.cut_axes.empty();
+    turn(search, box, is_free ? longest_axis(box, tree_.axes, nearly) : search.cut.axis);
 }
 
 /// Turns a search across the axis to cut; returns the histogram along it.
 std::vector<double> TreeSearch::choose_axis(const Node& node, std::span<const double> histogram,
                                             CutSearch& search) const {
     constexpr std::size_t num_extents = HistogramLayout::num_extents;
-    const HistogramLayout layout = layout_of(search);
-    const std::size_t num_sums = layout.length() - num_extents;
+    const std::size_t num_sums = layout_.length() - num_extents;
     const auto sums = [&](std::size_t k) {
         return histogram.subspan(num_extents + k * num_sums, num_sums);
     };
@@ -77,9 +88,10 @@ std::vector<double> TreeSearch::choose_axis(const Node& node, std::span<const do
         std::vector<StatisticalDomain> along;
         for (std::size_t k = 0; k < axes.size(); ++k) {
             turn(search, node.box, axes[k]);
-            along.push_back(domain_of(bins_of(search, layout), sums(k).first(layout.num_slots())));
+            along.push_back(
+                domain_of(bins_of(search, layout_), sums(k).first(layout_.num_slots())));
         }
-        best = fewest_near(along, node, best, sum_of(counts_in(histogram, layout)));
+        best = fewest_near(along, node, best, sum_of(counts_in(histogram, layout_)));
     }
     turn(search, node.box, axes[best]);
     std::vector<double> chosen(histogram.begin(), histogram.begin() + num_extents);

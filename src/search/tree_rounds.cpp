@@ -41,7 +41,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
         points_.append(node.candidates, payload);
         return;
     }
-    payload.resize(1 + layout_of(node.search).length());
+    payload.resize(1 + layout_.length());
     payload[0] = mark_of_histogram;
     count_points(node, std::span(payload).subspan(1));
     if (counts_all_axes(node)) count_other_axes(node, payload);
@@ -54,15 +54,14 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
 void TreeSearch::count_points(const Node& node, std::span<double> histogram) const {
     const CutSearch& search = node.search;
     const bool is_first = search.stage == CutSearch::over_points;
-    const HistogramLayout layout = layout_of(search);
     clear_histogram(histogram);
     rrcb::count(points_.points(), is_first ? node.entries : node.candidates, current_axis(search),
-                bins_of(search, layout), layout, histogram);
+                bins_of(search, layout_), layout_, histogram);
     if (is_first && is_central()) {
-        count_settled(node.below_here, guide_->box, 0, layout, histogram);
-        count_settled(node.above_here, guide_->box, layout.num_bins + 1, layout, histogram);
+        count_settled(node.below_here, guide_->box, 0, layout_, histogram);
+        count_settled(node.above_here, guide_->box, layout_.num_bins + 1, layout_, histogram);
     }
-    if (layout.is_weighted) round_weights(search.quantum, layout, histogram);
+    if (layout_.is_weighted) round_weights(search.quantum, layout_, histogram);
 }
 
 /// Appends this rank's points of a lot or a part.
@@ -210,8 +209,9 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     if (search.stage == CutSearch::over_points) {
         decide_by_first_count(node, records, search);
     } else if (search.stage == CutSearch::over_candidates) {
-        decide_by_bins(search, node.target, layout_of(search), records);
+        decide_by_bins(search, node.target, layout_, records);
     } else {
+        if (node.is_taken) frame(records, search);
         is_centred = decide_among(search, node.target, records, dimension_);
     }
     if (search.stage != CutSearch::done) return search;
@@ -223,22 +223,25 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     return search;
 }
 
+/// Sets the target of a node of known weight, with `count` points.
+void TreeSearch::aim(Node& node, GlobalCount count) const {
+    node.target = tree_.rule.target_of(node.at, node.weight, node.below);
+    node.target.places = node.places;
+    node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;
+    if (node.target.places.all())
+        node.target.counts = tree_.rule.count_limits(node.at, count, node.weight);
+}
+
 /// Takes weight and box of the node from the first count.
 void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
                                        CutSearch& search) {
-    const HistogramLayout layout = layout_of(search);
-    const double weight = node.weight = sum_of(weights_in(histogram, layout));
+    node.weight = sum_of(weights_in(histogram, layout_));
     if (!is_central()) node.found = box_in(histogram);
-    if (node.counts_parts && take_sums(node, histogram.subspan(layout.length()))) return;
-    node.target = tree_.rule.target_of(node.at, weight, node.below);
-    node.target.places = node.places;
-    node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;
-    const auto count = static_cast<GlobalCount>(sum_of(counts_in(histogram, layout)));
-    if (node.target.places.all())
-        node.target.counts = tree_.rule.count_limits(node.at, count, weight);
+    if (node.counts_parts && take_sums(node, histogram.subspan(layout_.length()))) return;
+    aim(node, static_cast<GlobalCount>(sum_of(counts_in(histogram, layout_))));
     std::vector<double> along_axis;
     if (counts_all_axes(node)) histogram = along_axis = choose_axis(node, histogram, search);
-    decide_by_bins(search, node.target, layout, histogram);
+    decide_by_bins(search, node.target, layout_, histogram);
 }
 
 void TreeSearch::follow(const Butterfly& butterfly) {
@@ -306,16 +309,15 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
 /// points that are to be collected.
 void TreeSearch::keep_chosen(const CutSearch& before, Node& node) {
     const int slot = node.search.chosen;
-    const HistogramLayout layout = layout_of(before);
-    const Bins bins = bins_of(before, layout);
+    const Bins bins = bins_of(before, layout_);
     const bool is_first = before.stage == CutSearch::over_points;
     node.candidates =
         between(slot == 0 ? -infinity : bins.edge(slot - 1),
-                slot > layout.num_bins ? infinity : bins.edge(slot), current_axis(before),
+                slot > layout_.num_bins ? infinity : bins.edge(slot), current_axis(before),
                 is_first ? node.entries : node.candidates, points_.points());
     if (!is_central() || !is_first) return;
     node.is_wide = (slot == 0 && node.below_here.count > 0) ||
-                   (slot > layout.num_bins && node.above_here.count > 0);
+                   (slot > layout_.num_bins && node.above_here.count > 0);
 }
 
 }  // namespace rrcb

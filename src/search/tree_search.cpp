@@ -104,10 +104,30 @@ void TreeSearch::add_node(Node&& entered) {
         node.below_here = points_.total_in(at.lower());
         node.above_here = points_.total_in(at.upper());
         node.counts_parts = recounts() && !node.are_parts_counted;
-        return start_from_guide(node);
+        start_from_guide(node);
+    } else {
+        node.found = node.box;
+        node.search = first_search(node);
     }
-    node.found = node.box;
-    node.search = first_search(node);
+    node.is_taken = is_taken_at_once(node);
+    if (!node.is_taken) return;
+    node.search.stage = CutSearch::gathering;
+    node.candidates = node.entries;
+    aim(node, static_cast<GlobalCount>(node.weight));
+}
+
+/// Returns true if a node of this weight has so few points that a histogram has more numbers.
+bool TreeSearch::are_few(double weight) const {
+    return !layout_.is_weighted && weight <= layout_.num_bins / 4;
+}
+
+/// Returns true if the owner takes all points of a node, without counting them first.
+bool TreeSearch::is_taken_at_once(const Node& node) const {
+    const bool is_open = !is_central() || (guide_->limits == nullptr &&
+                                           points_.interval(node.at.node).lower == -infinity &&
+                                           points_.interval(node.at.node).upper == infinity);
+    return is_open && are_few(node.weight) && node.is_counted && !node.at.is_part() &&
+           !node.counts_parts;
 }
 
 /// Goes on below a cut.
@@ -196,26 +216,7 @@ CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double wei
     search.lower = bracket.lower;
     search.upper = bracket.upper;
     search.quantum = quantum_for(weight);
-    search.num_bins = static_cast<std::int16_t>(num_bins_for(axis, weight));
     return search;
-}
-
-/// Returns the number of bins for the first count of a node: fewer for few points, whose records
-/// are then shorter. Points of different weights are not counted before.
-int TreeSearch::num_bins_for(int axis, double weight) const {
-    constexpr double bins_per_point = 4;
-    constexpr double least = 8;
-    if (layout_.is_weighted || layout_.limits[static_cast<std::size_t>(axis)].has_grid())
-        return layout_.num_bins;
-    return static_cast<int>(
-        std::clamp(bins_per_point * weight, least, static_cast<double>(layout_.num_bins)));
-}
-
-/// Returns the layout of the histogram of a search.
-HistogramLayout TreeSearch::layout_of(const CutSearch& search) const {
-    HistogramLayout layout = layout_;
-    layout.num_bins = search.num_bins;
-    return layout;
 }
 
 Cuts TreeSearch::cuts() const {
@@ -257,7 +258,11 @@ std::vector<Bracket> TreeSearch::intervals() const {
     const auto find = [&](const auto& self, const Descent& at, int depth, double shifted) -> void {
         if (at.is_part()) return;
         const double share = tree_.rule.share_below(at);
-        if (share > 0 && share < 1) found[at.node] = interval_of(at, depth, shifted);
+        const double weight = guide_->is_counted
+                                  ? weight_of(at, guide_->sums)
+                                  : tree_.rule.weight_per_size * tree_.rule.size_of(at);
+        if (share > 0 && share < 1 && !are_few(weight))
+            found[at.node] = interval_of(at, depth, shifted);
         self(self, at.lower(), depth + 1, shifted);
         self(self, at.upper(), depth + 1, shifted);
     };

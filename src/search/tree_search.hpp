@@ -154,6 +154,7 @@ class TreeSearch {
         Total above_here{};          ///< and above
         Gap gap{};                   ///< while it is centred
         bool is_wide = false;        ///< central: the cut has left its interval
+        bool is_taken = false;       ///< the owner gets all points, which were not counted
         bool counts_parts = false;   ///< the first count includes the parts of the current cuts
         Box found{};                 ///< at the owner only: box of the points, once counted
         CutTarget target{};          ///< likewise
@@ -196,8 +197,10 @@ class TreeSearch {
     Bracket interval_of(const Descent& at, int depth, double& shifted) const;
     double missing_below(const Descent& at, double weight, double below) const;
     void count(const Node& node, std::vector<double>& payload);
-    int num_bins_for(int axis, double weight) const;
-    HistogramLayout layout_of(const CutSearch& search) const;
+    bool are_few(double weight) const;
+    bool is_taken_at_once(const Node& node) const;
+    void aim(Node& node, GlobalCount count) const;
+    void frame(std::span<const double> candidates, CutSearch& search) const;
     void add_lot(const Node& node, std::vector<double>& payload) const;
     void count_points(const Node& node, std::span<double> histogram) const;
     void keep_chosen(const CutSearch& before, Node& node);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "all_collected.hpp"
+#include "arithmetic/non_stop.hpp"
 #include "estimate/contribution.hpp"
 #include "memory_layer.hpp"
 #include "options/allowed_axes.hpp"
@@ -155,6 +156,7 @@ class VirtualSearch {
             std::max(totals.most_into_rank, *std::ranges::max_element(round.bytes_into()));
     }
 
+    NonStop arithmetic_;  // as in a call
     std::vector<Part> parts_;
     std::vector<std::optional<Rank>> ranks_;
     std::vector<Memory> memory_;

@@ -66,7 +66,7 @@ void write_dump(const std::filesystem::path& folder, const DumpedCall& call) {
     File file = create(path);
     std::fprintf(file.get(), "rrcb-dump 1\nversion %s\nfunction %s\ncode %d\nranks %d\n",
                  rrcb::version(), call.function, call.code, call.num_ranks);
-    for (const auto& [name, value] : call.parameters.given)
+    for (const auto& [name, value] : call.parameters.given.entries)
         std::fprintf(file.get(), "parameter %s %s\n", name.c_str(), one_line(value).c_str());
     finish(std::move(file), path);
 }

@@ -30,6 +30,9 @@ int guarded(const char* function, const State* state, Body body) noexcept {
     } catch (const std::bad_alloc&) {
         code = ZOLTAN_MEMERR;
         print_error(rank, function, "out of memory");
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::out_of_memory) code = ZOLTAN_MEMERR;
+        print_error(rank, function, error.what());
     } catch (const std::exception& thrown) {
         print_error(rank, function, thrown.what());
     } catch (...) {

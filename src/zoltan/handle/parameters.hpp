@@ -35,20 +35,14 @@ Options default_options();
 
 /// Names and values of parameters, in the order in which they were set last: set again in this
 /// order they have the same effect.
-class GivenParameters {
-  public:
+struct GivenParameters {
     /// Notes a parameter. Returns whether its value changed.
     bool note(const std::string& name, const std::string& value);
 
     /// Returns the value of a parameter, null if it was not set.
     const std::string* find(std::string_view name) const;
 
-    auto begin() const { return entries_.begin(); }
-    auto end() const { return entries_.end(); }
-    std::size_t size() const { return entries_.size(); }
-
-  private:
-    std::vector<std::pair<std::string, std::string>> entries_;
+    std::vector<std::pair<std::string, std::string>> entries{};
 };
 
 /// Parameters of a handle for the plug-in. The defaults are Zoltan's.

@@ -47,10 +47,4 @@ inline State* rrcb_state(const Zoltan_Struct* zz) {
     return state != nullptr && state->parameters.rrcb ? state : nullptr;
 }
 
-/// Returns the state of a handle whose look-ups RRCB answers; null if the real Zoltan is to answer.
-inline const State* look_up_state(const Zoltan_Struct* zz) {
-    const State* state = rrcb_state(zz);
-    return state != nullptr && !state->zoltan_has_cuts ? state : nullptr;
-}
-
 }  // namespace rrcb::zoltan

@@ -3,29 +3,12 @@
 #include "zoltan/real/message.hpp"
 
 #include <cstdlib>
-#include <mutex>
-#include <set>
 
 namespace rrcb::zoltan {
 
 namespace {
 
 constexpr const char* tolerance_name = "RRCB_IMBALANCE_TOL";
-
-/// Returns whether this is the first handle of this process with the setting.
-bool is_first(const std::string& setting) {
-    static std::mutex mutex;
-    static auto& met = *new std::set<std::string>;
-    const std::scoped_lock lock(mutex);
-    return met.insert(setting).second;
-}
-
-void warn_once(const State& state, const char* name, const char* value) {
-    if (state.communicator->rank() != 0) return;
-    const std::string text = std::string("illegal value `") + value + "' of " + name +
-                             " in the environment; default value will be used.";
-    if (is_first(text)) print_warning(0, "Zoltan_Create", text);
-}
 
 bool set(Parameters& parameters, const char* name, const char* value) {
     if (name == tolerance_name) return set_tolerance(parameters, value);
@@ -52,7 +35,9 @@ void read_environment(State& state) {
         const char* value = std::getenv(name);
         if (value == nullptr || *value == '\0') continue;
         if (!set(state.parameters, name, value)) {
-            warn_once(state, name, value);
+            warn_once(state.communicator->rank(), "Zoltan_Create",
+                      std::string("illegal value `") + value + "' of " + name +
+                          " in the environment; default value will be used.");
         } else if (belongs_to_calls(name)) {
             state.parameters.given.note(program_name_of(name), value);
         }

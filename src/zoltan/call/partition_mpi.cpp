@@ -57,17 +57,17 @@ Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Partic
 /// Collects the objects and checks the parameters of this rank. Errors and foreign exceptions
 /// become a status.
 LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects,
-                    Placed& placed) {
+                    std::optional<std::uint64_t>& checksum) {
     try {
         check_parameters(state, one_part_per_rank);
         if (forwards(state.parameters)) return {};
         objects = collect_objects(zz, state.parameters, state.workspace);
         const bool asks_for_lists = state.parameters.return_lists != ReturnLists::none;
         if (state.kept && state.last && asks_for_lists)
-            placed = find_placed(objects, *state.last, *state.kept, state.communicator->rank(),
-                                 state.workspace.parts);
+            checksum = checksum_in_place(objects, *state.last, *state.kept,
+                                         state.communicator->rank(), state.workspace.parts);
         LocalStatus status(objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, "");
-        status.may_keep = placed.are_known;
+        status.may_keep = checksum.has_value();
         status.names_parts = objects.names_parts;
         return status;
     } catch (const ZoltanError& error) {
@@ -113,12 +113,12 @@ void take_previous(Call& call) {
 
 /// Returns whether no object and no parameter has changed on any rank since the last partition.
 /// Collective if the objects may be kept: one reduction.
-bool are_kept(const Call& call, const Placed& placed) {
+bool are_kept(const Call& call, std::optional<std::uint64_t> here) {
     const State& state = call.state;
     const bool may_keep = !call.outcome.any_may_not_keep && !call.outcome.failed() &&
                           call.outcome.differing == nullptr &&
                           (!call.outcome.any_keeps_cuts || state.last->shows_all());
-    std::uint64_t checksum = placed.checksum;
+    std::uint64_t checksum = here.value_or(0);
     if (may_keep) add_up(false, checksum, state.communicator->get());
     return may_keep && checksum == state.kept->checksum;
 }
@@ -292,8 +292,8 @@ int leave_to_zoltan(const Call& call, Partition& result) {
 int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
               const CallerLists& to, Partition& result) {
     Objects objects;
-    Placed placed;
-    const LocalStatus local = collect(zz, state, one_part_per_rank, objects, placed);
+    std::optional<std::uint64_t> checksum;
+    const LocalStatus local = collect(zz, state, one_part_per_rank, objects, checksum);
     const Outcome outcome = vote(local, state);
     if (outcome.lists_differ) {
         // The memory for the lists was chosen before the vote.
@@ -305,7 +305,7 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     if (!outcome.failed() && outcome.differing == nullptr && forwards(state.parameters))
         return leave_to_zoltan(call, result);
     dump_inputs(DumpReason::asked, call, objects, local);
-    const bool is_kept = are_kept(call, placed);
+    const bool is_kept = are_kept(call, checksum);
     if (!is_kept) take_previous(call);
     if (outcome.failed()) {
         fail(call, objects, {local.code, local.text.data(), outcome.failing_rank}, result);

@@ -32,24 +32,24 @@ class FortranArrays {
         }
     }
 
-    void copy(const List& list, const CallerList& to) {
+    void copy(const List& list, const IdWidths& widths, const CallerList& to) {
         if (list.count <= 0) return;
-        copy(list.global_ids, list.count, Kind::global_ids, to.global_ids);
-        copy(list.local_ids, list.count, Kind::local_ids, to.local_ids);
-        copy(list.ranks, list.count, Kind::integers, to.ranks);
-        if (to.parts != nullptr) copy(list.parts, list.count, Kind::integers, to.parts);
+        copy(list.global_ids, list.count, widths.global, Kind::global_ids, to.global_ids);
+        copy(list.local_ids, list.count, widths.local, Kind::local_ids, to.local_ids);
+        copy(list.ranks, list.count, 1, Kind::integers, to.ranks);
+        if (to.parts != nullptr) copy(list.parts, list.count, 1, Kind::integers, to.parts);
     }
 
     void stay() noexcept { num_given_ = 0; }
 
   private:
     template <typename T, typename Pointer>
-    void copy(const ZoltanArray<T>& from, int count, Kind kind, Pointer* to) {
+    void copy(const ZoltanArray<T>& from, int count, std::size_t width, Kind kind, Pointer* to) {
         auto* const array = reinterpret_cast<void**>(to);
         if (real_zoltan()->special_malloc(zz_, array, count, static_cast<int>(kind)) == 0)
             throw std::bad_alloc();
         given_[num_given_++] = {array, kind};
-        if (from.size() > 0) std::memcpy(*array, from.get(), from.size() * sizeof(T));
+        if (from) std::memcpy(*array, from.get(), count * width * sizeof(T));
     }
 
     Zoltan_Struct* zz_;
@@ -70,12 +70,12 @@ bool is_fortran_used() noexcept {
     return registered;
 }
 
-void copy_for_fortran(Zoltan_Struct* zz, const List& imports, const List& exports,
+void copy_for_fortran(Zoltan_Struct* zz, const Lists& lists, const IdWidths& widths,
                       const CallerLists& to, Participant& self) {
     FortranArrays copies(zz);
     self.attempt([&] {
-        copies.copy(imports, to.imports);
-        copies.copy(exports, to.exports);
+        copies.copy(lists.imports, widths, to.imports);
+        copies.copy(lists.exports, widths, to.exports);
     });
     // A rank without memory leaves all ranks without lists. The error frees those made here.
     agree(self);

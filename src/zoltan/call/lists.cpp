@@ -71,12 +71,13 @@ void Moves::write(const IdWidths& widths, List& list) const {
     visit_widths(widths, [&](const auto& known) {
         visit_ranks([&](const auto& rank_of) { write_by(known, rank_of, list); });
     });
+    if (list.count == count_) return;
     const auto size = static_cast<std::size_t>(count_);
     list.count = count_;
-    list.global_ids.shrink(size * widths.global);
-    list.local_ids.shrink(size * widths.local);
-    list.ranks.shrink(size);
-    list.parts.shrink(size);
+    shrink(list.global_ids, size * widths.global);
+    shrink(list.local_ids, size * widths.local);
+    shrink(list.ranks, size);
+    shrink(list.parts, size);
 }
 
 List Moves::list_all() const {

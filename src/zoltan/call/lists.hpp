@@ -24,8 +24,11 @@ struct CallerList {
     int** parts;
 };
 
-/// The caller's variables for both lists.
+/// The caller's variables.
 struct CallerLists {
+    int* changes;
+    int* num_gid_entries;
+    int* num_lid_entries;
     CallerList imports;
     CallerList exports;
 };

@@ -207,9 +207,8 @@ class Collector {
 
 List make_list(int count, const IdWidths& widths) {
     const auto size = static_cast<std::size_t>(count);
-    return {count, ZoltanArray<IdWord>(size * widths.global),
-            ZoltanArray<IdWord>(size * widths.local), ZoltanArray<int>(size),
-            ZoltanArray<int>(size)};
+    return {count, make_array<IdWord>(size * widths.global),
+            make_array<IdWord>(size * widths.local), make_array<int>(size), make_array<int>(size)};
 }
 
 Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace) {

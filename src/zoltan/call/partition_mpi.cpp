@@ -184,7 +184,7 @@ void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&&
 /// Collective then.
 void serve_fortran(const Call& call, Partition& result, Participant& self) {
     if (!call.outcome.any_fortran) return;
-    copy_for_fortran(call.zz, result.imports, result.exports, call.to, self);
+    copy_for_fortran(call.zz, result, IdWidths(call.state.parameters), call.to, self);
     result.with_caller = true;
 }
 

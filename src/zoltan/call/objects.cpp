@@ -95,7 +95,7 @@ class Collector {
 
     void read_ids_and_weights(std::size_t count) {
         const int weight_dimension = parameters_.weight_dimension;
-        weights_ = weight_dimension == 0 ? nullptr : workspace_.callback_weights.get(count);
+        weights_ = weight_dimension == 0 ? nullptr : room_in(workspace_.callback_weights, count);
         const auto list = callback<ZOLTAN_OBJ_LIST_FN>(zz_, ZOLTAN_OBJ_LIST_FN_TYPE);
         if (list) {
             int code = ZOLTAN_OK;
@@ -130,11 +130,11 @@ class Collector {
 
     void read_coordinates(std::size_t count) {
         const auto dimension = static_cast<std::size_t>(objects_.points.dimension);
-        double* coordinates = workspace_.coordinates.get(count * dimension);
+        double* coordinates = room_in(workspace_.coordinates, count * dimension);
         read_geometry(count, coordinates);
         std::span<const double> weights;
         if (weights_ != nullptr) {
-            double* converted = workspace_.weights.get(count);
+            double* converted = room_in(workspace_.weights, count);
             std::copy_n(weights_, count, converted);
             weights = {converted, count};
         }
@@ -165,7 +165,7 @@ class Collector {
         const auto single = callback<ZOLTAN_PART_FN>(zz_, ZOLTAN_PART_FN_TYPE);
         objects_.names_parts = multi || single;
         if (!objects_.names_parts || count == 0) return;
-        objects_.initial_parts = workspace_.initial_parts.get(count);
+        objects_.initial_parts = room_in(workspace_.initial_parts, count);
         int code = ZOLTAN_OK;
         if (multi) {
             multi(gid_, lid_, objects_.count, global_id(0), local_id(0), objects_.initial_parts,
@@ -182,15 +182,16 @@ class Collector {
     /// Allocates memory for later steps: they run between messages, when no rank may fail alone.
     void allocate(std::size_t count) {
         const ReturnLists asked = parameters_.return_lists;
-        if (asked != ReturnLists::none) objects_.moving = workspace_.moving.get(count);
+        if (asked != ReturnLists::none) objects_.moving = room_in(workspace_.moving, count);
         if (asked == ReturnLists::exports || asked == ReturnLists::parts) {
             objects_.room = make_list(objects_.count, widths_);
             objects_.global_ids = objects_.room.global_ids.get();
             objects_.local_ids = objects_.room.local_ids.get();
             return;
         }
-        objects_.global_ids = workspace_.global_ids.get(count * widths_.global);
-        if (widths_.local > 0) objects_.local_ids = workspace_.local_ids.get(count * widths_.local);
+        objects_.global_ids = room_in(workspace_.global_ids, count * widths_.global);
+        if (widths_.local > 0)
+            objects_.local_ids = room_in(workspace_.local_ids, count * widths_.local);
     }
 
     Zoltan_Struct* zz_;

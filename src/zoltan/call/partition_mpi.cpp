@@ -253,20 +253,15 @@ void dump_inputs(DumpReason reason, const Call& call, const Objects& objects,
          {call.function, objects.points, objects.initial_parts, status.code, status.text.data()});
 }
 
-/// A failure of a call on all ranks alike.
-struct Failure {
-    int code;
-    std::string_view text;
-    int speaker = 0;  ///< rank that prints the text
-};
-
-/// Prints, dumps the inputs and empties the result; returns the code. Collective as dump() is.
-int fail(const Call& call, const Objects& objects, const Failure& failure, Partition& result) {
-    if (call.state.communicator->rank() == failure.speaker)
-        print_error(failure.speaker, call.function, failure.text);
-    dump_inputs(DumpReason::failure, call, objects, {failure.code, failure.text});
+/// Fails on all ranks alike: `speaker` prints the text. Dumps the inputs and empties the result;
+/// returns the code. Collective as dump() is.
+int fail(const Call& call, const Objects& objects, const LocalStatus& status, Partition& result,
+         int speaker = 0) {
+    if (call.state.communicator->rank() == speaker)
+        print_error(speaker, call.function, status.text.data());
+    dump_inputs(DumpReason::failure, call, objects, status);
     result = Partition{};
-    return failure.code;
+    return status.code;
 }
 
 /// Fails for a parameter that differs between ranks.
@@ -308,7 +303,7 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     const bool is_kept = are_kept(call, checksum);
     if (!is_kept) take_previous(call);
     if (outcome.failed()) {
-        fail(call, objects, {local.code, local.text.data(), outcome.failing_rank}, result);
+        fail(call, objects, local, result, outcome.failing_rank);
         return outcome.code;
     }
     if (outcome.differing != nullptr) return refuse_difference(call, objects, result);

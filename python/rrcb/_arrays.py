@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from typing import Any, Callable
 
 import numpy as np
+from mpi4py import MPI
 
 from . import _library as c
+from ._agreement import prepare
 
 Array = np.ndarray[Any, np.dtype[Any]]
 FLOATS = {np.dtype(np.float64): 4, np.dtype(np.float32): 3}
@@ -18,6 +20,14 @@ NUMBERS = {np.dtype(np.int32): 1, np.dtype(np.int64): 2, **FLOATS}
 def pointer(values: Array) -> int | None:
     """Returns the address of an array, None if it is empty."""
     return values.ctypes.data if values.size else None
+
+
+def copied(address: Any, shape: tuple[int, ...], dtype: Any = np.float64) -> Array:
+    """Returns a copy of an array of the library."""
+    values = np.empty(shape, dtype=dtype)
+    if values.size:
+        ctypes.memmove(values.ctypes.data, address, values.nbytes)
+    return values
 
 
 def float_type(values: Array, name: str) -> int:
@@ -221,6 +231,15 @@ class Columns:
             if size > 0
         ]
         return len(made), (c.Column * len(made))(*made)
+
+
+def move(
+    comm: MPI.Intracomm, function: str, own: c.Handle, local: Callable[[], Columns]
+) -> Any:
+    """Moves the columns of local() by a function of the library; returns what arrives. Collective."""
+    columns = prepare(comm, local, Columns.signature)
+    c.call(function, own, *columns.as_bytes(), None, None)
+    return columns.result()
 
 
 def row_length(values: Array) -> int:

@@ -13,7 +13,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare, together
-from ._arrays import Array, Columns, Points, as_array, numbers_in
+from ._arrays import Array, Columns, Points, as_array, move, numbers_in
 from ._cuts import CUT, Cuts, cuts_of
 from ._ghosts import Ghosts
 
@@ -77,11 +77,11 @@ class Plan:
         points that stay, then those that arrive, by rank.
         """
         rows = self._plan()
-        columns = prepare(
-            self.comm, lambda: Columns(data, len(self.parts), "points", rows), Columns.signature
-        )
-        c.call("transfer", self._own, *columns.as_bytes(), None, None)
-        return columns.result()
+
+        def local() -> Columns:
+            return Columns(data, len(self.parts), "points", rows)
+
+        return move(self.comm, "transfer", self._own, local)
 
     def _plan(self) -> int:
         if self._num_points_after is None:

@@ -198,14 +198,7 @@ class CostModel(Owner):
         if rows.size and rows.shape[1:] != (self.num_columns,):
             raise c.Error(f"columns must have the shape (n, {self.num_columns}), not {rows.shape}")
         weights = np.empty(len(rows))
-        c.call(
-            "cost_model_weights",
-            self._own,
-            len(rows),
-            self.num_columns,
-            rows,
-            weights,
-        )
+        c.call("cost_model_weights", self._own, len(rows), self.num_columns, rows, weights)
         return weights
 
     @property

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator
-from ._arrays import Array, Points, numbers_in
+from ._arrays import Array, Points, copied, numbers_in
 
 CUT = np.dtype([("axis", np.int32), ("divides", np.int32), ("at", np.float64, 3)])
 
@@ -129,9 +128,7 @@ def cuts_of(balancer: c.Handle) -> Cuts:
     """Returns a copy of the cuts of a balancer."""
     shown = c.Cuts()
     c.call("get_cuts", balancer, shown)
-    tree = np.empty(shown.num_parts - 1, dtype=CUT)
-    if len(tree):
-        ctypes.memmove(tree.ctypes.data, shown.tree, tree.nbytes)
+    tree = copied(shown.tree, (shown.num_parts - 1,), CUT)
     shape = (shown.group_size, shown.larger_below, shown.dealt)
     near = (shown.near_reach, shown.near_share)
     return Cuts(shown.dimension, shown.num_parts, tree, shape, near)

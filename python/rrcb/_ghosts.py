@@ -11,7 +11,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare, together
-from ._arrays import NUMBERS, Array, Columns, Points, axes_of, numbers_in, pointer
+from ._arrays import NUMBERS, Array, Columns, Points, axes_of, copied, move, numbers_in, pointer
 
 NEEDS = ("sender", "receiver", "either")
 
@@ -98,11 +98,11 @@ class Ghosts:
         for each row in `sent`, by ascending rank: np.concatenate([*ghosts.sent.values()]).
         """
         rows = sum(map(len, self.sent.values()))
-        columns = prepare(
-            self.comm, lambda: Columns(data, self.count, "ghosts", rows), Columns.signature
-        )
-        c.call("ghosts_reply", self._own, *columns.as_bytes(), None, None)
-        return columns.result()
+
+        def local() -> Columns:
+            return Columns(data, self.count, "ghosts", rows)
+
+        return move(self.comm, "ghosts_reply", self._own, local)
 
     def accumulate(self, data: Any) -> Any:
         """Returns the sum of the ghosts' values for each point of this rank. Collective.
@@ -143,7 +143,7 @@ class Ghosts:
             self.comm, local, lambda p=None, o=None: c.call("ghosts_verify", self._own, p, o, seen)
         )
         lists = [
-            np.frombuffer(ctypes.string_at(address, count * FAULT.itemsize), dtype=FAULT)
+            copied(address, (count,), FAULT)
             for address, count in (
                 (seen.missing, seen.num_missing),
                 (seen.twice, seen.num_twice),
@@ -157,9 +157,7 @@ class Ghosts:
             check()
             return Columns(data, self.num_points, "points", self.count)
 
-        columns = prepare(self.comm, local, Columns.signature)
-        c.call("ghosts_fetch", self._own, *columns.as_bytes(), None, None)
-        return columns.result()
+        return move(self.comm, "ghosts_fetch", self._own, local)
 
     def _require_positions(self, x: Any) -> None:
         given, needed = Points(x).dimension, self.shifts.shape[1]
@@ -173,9 +171,7 @@ class Ghosts:
         shares = [shown.receive[k] for k in range(shown.num_receive_ranks)]
         counts = [share.count for share in shares]
         self.ranks = np.repeat(np.array([share.rank for share in shares], dtype=np.int32), counts)
-        rows = np.empty(shown.num_sent, dtype=np.uintp)
-        if len(rows):
-            ctypes.memmove(rows.ctypes.data, shown.send_indices, rows.nbytes)
+        rows = copied(shown.send_indices, (shown.num_sent,), np.uintp)
         needs = [shown.send[k] for k in range(shown.num_send_ranks)]
         ends = np.cumsum([need.count for need in needs], dtype=int)
         self.sent = {n.rank: rows[end - n.count : end] for n, end in zip(needs, ends)}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,7 @@ from mpi4py import MPI
 
 from . import _library as c
 from ._agreement import communicator, prepare, together
-from ._arrays import Array, Columns, Points, as_array, numbers_in
+from ._arrays import Array, Columns, Points, as_array, copied, move, numbers_in
 from ._balance import Balance, Distribution
 
 PLACES = ("centre", "first_point")
@@ -44,13 +43,11 @@ class Groups:
 
         `data` has a row for each group of this rank, as for Balance.distribute().
         """
-        columns = prepare(
-            self.comm,
-            lambda: Columns(data, len(self.x), "groups", self._num_points),
-            Columns.signature,
-        )
-        c.call("groups_fetch", self._own, *columns.as_bytes(), None, None)
-        return columns.result()
+
+        def local() -> Columns:
+            return Columns(data, len(self.x), "groups", self._num_points)
+
+        return move(self.comm, "groups_fetch", self._own, local)
 
     def sums(self, values: Any) -> Array:
         """Returns the sum over the points of each group of this rank. Collective.
@@ -141,11 +138,3 @@ def keys_of(keys: Any, shape: tuple[int, ...]) -> Array:
     if values.shape != shape:
         raise c.Error(f"keys must have the shape {shape}, not {values.shape}")
     return np.ascontiguousarray(values, dtype=np.uint64)
-
-
-def copied(address: int, shape: tuple[int, ...]) -> Array:
-    """Returns a copy of doubles of the library."""
-    values = np.empty(shape)
-    if values.size:
-        ctypes.memmove(values.ctypes.data, address, values.nbytes)
-    return values

@@ -16,152 +16,103 @@ from ctypes import (
 from typing import Any
 
 
+def members(**types: Any) -> list[tuple[str, Any]]:
+    """Returns the members of a structure, in their order."""
+    return list(types.items())
+
+
 class Points(Structure):
     """rrcb_points."""
 
-    _fields_ = [
-        ("dimension", c_int),
-        ("type", c_int),
-        ("count", c_size_t),
-        ("stride", c_size_t),
-        ("axes", c_void_p * 3),
-        ("weights", c_void_p),
-    ]
+    _fields_ = members(
+        dimension=c_int, type=c_int, count=c_size_t, stride=c_size_t, axes=c_void_p * 3,
+        weights=c_void_p
+    )
 
 
 class Cuts(Structure):
     """rrcb_cuts."""
 
-    _fields_ = [
-        ("dimension", c_int),
-        ("num_parts", c_int),
-        ("tree", c_void_p),
-        ("group_size", c_int),
-        ("larger_below", c_int),
-        ("dealt", c_int),
-        ("near_reach", c_double),
-        ("near_share", c_double),
-    ]
+    _fields_ = members(
+        dimension=c_int, num_parts=c_int, tree=c_void_p, group_size=c_int, larger_below=c_int,
+        dealt=c_int, near_reach=c_double, near_share=c_double
+    )
 
 
 class Report(Structure):
     """rrcb_report."""
 
-    _fields_ = [
-        ("imbalance", c_double),
-        ("within_tolerance", c_int),
-        ("kept", c_int),
-        ("num_points", c_int64),
-        ("total_weight", c_double),
-        ("least_imbalance", c_double),
-        ("estimated_imbalance", c_double),
-        ("num_records", c_int64),
-        ("rounds", c_int),
-        ("coincident_cuts", c_int),
-        ("all_weights_zero", c_int),
-        ("surplus_parts", c_int),
-        ("near_before", c_double),
-        ("near_after", c_double),
-    ]
+    _fields_ = members(
+        imbalance=c_double, within_tolerance=c_int, kept=c_int, num_points=c_int64,
+        total_weight=c_double, least_imbalance=c_double, estimated_imbalance=c_double,
+        num_records=c_int64, rounds=c_int, coincident_cuts=c_int, all_weights_zero=c_int,
+        surplus_parts=c_int, near_before=c_double, near_after=c_double
+    )
 
 
 class Column(Structure):
     """rrcb_column."""
 
-    _fields_ = [
-        ("type", c_int),
-        ("components", c_size_t),
-        ("from_", c_void_p),
-        ("to", c_void_p),
-    ]
+    _fields_ = members(type=c_int, components=c_size_t, from_=c_void_p, to=c_void_p)
 
 
 class Plan(Structure):
     """rrcb_plan_lists."""
 
-    _fields_ = [
-        ("num_points", c_size_t),
-        ("num_points_after", c_size_t),
-        ("num_exports", c_size_t),
-        ("export_indices", c_void_p),
-        ("export_ranks", c_void_p),
-        ("export_parts", c_void_p),
-        ("num_imports", c_size_t),
-        ("import_ranks", c_void_p),
-        ("import_indices", c_void_p),
-        ("import_parts", c_void_p),
-    ]
+    _fields_ = members(
+        num_points=c_size_t, num_points_after=c_size_t, num_exports=c_size_t,
+        export_indices=c_void_p, export_ranks=c_void_p, export_parts=c_void_p, num_imports=c_size_t,
+        import_ranks=c_void_p, import_indices=c_void_p, import_parts=c_void_p
+    )
 
 
 class GhostOptions(Structure):
     """rrcb_ghost_options."""
 
-    _fields_ = [
-        ("radius", c_double),
-        ("radii", c_void_p),
-        ("lower", c_void_p),
-        ("upper", c_void_p),
-        ("ranks_of_parts", c_void_p),
-        ("num_parts", c_size_t),
-        ("needs", c_int),
-    ]
+    _fields_ = members(
+        radius=c_double, radii=c_void_p, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
+        num_parts=c_size_t, needs=c_int
+    )
 
 
 class RankCount(Structure):
     """rrcb_rank_count."""
 
-    _fields_ = [("rank", c_int), ("count", c_size_t)]
+    _fields_ = members(rank=c_int, count=c_size_t)
 
 
 class RankRange(Structure):
     """rrcb_rank_range."""
 
-    _fields_ = [("first_rank", c_int), ("count", c_int)]
+    _fields_ = members(first_rank=c_int, count=c_int)
 
 
 class GhostPlan(Structure):
     """rrcb_ghost_plan."""
 
-    _fields_ = [
-        ("num_points", c_size_t),
-        ("num_ghosts", c_size_t),
-        ("num_send_ranks", c_size_t),
-        ("send", POINTER(RankCount)),
-        ("num_sent", c_size_t),
-        ("send_indices", c_void_p),
-        ("num_receive_ranks", c_size_t),
-        ("receive", POINTER(RankCount)),
-        ("shifts", c_void_p),
-    ]
+    _fields_ = members(
+        num_points=c_size_t, num_ghosts=c_size_t, num_send_ranks=c_size_t, send=POINTER(RankCount),
+        num_sent=c_size_t, send_indices=c_void_p, num_receive_ranks=c_size_t,
+        receive=POINTER(RankCount), shifts=c_void_p
+    )
 
 
 class VerifyOptions(Structure):
     """rrcb_verify_options."""
 
-    _fields_ = [
-        ("sample", c_size_t),
-        ("radius", c_double),
-        ("radii", c_void_p),
-        ("num_ids", c_size_t),
-        ("ids", c_void_p),
-        ("num_ids_before", c_size_t),
-        ("ids_before", c_void_p),
-    ]
+    _fields_ = members(
+        sample=c_size_t, radius=c_double, radii=c_void_p, num_ids=c_size_t, ids=c_void_p,
+        num_ids_before=c_size_t, ids_before=c_void_p
+    )
 
 
 class Verification(Structure):
     """rrcb_verification."""
 
-    _fields_ = [
-        ("num_pairs", c_int64),
-        ("num_faults", c_int64),
-        ("num_missing", c_size_t),
-        ("missing", c_void_p),
-        ("num_twice", c_size_t),
-        ("twice", c_void_p),
-        ("num_strangers", c_size_t),
-        ("strangers", c_void_p),
-    ]
+    _fields_ = members(
+        num_pairs=c_int64, num_faults=c_int64, num_missing=c_size_t, missing=c_void_p,
+        num_twice=c_size_t, twice=c_void_p, num_strangers=c_size_t, strangers=c_void_p
+    )
 
 
 class Address:

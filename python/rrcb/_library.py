@@ -24,6 +24,7 @@ from ._interface import (
     Report as Report,
     Verification as Verification,
     VerifyOptions as VerifyOptions,
+    members,
 )
 
 __all__: list[str] = []
@@ -46,12 +47,7 @@ class Error(RuntimeError):
 class DlInfo(Structure):
     """Dl_info of dladdr()."""
 
-    _fields_ = [
-        ("fname", c_char_p),
-        ("fbase", c_void_p),
-        ("sname", c_char_p),
-        ("saddr", c_void_p),
-    ]
+    _fields_ = members(fname=c_char_p, fbase=c_void_p, sname=c_char_p, saddr=c_void_p)
 
 
 def file_of(library: ctypes.CDLL, symbol: str) -> str:

@@ -64,9 +64,6 @@ inline void show(const std::vector<std::byte>& saved, const void** bytes, std::s
     *size = saved.size();
 }
 
-/// Throws Error if coordinates cannot have the type.
-void check_coordinate(rrcb_type type);
-
 /// Returns a view of the points of a call. Throws Error if there are none, or they have no
 /// coordinates.
 Points points_of(const rrcb_points* points);

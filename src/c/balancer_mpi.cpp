@@ -38,17 +38,11 @@ void balance(const rrcb_points* from, int32_t* parts, rrcb_balancer& own, Partic
 
 using rrcb::CallName;
 using rrcb::Participant;
-using rrcb::c::guarded;
 using rrcb::c::guarded_together;
 using rrcb::c::require_cuts;
 
 int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer) {
-    return guarded([&] {
-        Participant self = rrcb::mpi::enter(comm, CallName::create);
-        auto made = rrcb::c::make_handle(self, balancer);
-        made->comm = comm;
-        *balancer = made.release();
-    });
+    return rrcb::c::create(comm, CallName::create, balancer, [&](auto& own) { own.comm = comm; });
 }
 
 int rrcb_create_fortran(int comm, rrcb_balancer** balancer) {

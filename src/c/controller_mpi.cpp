@@ -88,12 +88,8 @@ void check_columns(const rrcb_cost_model& own, std::size_t num_columns) {
 }  // namespace
 
 int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller) {
-    return guarded([&] {
-        Participant self = rrcb::mpi::enter(comm, CallName::controller);
-        auto made = rrcb::c::make_handle(self, controller);
-        made->controller.emplace(comm);
-        *controller = made.release();
-    });
+    return rrcb::c::create(comm, CallName::controller, controller,
+                           [&](auto& own) { own.controller.emplace(comm); });
 }
 
 int rrcb_controller_create_fortran(int comm, rrcb_controller** controller) {
@@ -106,11 +102,8 @@ int rrcb_controller_save(rrcb_controller* controller, const void** bytes, size_t
 
 int rrcb_controller_load(MPI_Comm comm, const void* bytes, size_t size,
                          rrcb_controller** controller) {
-    return guarded([&] {
-        Participant self = rrcb::mpi::enter(comm, CallName::load);
-        auto made = rrcb::c::make_handle(self, controller);
-        made->controller.emplace(rrcb::load<rrcb::Controller>(saved_bytes(bytes, size), comm));
-        *controller = made.release();
+    return rrcb::c::create(comm, CallName::load, controller, [&](auto& own) {
+        own.controller.emplace(rrcb::load<rrcb::Controller>(saved_bytes(bytes, size), comm));
     });
 }
 

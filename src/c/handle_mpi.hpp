@@ -32,6 +32,18 @@ std::unique_ptr<Handle> make_handle(
     return made;
 }
 
+/// Makes a handle on a communicator, completes it by fill(handle) and stores it. Collective; no
+/// exception leaves it.
+template <class Handle, class Fill>
+int create(MPI_Comm comm, CallName call, Handle** where, Fill&& fill) noexcept {
+    return guarded([&] {
+        Participant self = mpi::enter(comm, call);
+        auto made = make_handle(self, where);
+        fill(*made);
+        *where = made.release();
+    });
+}
+
 /// Runs the body of a collective function of a handle; no exception leaves it.
 template <class Handle, class Body>
 int guarded_together(CallName call, Handle* handle, Body&& body) noexcept {

@@ -52,11 +52,6 @@ void set_axes(const rrcb_points& from, Points& points, std::array<std::span<cons
 
 }  // namespace
 
-void check_coordinate(rrcb_type type) {
-    if (type != RRCB_DOUBLE && type != RRCB_FLOAT)
-        reject("coordinates must have the type RRCB_DOUBLE or RRCB_FLOAT; set it to theirs");
-}
-
 Points points_of(const rrcb_points* from) {
     require(from, "points");
     check_fortran(*from);
@@ -66,7 +61,8 @@ Points points_of(const rrcb_points* from) {
     if (points.count == 0 || points.dimension < 1 || points.dimension > max_dimension)
         return points;
     const std::size_t bytes = bytes_of(from->type);
-    check_coordinate(from->type);
+    if (from->type != RRCB_DOUBLE && from->type != RRCB_FLOAT)
+        reject("coordinates must have the type RRCB_DOUBLE or RRCB_FLOAT; set it to theirs");
     if (points.count > PTRDIFF_MAX / std::max(from->stride, bytes))
         reject("count and stride exceed the memory; count is the number of points of this rank");
     if (from->stride < bytes || from->stride % bytes != 0)

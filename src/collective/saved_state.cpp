@@ -37,9 +37,11 @@ std::string name_of(StateKind kind) {
         case StateKind::controller:
             return "a Controller";
         case StateKind::cost_model:
+            return "a CostModel";
+        case StateKind::zoltan_handle:
             break;
     }
-    return "a CostModel";
+    return "a handle of Zoltan";
 }
 
 void check_head(std::span<const std::uint64_t> words, std::size_t num_bytes, StateKind kind) {

@@ -4,7 +4,7 @@ module rrcb_balancers
   use rrcb_types
   use rrcb_c_types
   use rrcb_c_functions
-  use rrcb_functions, only: cuts_from, num_cuts, save_by, settle, three_of
+  use rrcb_functions, only: save_by, settle, three_of
 #ifdef RRCB_MPI_F08
   use mpi_f08, only: MPI_Comm
 #endif
@@ -126,8 +126,12 @@ contains
     type(rrcb_cuts), intent(inout) :: cuts
     integer, intent(out), optional :: error
     type(c_cuts) :: from
+    type(rrcb_cut), pointer :: tree(:)
     call settle(c_get_cuts(self%handle, from), error)
-    call cuts_from(from, cuts)
+    call c_f_pointer(from%tree, tree, [from%num_parts - 1])
+    cuts = rrcb_cuts(from%dimension, from%group_size, from%dealt, from%larger_below == 1, &
+                     from%near_reach, from%near_share, tree)
+    cuts%tree%axis = cuts%tree%axis + 1
   end subroutine
 
   !> Gives each rank's balancer all cuts, if each holds a part of them. Collective.
@@ -142,9 +146,10 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_cuts), intent(in) :: cuts
     integer, intent(out), optional :: error
-    type(rrcb_cut), target :: tree(num_cuts(cuts))
+    type(rrcb_cut), allocatable, target :: tree(:)
     type(c_cuts) :: given
-    if (size(tree) > 0) tree = cuts%tree
+    allocate (tree(0))
+    if (allocated(cuts%tree)) tree = cuts%tree
     tree%axis = tree%axis - 1
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
                    merge(1, 0, cuts%larger_below), cuts%dealt, cuts%near_reach, &

@@ -9,7 +9,7 @@ module rrcb_functions
   private
   public :: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, rrcb_ranks_of_part, &
     rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of, save_by, settle, &
-    three_of, num_cuts, cuts_from
+    three_of
 
 contains
 
@@ -43,28 +43,6 @@ contains
     end if
     call settle(code, error)
   end subroutine
-
-  !> Copies cuts of C.
-  subroutine cuts_from(from, cuts)
-    type(c_cuts), intent(in) :: from
-    type(rrcb_cuts), intent(inout) :: cuts
-    type(rrcb_cut), pointer :: tree(:)
-    call c_f_pointer(from%tree, tree, [from%num_parts - 1])
-    cuts%dimension = from%dimension
-    cuts%group_size = from%group_size
-    cuts%larger_below = from%larger_below == 1
-    cuts%dealt = from%dealt
-    cuts%near_reach = from%near_reach
-    cuts%near_share = from%near_share
-    cuts%tree = tree
-    cuts%tree%axis = cuts%tree%axis + 1
-  end subroutine
-
-  pure integer function num_cuts(cuts)
-    type(rrcb_cuts), intent(in) :: cuts
-    num_cuts = 0
-    if (allocated(cuts%tree)) num_cuts = size(cuts%tree)
-  end function
 
   pure function three_of(values) result(three)
     real(c_double), intent(in) :: values(:)

@@ -76,25 +76,6 @@ struct Adder {
     }
 };
 
-/// Reads an option from a complete list.
-struct Getter {
-    const ParameterList& list;
-    const Option& option;
-    Options& options;
-
-    template <class Number>
-    void operator()(const Range<Number>& range) const {
-        range.field.set(options, list.get<Number>(option.parameter));
-    }
-    void operator()(const Choice& choice) const {
-        choice.set(options, Teuchos::getIntegralValue<int>(list, option.parameter));
-    }
-    void operator()(const Lists&) const {}
-    void operator()(const Rows&) const {
-        read_option(option, list.get<std::string>(option.parameter), options);
-    }
-};
-
 void add_parameters_of_plug_in(ParameterList& list) {
     for (const Option& option : plug_in_table) visit_kind(option, Adder{list, option});
     // Teuchos has no unsigned 64-bit number.
@@ -225,7 +206,8 @@ Options options_from(const ParameterList& list) {
     const ParameterList all = completed(list);
     Options options;
     for (const Option& option : option_table)
-        if (is_listed(option)) visit_kind(option, Getter{all, option, options});
+        if (is_listed(option))
+            read_option(option, zoltan_string(all.getEntry(option.parameter)), options);
     return options;
 }
 

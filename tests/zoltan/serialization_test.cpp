@@ -216,25 +216,6 @@ TEST(Serialization, refuses_a_truncated_or_changed_buffer_and_leaves_the_handle_
     expect_same_look_ups(sender, receiver.zz);
 }
 
-/// Head of a buffer as serialization.cpp has it, with the checksum (FNV-1a) of the bytes behind it.
-void sign(std::vector<char>& bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    for (std::size_t i = 24; i < bytes.size(); ++i)
-        hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3U;
-    std::memcpy(bytes.data() + 16, &hash, sizeof hash);
-}
-
-TEST(Serialization, refuses_a_flag_that_is_neither_true_nor_false_under_the_right_checksum) {
-    Program program;
-    program.set("LB_METHOD", "RRCB");
-    std::vector<char> bytes = bytes_of(program.zz);
-    sign(bytes);
-    ASSERT_EQ(bytes, bytes_of(program.zz));
-    bytes.back() = 2;  // whether cuts follow
-    sign(bytes);
-    EXPECT_EQ(Zoltan_Deserialize(program.zz, bytes.size(), bytes.data()), ZOLTAN_FATAL);
-}
-
 TEST(Serialization, refuses_a_buffer_of_the_other_byte_order_by_name) {
     Program program;
     program.set("LB_METHOD", "RRCB");

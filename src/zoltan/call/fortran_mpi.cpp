@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstring>
 #include <new>
+#include <utility>
 
 namespace rrcb::zoltan {
 
@@ -17,50 +18,43 @@ std::atomic<bool> registered = false;
 /// Kinds of arrays, as Zoltan_Special_Malloc numbers them.
 enum class Kind : int { integers, global_ids, local_ids };
 
-/// Arrays of one list in the caller's variables. The destructor frees them unless stay() was
-/// called.
-class FortranList {
+/// Arrays in the caller's variables, which the destructor frees unless stay() was called.
+class FortranArrays {
   public:
-    FortranList(Zoltan_Struct* zz, const CallerList& to) : zz_(zz), to_(to) {}
-    FortranList(const FortranList&) = delete;
-    FortranList& operator=(const FortranList&) = delete;
-    ~FortranList() {
-        for (const Given& given : given_) {
-            if (given.array == nullptr) continue;
-            real_zoltan()->special_free(zz_, given.array, static_cast<int>(given.kind));
-            *given.array = nullptr;
+    explicit FortranArrays(Zoltan_Struct* zz) : zz_(zz) {}
+    FortranArrays(const FortranArrays&) = delete;
+    FortranArrays& operator=(const FortranArrays&) = delete;
+    ~FortranArrays() {
+        for (int i = 0; i < num_given_; ++i) {
+            const auto [array, kind] = given_[i];
+            real_zoltan()->special_free(zz_, array, static_cast<int>(kind));
+            *array = nullptr;
         }
     }
 
-    void copy(const List& list) {
+    void copy(const List& list, const IdWidths& widths, const CallerList& to) {
         if (list.count <= 0) return;
-        copy(list.global_ids, list.count, Kind::global_ids, to_.global_ids, given_[0]);
-        copy(list.local_ids, list.count, Kind::local_ids, to_.local_ids, given_[1]);
-        copy(list.ranks, list.count, Kind::integers, to_.ranks, given_[2]);
-        if (to_.parts != nullptr)
-            copy(list.parts, list.count, Kind::integers, to_.parts, given_[3]);
+        copy(list.global_ids, list.count, widths.global, Kind::global_ids, to.global_ids);
+        copy(list.local_ids, list.count, widths.local, Kind::local_ids, to.local_ids);
+        copy(list.ranks, list.count, 1, Kind::integers, to.ranks);
+        if (to.parts != nullptr) copy(list.parts, list.count, 1, Kind::integers, to.parts);
     }
 
-    void stay() noexcept { given_ = {}; }
+    void stay() noexcept { num_given_ = 0; }
 
   private:
-    struct Given {
-        void** array = nullptr;
-        Kind kind = Kind::integers;
-    };
-
     template <typename T, typename Pointer>
-    void copy(const ZoltanArray<T>& from, int count, Kind kind, Pointer* to, Given& given) {
+    void copy(const ZoltanArray<T>& from, int count, std::size_t width, Kind kind, Pointer* to) {
         auto* const array = reinterpret_cast<void**>(to);
         if (real_zoltan()->special_malloc(zz_, array, count, static_cast<int>(kind)) == 0)
             throw std::bad_alloc();
-        given = {array, kind};
-        if (from.size() > 0) std::memcpy(*array, from.get(), from.size() * sizeof(T));
+        given_[num_given_++] = {array, kind};
+        if (from) std::memcpy(*array, from.get(), count * width * sizeof(T));
     }
 
     Zoltan_Struct* zz_;
-    const CallerList& to_;
-    std::array<Given, 4> given_;
+    std::array<std::pair<void**, Kind>, 8> given_;  ///< of both lists
+    int num_given_ = 0;
 };
 
 }  // namespace
@@ -76,18 +70,16 @@ bool is_fortran_used() noexcept {
     return registered;
 }
 
-void copy_for_fortran(Zoltan_Struct* zz, const List& imports, const List& exports,
+void copy_for_fortran(Zoltan_Struct* zz, const Lists& lists, const IdWidths& widths,
                       const CallerLists& to, Participant& self) {
-    FortranList import_copy(zz, to.imports);
-    FortranList export_copy(zz, to.exports);
+    FortranArrays copies(zz);
     self.attempt([&] {
-        import_copy.copy(imports);
-        export_copy.copy(exports);
+        copies.copy(lists.imports, widths, to.imports);
+        copies.copy(lists.exports, widths, to.exports);
     });
     // A rank without memory leaves all ranks without lists. The error frees those made here.
     agree(self);
-    import_copy.stay();
-    export_copy.stay();
+    copies.stay();
 }
 
 }  // namespace rrcb::zoltan

@@ -22,7 +22,7 @@ bool is_fortran_used() noexcept;
 /// Variables of Fortran hold more than the address of an array: for handles of Zoltan's Fortran
 /// interface that memory is Fortran's own. Collective over `self.comm`: one reduction. Throws Error
 /// on all ranks if one has no memory; then the caller gets no list.
-void copy_for_fortran(Zoltan_Struct* zz, const List& imports, const List& exports,
+void copy_for_fortran(Zoltan_Struct* zz, const Lists& lists, const IdWidths& widths,
                       const CallerLists& to, Participant& self);
 
 }  // namespace rrcb::zoltan

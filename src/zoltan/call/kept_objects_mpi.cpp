@@ -45,11 +45,12 @@ std::uint64_t checksum_of(const Points& points, std::span<const Part> parts) {
     });
 }
 
-Placed find_placed(const Objects& objects, LastPartition& last, const KeptObjects& kept, int rank,
-                   std::vector<Part>& parts) {
+std::optional<std::uint64_t> checksum_in_place(const Objects& objects, LastPartition& last,
+                                               const KeptObjects& kept, int rank,
+                                               std::vector<Part>& parts) {
     const NonStop arithmetic;
     const PartMap& map = last.map();
-    if (!map.one_each && !objects.names_parts) return {};
+    if (!map.one_each && !objects.names_parts) return std::nullopt;
     const auto count = static_cast<std::size_t>(objects.count);
     const int* named = objects.initial_parts;
     parts.assign(count, rank);
@@ -60,11 +61,12 @@ Placed find_placed(const Objects& objects, LastPartition& last, const KeptObject
     if (ask_cuts) last.prepare_look_ups();
     for (std::size_t i = 0; i < count; ++i) {
         const Part part = parts[i];
-        if (part < 0 || part >= map.num_parts) return {};
-        if (!map.ranks_of(part).contains(rank)) return {};
-        if (ask_cuts && last.part_of(objects.points.position(i).data()) != part) return {};
+        if (part < 0 || part >= map.num_parts) return std::nullopt;
+        if (!map.ranks_of(part).contains(rank)) return std::nullopt;
+        if (ask_cuts && last.part_of(objects.points.position(i).data()) != part)
+            return std::nullopt;
     }
-    return {true, checksum_of(objects.points, parts)};
+    return checksum_of(objects.points, parts);
 }
 
 bool add_up(bool moves_here, std::uint64_t& checksum, MPI_Comm comm) {

@@ -6,6 +6,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,17 +19,13 @@ namespace rrcb::zoltan {
 /// calls from nothing or with coincident objects may move them for ever.
 std::uint64_t checksum_of(const Points& points, std::span<const Part> parts);
 
-/// Checksum of the objects in their present parts.
-struct Placed {
-    bool are_known = false;  ///< the parts of all objects, whose ranks hold these parts
-    std::uint64_t checksum = 0;
-};
-
 /// Finds the parts of the objects of this rank, by a callback or, with a part on each rank, by the
-/// rank, and writes them into `parts`. Finds none if the last cuts put an object elsewhere. Throws
-/// std::bad_alloc. Not collective.
-Placed find_placed(const Objects& objects, LastPartition& last, const KeptObjects& kept, int rank,
-                   std::vector<Part>& parts);
+/// rank, and writes them into `parts`. Returns the checksum of all; nothing if the part of one is
+/// unknown or on other ranks, or the last cuts put it elsewhere. Throws std::bad_alloc. Not
+/// collective.
+std::optional<std::uint64_t> checksum_in_place(const Objects& objects, LastPartition& last,
+                                               const KeptObjects& kept, int rank,
+                                               std::vector<Part>& parts);
 
 /// Returns whether an object moves on any rank, and adds up the checksums of all ranks. Collective:
 /// one reduction.

@@ -24,45 +24,67 @@ void copy_entry(const IdWord* from, std::size_t i, std::size_t width, IdWord* to
 
 }  // namespace
 
+template <class Visit>
+auto Moves::visit_ranks(Visit&& visit) const {
+    const Part* const parts = parts_.data();
+    if (map_.one_each) return visit([=](std::size_t i) { return parts[i]; });
+    if (map_.has_one_rank_per_part() && !map_.listed.empty()) {
+        const RankRange* const ranks = map_.listed.data();
+        return visit([=](std::size_t i) { return ranks[parts[i]].first_rank; });
+    }
+    return visit([=, this](std::size_t i) { return map_.destination(parts[i], i, my_rank_); });
+}
+
 Moves::Moves(Objects& objects, std::span<const Part> parts, const PartMap& map, int my_rank)
     : objects_(objects), parts_(parts), map_(map), my_rank_(my_rank) {
     if (objects.moving == nullptr) return;
     const int* const named = objects.initial_parts;
-    const auto is_moving = [=, this](std::size_t i) {
-        return rank_of(i) != my_rank || parts[i] != (named == nullptr ? my_rank : named[i]);
-    };
-    // Most programs have a part on each rank, and no callback for parts.
-    const auto is_elsewhere = [=](std::size_t i) { return parts[i] != my_rank; };
-    count_ = map.one_each && named == nullptr ? select(objects.count, is_elsewhere, objects.moving)
-                                              : select(objects.count, is_moving, objects.moving);
+    count_ = visit_ranks([&](const auto& rank_of) {
+        const auto is_moving = [=](std::size_t i) {
+            return rank_of(i) != my_rank || parts[i] != (named == nullptr ? my_rank : named[i]);
+        };
+        return select(objects.count, is_moving, objects.moving);
+    });
 }
 
-template <class Widths>
-void Moves::write_by(const Widths& widths, List& list) const {
+template <class Widths, class RankOf>
+void Moves::write_by(const Widths& widths, const RankOf& rank_of, List& list) const {
+    // Copies, so that the compiler knows that writes do not change them.
     IdWord* const global_ids = list.global_ids.get();
     IdWord* const local_ids = list.local_ids.get();
+    int* const ranks = list.ranks.get();
+    int* const parts = list.parts.get();
+    const IdWord* const from_global = objects_.global_ids;
+    const IdWord* const from_local = objects_.local_ids;
+    const int* const moving = objects_.moving;
+    const Part* const from = parts_.data();
     for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k) {
-        const auto i = static_cast<std::size_t>(objects_.moving[k]);
-        copy_entry(objects_.global_ids, i, widths.global, global_ids, k);
-        copy_entry(objects_.local_ids, i, widths.local, local_ids, k);
-        list.ranks[k] = rank_of(i);
-        list.parts[k] = parts_[i];
+        const auto i = static_cast<std::size_t>(moving[k]);
+        copy_entry(from_global, i, widths.global, global_ids, k);
+        copy_entry(from_local, i, widths.local, local_ids, k);
+        ranks[k] = rank_of(i);
+        parts[k] = from[i];
     }
 }
 
 void Moves::write(const IdWidths& widths, List& list) const {
-    visit_widths(widths, [&](const auto& known) { write_by(known, list); });
+    visit_widths(widths, [&](const auto& known) {
+        visit_ranks([&](const auto& rank_of) { write_by(known, rank_of, list); });
+    });
+    if (list.count == count_) return;
     const auto size = static_cast<std::size_t>(count_);
     list.count = count_;
-    list.global_ids.shrink(size * widths.global);
-    list.local_ids.shrink(size * widths.local);
-    list.ranks.shrink(size);
-    list.parts.shrink(size);
+    shrink(list.global_ids, size * widths.global);
+    shrink(list.local_ids, size * widths.local);
+    shrink(list.ranks, size);
+    shrink(list.parts, size);
 }
 
 List Moves::list_all() const {
     List list = take_room();
-    for (std::size_t i = 0; i < parts_.size(); ++i) list.ranks[i] = rank_of(i);
+    visit_ranks([&](const auto& rank_of) {
+        for (std::size_t i = 0; i < parts_.size(); ++i) list.ranks[i] = rank_of(i);
+    });
     std::ranges::copy(parts_, list.parts.get());
     return list;
 }

@@ -24,8 +24,11 @@ struct CallerList {
     int** parts;
 };
 
-/// The caller's variables for both lists.
+/// The caller's variables.
 struct CallerLists {
+    int* changes;
+    int* num_gid_entries;
+    int* num_lid_entries;
     CallerList imports;
     CallerList exports;
 };
@@ -51,11 +54,11 @@ class Moves {
     List take_room() const { return std::move(objects_.room); }
 
   private:
-    int rank_of(std::size_t i) const {
-        return map_.one_each ? parts_[i] : map_.destination(parts_[i], i, my_rank_);
-    }
-    template <class Widths>
-    void write_by(const Widths& widths, List& list) const;
+    /// Calls visit(rank_of) with a function of the index of an object, which loops can inline.
+    template <class Visit>
+    auto visit_ranks(Visit&& visit) const;
+    template <class Widths, class RankOf>
+    void write_by(const Widths& widths, const RankOf& rank_of, List& list) const;
 
     Objects& objects_;
     std::span<const Part> parts_;

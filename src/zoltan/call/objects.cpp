@@ -35,19 +35,23 @@ Callback<Function> callback(Zoltan_Struct* zz, ZOLTAN_FN_TYPE type) {
 class Collector {
   public:
     Collector(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace)
-        : zz_(zz), parameters_(parameters), widths_(parameters), workspace_(workspace) {}
+        : zz_(zz),
+          parameters_(parameters),
+          gid_(parameters.num_gid_entries),
+          lid_(parameters.num_lid_entries),
+          widths_(parameters),
+          workspace_(workspace) {}
 
     Objects collect() {
         read_count();
         read_dimension();
-        objects_.names_parts = tells_parts();
-        if (objects_.count > 0) {
-            const auto count = static_cast<std::size_t>(objects_.count);
+        const auto count = static_cast<std::size_t>(objects_.count);
+        if (count > 0) {
             allocate(count);
             read_ids_and_weights(count);
             read_coordinates(count);
-            read_initial_parts(count);
         }
+        read_initial_parts(count);
         return std::move(objects_);
     }
 
@@ -91,12 +95,11 @@ class Collector {
 
     void read_ids_and_weights(std::size_t count) {
         const int weight_dimension = parameters_.weight_dimension;
-        weights_ = weight_dimension == 0 ? nullptr : workspace_.callback_weights.get(count);
+        weights_ = weight_dimension == 0 ? nullptr : room_in(workspace_.callback_weights, count);
         const auto list = callback<ZOLTAN_OBJ_LIST_FN>(zz_, ZOLTAN_OBJ_LIST_FN_TYPE);
         if (list) {
             int code = ZOLTAN_OK;
-            list(parameters_.num_gid_entries, parameters_.num_lid_entries, global_id(0),
-                 local_id(0), weight_dimension, weights_, &code);
+            list(gid_, lid_, global_id(0), local_id(0), weight_dimension, weights_, &code);
             check(code, "ZOLTAN_OBJ_LIST_FN");
         } else {
             iterate_objects(count);
@@ -110,14 +113,12 @@ class Collector {
             throw_fatal(
                 "Must register ZOLTAN_OBJ_LIST_FN or ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN.");
         int code = ZOLTAN_OK;
-        const int gid = parameters_.num_gid_entries;
-        const int lid = parameters_.num_lid_entries;
         const int wdim = parameters_.weight_dimension;
-        int found = first(gid, lid, global_id(0), local_id(0), wdim, weights_, &code);
+        int found = first(gid_, lid_, global_id(0), local_id(0), wdim, weights_, &code);
         check(code, "ZOLTAN_FIRST_OBJ_FN");
         for (std::size_t i = 1; i < count && found != 0; ++i) {
             float* weight = weights_ == nullptr ? nullptr : weights_ + i;
-            found = next(gid, lid, global_id(i - 1), local_id(i - 1), global_id(i), local_id(i),
+            found = next(gid_, lid_, global_id(i - 1), local_id(i - 1), global_id(i), local_id(i),
                          wdim, weight, &code);
             check(code, "ZOLTAN_NEXT_OBJ_FN");
         }
@@ -129,11 +130,11 @@ class Collector {
 
     void read_coordinates(std::size_t count) {
         const auto dimension = static_cast<std::size_t>(objects_.points.dimension);
-        double* coordinates = workspace_.coordinates.get(count * dimension);
+        double* coordinates = room_in(workspace_.coordinates, count * dimension);
         read_geometry(count, coordinates);
         std::span<const double> weights;
         if (weights_ != nullptr) {
-            double* converted = workspace_.weights.get(count);
+            double* converted = room_in(workspace_.weights, count);
             std::copy_n(weights_, count, converted);
             weights = {converted, count};
         }
@@ -144,44 +145,36 @@ class Collector {
     void read_geometry(std::size_t count, double* coordinates) {
         const auto multi = callback<ZOLTAN_GEOM_MULTI_FN>(zz_, ZOLTAN_GEOM_MULTI_FN_TYPE);
         const auto single = callback<ZOLTAN_GEOM_FN>(zz_, ZOLTAN_GEOM_FN_TYPE);
-        const int gid = parameters_.num_gid_entries;
-        const int lid = parameters_.num_lid_entries;
         const auto dimension = static_cast<std::size_t>(objects_.points.dimension);
         int code = ZOLTAN_OK;
         if (multi) {
-            multi(gid, lid, objects_.count, global_id(0), local_id(0), objects_.points.dimension,
+            multi(gid_, lid_, objects_.count, global_id(0), local_id(0), objects_.points.dimension,
                   coordinates, &code);
             check(code, "ZOLTAN_GEOM_MULTI_FN");
             return;
         }
         if (!single) throw_fatal("Must register ZOLTAN_GEOM_MULTI_FN or ZOLTAN_GEOM_FN.");
         for (std::size_t i = 0; i < count; ++i) {
-            single(gid, lid, global_id(i), local_id(i), coordinates + i * dimension, &code);
+            single(gid_, lid_, global_id(i), local_id(i), coordinates + i * dimension, &code);
             check(code, "ZOLTAN_GEOM_FN");
         }
-    }
-
-    bool tells_parts() const {
-        return callback<ZOLTAN_PART_MULTI_FN>(zz_, ZOLTAN_PART_MULTI_FN_TYPE) ||
-               callback<ZOLTAN_PART_FN>(zz_, ZOLTAN_PART_FN_TYPE);
     }
 
     void read_initial_parts(std::size_t count) {
         const auto multi = callback<ZOLTAN_PART_MULTI_FN>(zz_, ZOLTAN_PART_MULTI_FN_TYPE);
         const auto single = callback<ZOLTAN_PART_FN>(zz_, ZOLTAN_PART_FN_TYPE);
-        if (!objects_.names_parts) return;
-        objects_.initial_parts = workspace_.initial_parts.get(count);
-        const int gid = parameters_.num_gid_entries;
-        const int lid = parameters_.num_lid_entries;
+        objects_.names_parts = multi || single;
+        if (!objects_.names_parts || count == 0) return;
+        objects_.initial_parts = room_in(workspace_.initial_parts, count);
         int code = ZOLTAN_OK;
         if (multi) {
-            multi(gid, lid, objects_.count, global_id(0), local_id(0), objects_.initial_parts,
+            multi(gid_, lid_, objects_.count, global_id(0), local_id(0), objects_.initial_parts,
                   &code);
             check(code, "ZOLTAN_PART_MULTI_FN");
             return;
         }
         for (std::size_t i = 0; i < count; ++i) {
-            objects_.initial_parts[i] = single(gid, lid, global_id(i), local_id(i), &code);
+            objects_.initial_parts[i] = single(gid_, lid_, global_id(i), local_id(i), &code);
             check(code, "ZOLTAN_PART_FN");
         }
     }
@@ -189,19 +182,22 @@ class Collector {
     /// Allocates memory for later steps: they run between messages, when no rank may fail alone.
     void allocate(std::size_t count) {
         const ReturnLists asked = parameters_.return_lists;
-        if (asked != ReturnLists::none) objects_.moving = workspace_.moving.get(count);
+        if (asked != ReturnLists::none) objects_.moving = room_in(workspace_.moving, count);
         if (asked == ReturnLists::exports || asked == ReturnLists::parts) {
             objects_.room = make_list(objects_.count, widths_);
             objects_.global_ids = objects_.room.global_ids.get();
             objects_.local_ids = objects_.room.local_ids.get();
             return;
         }
-        objects_.global_ids = workspace_.global_ids.get(count * widths_.global);
-        if (widths_.local > 0) objects_.local_ids = workspace_.local_ids.get(count * widths_.local);
+        objects_.global_ids = room_in(workspace_.global_ids, count * widths_.global);
+        if (widths_.local > 0)
+            objects_.local_ids = room_in(workspace_.local_ids, count * widths_.local);
     }
 
     Zoltan_Struct* zz_;
     const Parameters& parameters_;
+    int gid_;  ///< entries of a global id
+    int lid_;
     IdWidths widths_;
     Workspace& workspace_;
     Objects objects_;
@@ -212,9 +208,8 @@ class Collector {
 
 List make_list(int count, const IdWidths& widths) {
     const auto size = static_cast<std::size_t>(count);
-    return {count, ZoltanArray<IdWord>(size * widths.global),
-            ZoltanArray<IdWord>(size * widths.local), ZoltanArray<int>(size),
-            ZoltanArray<int>(size)};
+    return {count, make_array<IdWord>(size * widths.global),
+            make_array<IdWord>(size * widths.local), make_array<int>(size), make_array<int>(size)};
 }
 
 Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace) {

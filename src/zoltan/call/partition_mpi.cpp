@@ -57,17 +57,17 @@ Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Partic
 /// Collects the objects and checks the parameters of this rank. Errors and foreign exceptions
 /// become a status.
 LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects,
-                    Placed& placed) {
+                    std::optional<std::uint64_t>& checksum) {
     try {
         check_parameters(state, one_part_per_rank);
         if (forwards(state.parameters)) return {};
         objects = collect_objects(zz, state.parameters, state.workspace);
         const bool asks_for_lists = state.parameters.return_lists != ReturnLists::none;
         if (state.kept && state.last && asks_for_lists)
-            placed = find_placed(objects, *state.last, *state.kept, state.communicator->rank(),
-                                 state.workspace.parts);
+            checksum = checksum_in_place(objects, *state.last, *state.kept,
+                                         state.communicator->rank(), state.workspace.parts);
         LocalStatus status(objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, "");
-        status.may_keep = placed.are_known;
+        status.may_keep = checksum.has_value();
         status.names_parts = objects.names_parts;
         return status;
     } catch (const ZoltanError& error) {
@@ -113,12 +113,12 @@ void take_previous(Call& call) {
 
 /// Returns whether no object and no parameter has changed on any rank since the last partition.
 /// Collective if the objects may be kept: one reduction.
-bool are_kept(const Call& call, const Placed& placed) {
+bool are_kept(const Call& call, std::optional<std::uint64_t> here) {
     const State& state = call.state;
     const bool may_keep = !call.outcome.any_may_not_keep && !call.outcome.failed() &&
                           call.outcome.differing == nullptr &&
                           (!call.outcome.any_keeps_cuts || state.last->shows_all());
-    std::uint64_t checksum = placed.checksum;
+    std::uint64_t checksum = here.value_or(0);
     if (may_keep) add_up(false, checksum, state.communicator->get());
     return may_keep && checksum == state.kept->checksum;
 }
@@ -184,7 +184,7 @@ void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&&
 /// Collective then.
 void serve_fortran(const Call& call, Partition& result, Participant& self) {
     if (!call.outcome.any_fortran) return;
-    copy_for_fortran(call.zz, result.imports, result.exports, call.to, self);
+    copy_for_fortran(call.zz, result, IdWidths(call.state.parameters), call.to, self);
     result.with_caller = true;
 }
 
@@ -253,20 +253,15 @@ void dump_inputs(DumpReason reason, const Call& call, const Objects& objects,
          {call.function, objects.points, objects.initial_parts, status.code, status.text.data()});
 }
 
-/// A failure of a call on all ranks alike.
-struct Failure {
-    int code;
-    std::string_view text;
-    int speaker = 0;  ///< rank that prints the text
-};
-
-/// Prints, dumps the inputs and empties the result; returns the code. Collective as dump() is.
-int fail(const Call& call, const Objects& objects, const Failure& failure, Partition& result) {
-    if (call.state.communicator->rank() == failure.speaker)
-        print_error(failure.speaker, call.function, failure.text);
-    dump_inputs(DumpReason::failure, call, objects, {failure.code, failure.text});
+/// Fails on all ranks alike: `speaker` prints the text. Dumps the inputs and empties the result;
+/// returns the code. Collective as dump() is.
+int fail(const Call& call, const Objects& objects, const LocalStatus& status, Partition& result,
+         int speaker = 0) {
+    if (call.state.communicator->rank() == speaker)
+        print_error(speaker, call.function, status.text.data());
+    dump_inputs(DumpReason::failure, call, objects, status);
     result = Partition{};
-    return failure.code;
+    return status.code;
 }
 
 /// Fails for a parameter that differs between ranks.
@@ -292,8 +287,8 @@ int leave_to_zoltan(const Call& call, Partition& result) {
 int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
               const CallerLists& to, Partition& result) {
     Objects objects;
-    Placed placed;
-    const LocalStatus local = collect(zz, state, one_part_per_rank, objects, placed);
+    std::optional<std::uint64_t> checksum;
+    const LocalStatus local = collect(zz, state, one_part_per_rank, objects, checksum);
     const Outcome outcome = vote(local, state);
     if (outcome.lists_differ) {
         // The memory for the lists was chosen before the vote.
@@ -305,10 +300,10 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     if (!outcome.failed() && outcome.differing == nullptr && forwards(state.parameters))
         return leave_to_zoltan(call, result);
     dump_inputs(DumpReason::asked, call, objects, local);
-    const bool is_kept = are_kept(call, placed);
+    const bool is_kept = are_kept(call, checksum);
     if (!is_kept) take_previous(call);
     if (outcome.failed()) {
-        fail(call, objects, {local.code, local.text.data(), outcome.failing_rank}, result);
+        fail(call, objects, local, result, outcome.failing_rank);
         return outcome.code;
     }
     if (outcome.differing != nullptr) return refuse_difference(call, objects, result);

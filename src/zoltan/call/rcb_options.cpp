@@ -13,24 +13,6 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Returns parameters that are set and have no effect with the method of RRCB_DOMAIN.
-std::vector<const char*> ignored_parameters(const Parameters& parameters) {
-    std::vector<const char*> names;
-    const auto add_if = [&](bool is_set, const char* name) {
-        if (is_set) names.push_back(name);
-    };
-    if (parameters.paper_domain) {
-        add_if(parameters.set_directions != 0, "RCB_SET_DIRECTIONS");
-        add_if(parameters.lock_directions != 0, "RCB_LOCK_DIRECTIONS");
-        add_if(parameters.reuse_cuts != not_set && parameters.reuse_cuts != 0, "RCB_REUSE");
-        add_if(parameters.options.refine == Refine::exact, "RRCB_REFINE");
-        add_if(parameters.options.min_points != 0, "RRCB_MIN_POINTS");
-    } else {
-        add_if(parameters.cut_rule != Parameters{}.cut_rule, cut_rule_parameter.parameter);
-    }
-    return names;
-}
-
 /// Returns the axes in the order of RCB_SET_DIRECTIONS, 1 ... 6. Other values count as 1, as in
 /// Zoltan.
 std::vector<int> axis_order(int set_directions, int dimension) {
@@ -147,9 +129,20 @@ std::vector<std::string> parameter_warnings(const Parameters& parameters) {
     if (parameters.set_directions < 0 || parameters.set_directions > 6) {
         texts.emplace_back("Parameter RCB_SET_DIRECTIONS out of bounds; reset to 1.");
     }
-    for (const char* name : ignored_parameters(parameters))
-        texts.push_back(std::string("Parameter ") + name + " has no effect with RRCB_DOMAIN=" +
-                        (parameters.paper_domain ? "SAMPLED and POINTS" : "ANALYTIC") + '.');
+    const auto ignore_if = [&](bool is_set, const char* name) {
+        if (is_set)
+            texts.push_back(std::string("Parameter ") + name + " has no effect with RRCB_DOMAIN=" +
+                            (parameters.paper_domain ? "SAMPLED and POINTS" : "ANALYTIC") + '.');
+    };
+    if (!parameters.paper_domain) {
+        ignore_if(parameters.cut_rule != Parameters{}.cut_rule, cut_rule_parameter.parameter);
+        return texts;
+    }
+    ignore_if(parameters.set_directions != 0, "RCB_SET_DIRECTIONS");
+    ignore_if(parameters.lock_directions != 0, "RCB_LOCK_DIRECTIONS");
+    ignore_if(parameters.reuse_cuts != not_set && parameters.reuse_cuts != 0, "RCB_REUSE");
+    ignore_if(parameters.options.refine == Refine::exact, "RRCB_REFINE");
+    ignore_if(parameters.options.min_points != 0, "RRCB_MIN_POINTS");
     return texts;
 }
 

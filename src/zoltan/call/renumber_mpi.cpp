@@ -10,10 +10,8 @@ namespace {
 bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
     const std::vector<double>& sizes = layout.part_sizes;
     const bool are_equal = std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
-    // Parts in a list, which NUM_LOCAL_PARTS makes, have one rank each.
     const PartMap& map = layout.map;
-    const bool are_on_one_rank = !map.is_even || map.num_parts >= map.num_ranks;
-    return parameters.remap != 0 && map.num_parts > 1 && are_on_one_rank && are_equal;
+    return parameters.remap != 0 && map.num_parts > 1 && map.has_one_rank_per_part() && are_equal;
 }
 
 }  // namespace

@@ -38,14 +38,15 @@ std::string one_line(std::string text) {
     return text;
 }
 
-void write_point(std::FILE* file, const DumpedRank& mine, LocalIndex i) {
-    const Points& points = mine.points;
-    for (int axis = 0; axis < points.dimension; ++axis)
-        std::fprintf(file, "%a ", points.coordinate(i, axis));
-    const auto num_weights = static_cast<std::size_t>(mine.weight_dimension);
+void write_point(std::FILE* file, const State& state, const DumpInput& input, LocalIndex i) {
+    for (int axis = 0; axis < input.points.dimension; ++axis)
+        std::fprintf(file, "%a ", input.points.coordinate(i, axis));
+    // As the callbacks gave them, object by object.
+    const float* const weights = state.workspace.callback_weights.data();
+    const auto num_weights = static_cast<std::size_t>(state.parameters.weight_dimension);
     for (std::size_t w = 0; w < num_weights; ++w)
-        std::fprintf(file, "%a ", static_cast<double>(mine.weights[i * num_weights + w]));
-    if (mine.initial_parts != nullptr) std::fprintf(file, "%d", mine.initial_parts[i]);
+        std::fprintf(file, "%a ", static_cast<double>(weights[i * num_weights + w]));
+    if (input.initial_parts != nullptr) std::fprintf(file, "%d", input.initial_parts[i]);
     std::fputc('\n', file);
 }
 
@@ -61,30 +62,31 @@ std::filesystem::path make_dump_folder(const std::filesystem::path& parent) {
     }
 }
 
-void write_dump(const std::filesystem::path& folder, const DumpedCall& call) {
+void write_call(const std::filesystem::path& folder, const State& state, const DumpInput& input) {
     const std::filesystem::path path = folder / "call.txt";
     File file = create(path);
     std::fprintf(file.get(), "rrcb-dump 1\nversion %s\nfunction %s\ncode %d\nranks %d\n",
-                 rrcb::version(), call.function, call.code, call.num_ranks);
-    for (const auto& [name, value] : call.parameters.given)
+                 rrcb::version(), input.function, input.code, state.communicator->size());
+    for (const auto& [name, value] : state.parameters.given.entries)
         std::fprintf(file.get(), "parameter %s %s\n", name.c_str(), one_line(value).c_str());
     finish(std::move(file), path);
 }
 
-void write_dump(const std::filesystem::path& folder, const DumpedRank& mine) {
-    const std::filesystem::path path = folder / ("rank-" + std::to_string(mine.rank) + ".txt");
+void write_rank(const std::filesystem::path& folder, const State& state, const DumpInput& input) {
+    const int rank = state.communicator->rank();
+    const std::filesystem::path path = folder / ("rank-" + std::to_string(rank) + ".txt");
     File file = create(path);
-    std::fprintf(file.get(), "rrcb-dump-rank 1\nrank %d\n", mine.rank);
-    if (*mine.message != '\0')
-        std::fprintf(file.get(), "message %s\n", one_line(mine.message).c_str());
-    for (const PartSize& size : mine.part_sizes)
+    std::fprintf(file.get(), "rrcb-dump-rank 1\nrank %d\n", rank);
+    if (*input.message != '\0')
+        std::fprintf(file.get(), "message %s\n", one_line(input.message).c_str());
+    for (const PartSize& size : state.part_sizes)
         if (size.weight == 0)
             std::fprintf(file.get(), "part_size %s %d %a\n", size.global ? "global" : "local",
                          size.part, static_cast<double>(size.size));
     std::fprintf(file.get(), "dimension %d\nweights %d\nparts %d\nobjects %zu\n",
-                 mine.points.dimension, mine.weight_dimension,
-                 mine.initial_parts == nullptr ? 0 : 1, mine.points.count);
-    for (LocalIndex i = 0; i < mine.points.count; ++i) write_point(file.get(), mine, i);
+                 input.points.dimension, state.parameters.weight_dimension,
+                 input.initial_parts == nullptr ? 0 : 1, input.points.count);
+    for (LocalIndex i = 0; i < input.points.count; ++i) write_point(file.get(), state, input, i);
     finish(std::move(file), path);
 }
 

@@ -3,8 +3,6 @@
 #include "zoltan/handle/state.hpp"
 
 #include <filesystem>
-#include <span>
-#include <string>
 
 namespace rrcb::zoltan {
 
@@ -37,32 +35,22 @@ namespace rrcb::zoltan {
 //     0x1.ap+0 0x1p-1 0x1p+0 0
 //     end
 
-/// Entries of a dumped call that hold for all ranks.
-struct DumpedCall {
+/// Inputs of a partitioning call on this rank, besides those in the state of the handle.
+struct DumpInput {
     const char* function;
-    int code;  ///< as far as it is known when the dump is written
-    int num_ranks;
-    const Parameters& parameters;
-};
-
-/// Input of one rank.
-struct DumpedRank {
-    int rank;
-    const Points& points;      ///< without their weights
-    int weight_dimension;      ///< weights per point
-    const float* weights;      ///< as the callbacks gave them, object by object
+    const Points& points;
     const int* initial_parts;  ///< one per point, null without a callback for them
-    std::span<const PartSize> part_sizes;
-    const char* message;  ///< of an error; empty: none
+    int code;                  ///< as far as it is known when the dump is written
+    const char* message;       ///< of an error; empty: none
 };
 
 /// Makes the first folder of DIR/call-1, DIR/call-2, ... that does not exist. Throws if it cannot.
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent);
 
 /// Writes call.txt. Throws if it cannot.
-void write_dump(const std::filesystem::path& folder, const DumpedCall& call);
+void write_call(const std::filesystem::path& folder, const State& state, const DumpInput& input);
 
 /// Writes rank-N.txt. Throws if it cannot.
-void write_dump(const std::filesystem::path& folder, const DumpedRank& mine);
+void write_rank(const std::filesystem::path& folder, const State& state, const DumpInput& input);
 
 }  // namespace rrcb::zoltan

@@ -1,6 +1,5 @@
 #include "zoltan/dump/dump_mpi.hpp"
 
-#include "zoltan/dump/dump_files.hpp"
 #include "zoltan/real/message.hpp"
 
 #include <array>
@@ -21,19 +20,9 @@ PathText choose_folder(const State& state, const DumpInput& input) {
     const std::filesystem::path folder = make_dump_folder(state.parameters.dump_folder);
     const std::string name = std::filesystem::absolute(folder).string();
     if (name.size() >= text.size()) throw std::length_error("the name of the folder is too long");
-    const int num_ranks = state.communicator->size();
-    write_dump(folder, DumpedCall{input.function, input.code, num_ranks, state.parameters});
+    write_call(folder, state, input);
     name.copy(text.data(), name.size());
     return text;
-}
-
-void write_mine(const std::filesystem::path& folder, const State& state, const DumpInput& input) {
-    // Needed if ranks do not share their file systems.
-    std::filesystem::create_directories(folder);
-    write_dump(folder, DumpedRank{state.communicator->rank(), input.points,
-                                  state.parameters.weight_dimension,
-                                  state.workspace.callback_weights.data(), input.initial_parts,
-                                  state.part_sizes, input.message});
 }
 
 /// Runs a step whose failure must not affect the call.
@@ -63,7 +52,11 @@ void dump(DumpReason reason, const DumpWish& wish, const State& state,
     const int sent =
         MPI_Bcast(folder.data(), static_cast<int>(folder.size()), MPI_CHAR, wish.rank, comm.get());
     if (sent != MPI_SUCCESS || folder[0] == '\0') return;
-    warn_once_if_failing(state, input.function, [&] { write_mine(folder.data(), state, input); });
+    warn_once_if_failing(state, input.function, [&] {
+        // Needed if ranks do not share their file systems.
+        std::filesystem::create_directories(folder.data());
+        write_rank(folder.data(), state, input);
+    });
 }
 
 }  // namespace rrcb::zoltan

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "zoltan/handle/state.hpp"
+#include "zoltan/dump/dump_files.hpp"
 
 namespace rrcb::zoltan {
 
@@ -11,15 +11,6 @@ enum class DumpReason { asked, failure };
 struct DumpWish {
     int rank = -1;        ///< lowest rank with RRCB_DUMP, -1: none
     bool always = false;  ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
-};
-
-/// Inputs of a partitioning call on this rank.
-struct DumpInput {
-    const char* function;
-    const Points& points;
-    const int* initial_parts;  ///< one per point, null without a callback for them
-    int code;
-    const char* message;  ///< of an error; empty: none
 };
 
 /// Writes the inputs of a call if RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it now.

@@ -1,6 +1,5 @@
 #include "zoltan/entry/entry_point.hpp"
 
-#include <rrcb/version.hpp>
 #include <rrcb/zoltan/rrcb_zoltan.h>
 
 #include <dlfcn.h>
@@ -19,8 +18,4 @@ RRCB_EXPORT int RRCB_Zoltan_Active(void) {
     static const char own = 0;
     const void* reached = dlsym(RTLD_DEFAULT, "Zoltan_LB_Partition");
     return reached != nullptr && library_of(reached) == library_of(&own) ? 1 : 0;
-}
-
-RRCB_EXPORT const char* RRCB_Version(void) {
-    return rrcb::version();
 }

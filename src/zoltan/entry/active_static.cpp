@@ -1,4 +1,3 @@
-#include <rrcb/version.hpp>
 #include <rrcb/zoltan/rrcb_zoltan.h>
 
 extern "C" {
@@ -10,10 +9,6 @@ int RRCB_Zoltan_Active(void) {
 
 int RRCB_Zoltan_Renamed_Active(void) {
     return 1;
-}
-
-const char* RRCB_Version(void) {
-    return rrcb::version();
 }
 
 }  // extern "C"

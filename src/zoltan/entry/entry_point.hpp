@@ -30,6 +30,9 @@ int guarded(const char* function, const State* state, Body body) noexcept {
     } catch (const std::bad_alloc&) {
         code = ZOLTAN_MEMERR;
         print_error(rank, function, "out of memory");
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::out_of_memory) code = ZOLTAN_MEMERR;
+        print_error(rank, function, error.what());
     } catch (const std::exception& thrown) {
         print_error(rank, function, thrown.what());
     } catch (...) {
@@ -42,12 +45,6 @@ int guarded(const char* function, const State* state, Body body) noexcept {
 inline State* rrcb_state(const Zoltan_Struct* zz) {
     State* state = find_state(zz);
     return state != nullptr && state->parameters.rrcb ? state : nullptr;
-}
-
-/// Returns the state of a handle whose look-ups RRCB answers; null if the real Zoltan is to answer.
-inline const State* look_up_state(const Zoltan_Struct* zz) {
-    const State* state = rrcb_state(zz);
-    return state != nullptr && !state->zoltan_has_cuts ? state : nullptr;
 }
 
 }  // namespace rrcb::zoltan

@@ -94,23 +94,11 @@ void hand_out(List&& list, bool with_caller, const CallerList& to) {
     if (to.parts != nullptr) *to.parts = list.parts.release();
 }
 
-void hand_out(Partition&& result, const CallerLists& to) {
-    hand_out(std::move(result.imports), result.with_caller, to.imports);
-    hand_out(std::move(result.exports), result.with_caller, to.exports);
-}
-
 /// A call of one of the partitioning functions.
 struct Request {
     Zoltan_Struct* zz;
     const char* function;
     bool one_part_per_rank;
-};
-
-/// The caller's variables besides the lists.
-struct CallerNumbers {
-    int* changes;
-    int* num_gid_entries;
-    int* num_lid_entries;
 };
 
 /// Lets the real Zoltan answer by `forward_it`, also for a handle of RRCB's.
@@ -128,8 +116,7 @@ int let_zoltan_answer(const Request& request, Forward forward_it) {
 
 /// Partitions with RRCB or, if the call is left to the real Zoltan, by `forward_it`.
 template <typename Forward>
-int answer(const Request& request, const CallerNumbers& numbers, const CallerLists& to,
-           Forward forward_it) {
+int answer(const Request& request, const CallerLists& to, Forward forward_it) {
     State* state = rrcb_state(request.zz);
     if (state == nullptr) return let_zoltan_answer(request, forward_it);
     using Clock = std::chrono::steady_clock;
@@ -141,10 +128,11 @@ int answer(const Request& request, const CallerNumbers& numbers, const CallerLis
     });
     if (result.is_zoltans) return let_zoltan_answer(request, forward_it);
     log_call(*state, result, std::chrono::duration<double>(Clock::now() - start).count());
-    *numbers.changes = result.changes ? 1 : 0;
-    *numbers.num_gid_entries = state->parameters.num_gid_entries;
-    *numbers.num_lid_entries = state->parameters.num_lid_entries;
-    hand_out(std::move(result), to);
+    *to.changes = result.changes ? 1 : 0;
+    *to.num_gid_entries = state->parameters.num_gid_entries;
+    *to.num_lid_entries = state->parameters.num_lid_entries;
+    hand_out(std::move(result.imports), result.with_caller, to.imports);
+    hand_out(std::move(result.exports), result.with_caller, to.exports);
     return code;
 }
 
@@ -214,15 +202,17 @@ RRCB_EXPORT int Zoltan_LB_Partition(
     int** import_to_part, int* num_export, ZOLTAN_ID_PTR* export_global_ids,
     ZOLTAN_ID_PTR* export_local_ids, int** export_procs, int** export_to_part) {
     const CallerLists to{
+        changes,
+        num_gid_entries,
+        num_lid_entries,
         {num_import, import_global_ids, import_local_ids, import_procs, import_to_part},
         {num_export, export_global_ids, export_local_ids, export_procs, export_to_part}};
-    return answer(
-        {zz, "Zoltan_LB_Partition", false}, {changes, num_gid_entries, num_lid_entries}, to, [&] {
-            return forward<&RealZoltan::lb_partition>(
-                zz, changes, num_gid_entries, num_lid_entries, num_import, import_global_ids,
-                import_local_ids, import_procs, import_to_part, num_export, export_global_ids,
-                export_local_ids, export_procs, export_to_part);
-        });
+    return answer({zz, "Zoltan_LB_Partition", false}, to, [&] {
+        return forward<&RealZoltan::lb_partition>(
+            zz, changes, num_gid_entries, num_lid_entries, num_import, import_global_ids,
+            import_local_ids, import_procs, import_to_part, num_export, export_global_ids,
+            export_local_ids, export_procs, export_to_part);
+    });
 }
 
 RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_entries,
@@ -231,15 +221,17 @@ RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_
                                   int** import_procs, int* num_export,
                                   ZOLTAN_ID_PTR* export_global_ids, ZOLTAN_ID_PTR* export_local_ids,
                                   int** export_procs) {
-    const CallerLists to{{num_import, import_global_ids, import_local_ids, import_procs, nullptr},
+    const CallerLists to{changes,
+                         num_gid_entries,
+                         num_lid_entries,
+                         {num_import, import_global_ids, import_local_ids, import_procs, nullptr},
                          {num_export, export_global_ids, export_local_ids, export_procs, nullptr}};
-    return answer(
-        {zz, "Zoltan_LB_Balance", true}, {changes, num_gid_entries, num_lid_entries}, to, [&] {
-            return forward<&RealZoltan::lb_balance>(zz, changes, num_gid_entries, num_lid_entries,
-                                                    num_import, import_global_ids, import_local_ids,
-                                                    import_procs, num_export, export_global_ids,
-                                                    export_local_ids, export_procs);
-        });
+    return answer({zz, "Zoltan_LB_Balance", true}, to, [&] {
+        return forward<&RealZoltan::lb_balance>(zz, changes, num_gid_entries, num_lid_entries,
+                                                num_import, import_global_ids, import_local_ids,
+                                                import_procs, num_export, export_global_ids,
+                                                export_local_ids, export_procs);
+    });
 }
 
 RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int length,

@@ -1,22 +1,55 @@
-#include "zoltan/entry/entry_point.hpp"
-#include "zoltan/handle/lookups.hpp"
+#include "zoltan/entry/look_up.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
+#include <algorithm>
 #include <cfloat>
 #include <string>
+#include <vector>
 
 using namespace rrcb::zoltan;
 
 namespace {
 
-void write_place(const Place& place, int* proc, int* part) {
-    if (proc != nullptr) *proc = place.rank;
-    if (part != nullptr) *part = place.part;
+void write_place(int rank, int of_part, int* proc, int* part) {
+    if (proc != nullptr) *proc = rank;
+    if (part != nullptr) *part = of_part;
+}
+
+void look_up_point(const LastPartition& last, const double* coordinates, int* proc, int* part) {
+    const rrcb::Part found = last.part_of(coordinates);
+    write_place(last.map().ranks_of(found).first_rank, found, proc, part);
 }
 
 void hand_out_failure(int* values, int* count) {
     if (values != nullptr) *values = -1;
     *count = 0;
+}
+
+/// Writes the ranks of ascending parts, ascending; returns their number.
+int write_ranks(const PartMap& map, const rrcb::Part* parts, int num_parts, int* ranks) {
+    int count = 0;
+    for (int i = 0; i < num_parts; ++i) {
+        const rrcb::RankRange range = map.ranks_of(parts[i]);
+        // The ranks of ascending parts ascend: only the last one can occur twice.
+        const int next = count == 0 ? 0 : ranks[count - 1] + 1;
+        for (int r = std::max(range.first_rank, next); r < range.first_rank + range.count; ++r) {
+            ranks[count++] = r;
+        }
+    }
+    return count;
+}
+
+/// Writes the parts that a closed box touches and the ranks that hold them, both ascending. Null
+/// arrays are not asked for.
+void look_up_box(const LastPartition& last, const rrcb::Box& box, int* ranks, int* num_ranks,
+                 int* parts, int* num_parts) {
+    // Kept between calls: programs make tens of thousands of them.
+    thread_local std::vector<rrcb::Part> unasked;
+    if (parts == nullptr) unasked.resize(last.map().num_parts);
+    rrcb::Part* const touched = parts == nullptr ? unasked.data() : parts;
+    const int count = last.parts_touching(box, touched);
+    if (parts != nullptr) *num_parts = count;
+    if (ranks != nullptr) *num_ranks = write_ranks(last.map(), touched, count, ranks);
 }
 
 /// Returns the state of a handle whose last partition RRCB made; null if the real Zoltan is to
@@ -43,21 +76,19 @@ RRCB_EXPORT int Zoltan_LB_Point_PP_Assign(Zoltan_Struct* zz, double* coordinates
     if (state == nullptr) {
         return forward<&RealZoltan::lb_point_pp_assign>(zz, coordinates, proc, part);
     }
-    write_place({}, proc, part);
-    return guarded("Zoltan_LB_Point_PP_Assign", state, [&] {
-        write_place(place_of(*state, coordinates), proc, part);
-        return ZOLTAN_OK;
+    write_place(-1, -1, proc, part);
+    return look_up("Zoltan_LB_Point_PP_Assign", *state, [&](const LastPartition& last) {
+        look_up_point(last, coordinates, proc, part);
     });
 }
 
 RRCB_EXPORT int Zoltan_LB_Point_Assign(Zoltan_Struct* zz, double* coordinates, int* proc) {
     const State* state = look_up_state(zz);
     if (state == nullptr) return forward<&RealZoltan::lb_point_assign>(zz, coordinates, proc);
-    write_place({}, proc, nullptr);
-    return guarded("Zoltan_LB_Point_Assign", state, [&] {
-        require_one_part_per_rank(last_of(*state).map(), "Zoltan_LB_Point_PP_Assign");
-        write_place(place_of(*state, coordinates), proc, nullptr);
-        return ZOLTAN_OK;
+    write_place(-1, -1, proc, nullptr);
+    return look_up("Zoltan_LB_Point_Assign", *state, [&](const LastPartition& last) {
+        require_one_part_per_rank(last.map(), "Zoltan_LB_Point_PP_Assign");
+        look_up_point(last, coordinates, proc, nullptr);
     });
 }
 
@@ -71,10 +102,9 @@ RRCB_EXPORT int Zoltan_LB_Box_PP_Assign(Zoltan_Struct* zz, double xmin, double y
     }
     hand_out_failure(procs, num_procs);
     hand_out_failure(parts, num_parts);
-    return guarded("Zoltan_LB_Box_PP_Assign", state, [&] {
-        find_touched(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}},
-                     {procs, num_procs, parts, num_parts});
-        return ZOLTAN_OK;
+    return look_up("Zoltan_LB_Box_PP_Assign", *state, [&](const LastPartition& last) {
+        look_up_box(last, {{xmin, ymin, zmin}, {xmax, ymax, zmax}}, procs, num_procs, parts,
+                    num_parts);
     });
 }
 
@@ -87,11 +117,10 @@ RRCB_EXPORT int Zoltan_LB_Box_Assign(Zoltan_Struct* zz, double xmin, double ymin
                                                    num_procs);
     }
     hand_out_failure(procs, num_procs);
-    return guarded("Zoltan_LB_Box_Assign", state, [&] {
-        require_one_part_per_rank(last_of(*state).map(), "Zoltan_LB_Box_PP_Assign");
-        find_touched(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}},
-                     {procs, num_procs, nullptr, nullptr});
-        return ZOLTAN_OK;
+    return look_up("Zoltan_LB_Box_Assign", *state, [&](const LastPartition& last) {
+        require_one_part_per_rank(last.map(), "Zoltan_LB_Box_PP_Assign");
+        look_up_box(last, {{xmin, ymin, zmin}, {xmax, ymax, zmax}}, procs, num_procs, nullptr,
+                    nullptr);
     });
 }
 
@@ -106,12 +135,17 @@ RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, doub
     *dimension = -1;
     *xmin = *ymin = *zmin = -DBL_MAX;
     *xmax = *ymax = *zmax = DBL_MAX;
-    return guarded("Zoltan_RCB_Box", state, [&] {
-        const rrcb::Box region = region_of(*state, part);
-        *dimension = last_of(*state).cuts().dimension;
-        *xmin = region.lower[0], *ymin = region.lower[1], *zmin = region.lower[2];
-        *xmax = region.upper[0], *ymax = region.upper[1], *zmax = region.upper[2];
-        return ZOLTAN_OK;
+    return look_up("Zoltan_RCB_Box", *state, [&](const LastPartition& last) {
+        if (part < 0 || part >= last.cuts().num_parts)
+            throw_fatal("Invalid part number " + std::to_string(part));
+        const rrcb::Box region = last.region_of(part);
+        double* const lower[] = {xmin, ymin, zmin};
+        double* const upper[] = {xmax, ymax, zmax};
+        *dimension = last.cuts().dimension;
+        for (int a = 0; a < *dimension; ++a) {
+            *lower[a] = std::max(region.lower[a], -DBL_MAX);
+            *upper[a] = std::min(region.upper[a], DBL_MAX);
+        }
     });
 }
 

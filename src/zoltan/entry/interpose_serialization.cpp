@@ -37,7 +37,7 @@ void reset_others(Zoltan_Struct* zz, const State& state, const Parcel& parcel) {
     // A buffer of Zoltan sets these without the plug-in.
     others.note("NUM_GID_ENTRIES", "");
     others.note("NUM_LID_ENTRIES", "");
-    for (const auto& [name, value] : others)
+    for (const auto& [name, value] : others.entries)
         if (parcel.given.find(name) == nullptr) set_again(zz, name, initial_value_of(name));
 }
 
@@ -65,7 +65,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     state.kept.reset();
     state.deserialized = false;
     Zoltan_LB_Set_Part_Sizes(zz, 1, -1, nullptr, nullptr, nullptr);
-    for (const auto& [name, value] : parcel.given) {
+    for (const auto& [name, value] : parcel.given.entries) {
         const int code = set_again(zz, name, value);
         if (code != ZOLTAN_OK && code != ZOLTAN_WARN) return code;
     }

@@ -10,7 +10,6 @@
 #include "zoltan/real/message.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
-#include <atomic>
 #include <memory>
 #include <new>
 #include <utility>
@@ -58,13 +57,6 @@ bool vote_on_environment(bool asks, RollCall& roll_call, Participant& self) {
     const bool are_all_here = roll_call.complete(request, self);
     if (are_all_here) mpi::check(code, "MPI_Iallreduce");
     return are_all_here;
-}
-
-void warn_once_of_difference(int rank) {
-    static std::atomic<bool> warned = false;
-    if (rank != 0 || warned.exchange(true)) return;
-    print_warning(rank, "Zoltan_Create",
-                  "RRCB_REPLACE=RCB is in the environment of some ranks only; it holds on all");
 }
 
 bool is_congruent(const Communicator& one, const Communicator& other) {
@@ -132,7 +124,8 @@ bool create_state(const Zoltan_Struct* zz, MPI_Comm user) {
         state.is_verbose = ballot.is_verbose != 0;
         if (ballot.asks_for_replacement != 0) replace_rcb(state);
         if (ballot.asks_for_replacement == ballot.does_not_ask)
-            warn_once_of_difference(state.communicator->rank());
+            warn_once(state.communicator->rank(), "Zoltan_Create",
+                      "RRCB_REPLACE=RCB is in the environment of some ranks only; it holds on all");
         return true;
     } catch (...) {
         discard(draft, zz);

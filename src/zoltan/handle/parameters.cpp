@@ -49,13 +49,13 @@ void note_tolerance(Options& options, std::string_view text) {
 bool GivenParameters::note(const std::string& name, const std::string& value) {
     const std::string* previous = find(name);
     const bool is_changed = previous == nullptr || *previous != value;
-    std::erase_if(entries_, [&](const auto& entry) { return entry.first == name; });
-    entries_.emplace_back(name, value);
+    std::erase_if(entries, [&](const auto& entry) { return entry.first == name; });
+    entries.emplace_back(name, value);
     return is_changed;
 }
 
 const std::string* GivenParameters::find(std::string_view name) const {
-    for (const auto& [key, value] : entries_)
+    for (const auto& [key, value] : entries)
         if (key == name) return &value;
     return nullptr;
 }

@@ -35,20 +35,14 @@ Options default_options();
 
 /// Names and values of parameters, in the order in which they were set last: set again in this
 /// order they have the same effect.
-class GivenParameters {
-  public:
+struct GivenParameters {
     /// Notes a parameter. Returns whether its value changed.
     bool note(const std::string& name, const std::string& value);
 
     /// Returns the value of a parameter, null if it was not set.
     const std::string* find(std::string_view name) const;
 
-    auto begin() const { return entries_.begin(); }
-    auto end() const { return entries_.end(); }
-    std::size_t size() const { return entries_.size(); }
-
-  private:
-    std::vector<std::pair<std::string, std::string>> entries_;
+    std::vector<std::pair<std::string, std::string>> entries{};
 };
 
 /// Parameters of a handle for the plug-in. The defaults are Zoltan's.
@@ -104,22 +98,16 @@ bool read_integer(int& value, std::string_view text) {
 }
 
 /// Returns a number by which ranks compare values: equal ones for equal values.
-constexpr int number_of(std::uint64_t value) {
-    return static_cast<int>(static_cast<std::uint32_t>(value ^ (value >> 32)));
-}
-constexpr int number_of(double value) {
-    return number_of(std::bit_cast<std::uint64_t>(value));
-}
-constexpr int number_of(int value) {
-    return value;
-}
-template <class Enumeration>
-requires std::is_enum_v<Enumeration>
-constexpr int number_of(Enumeration value) {
-    return static_cast<int>(value);
-}
-constexpr int number_of(std::optional<PaperDomain> value) {
-    return value ? 1 + static_cast<int>(*value) : 0;
+template <class Value>
+constexpr int number_of(const Value& value) {
+    if constexpr (std::is_same_v<Value, std::optional<PaperDomain>>) {
+        return value ? 1 + static_cast<int>(*value) : 0;
+    } else if constexpr (sizeof(Value) == sizeof(std::uint64_t)) {
+        const auto bits = std::bit_cast<std::uint64_t>(value);
+        return static_cast<int>(static_cast<std::uint32_t>(bits ^ (bits >> 32)));
+    } else {
+        return static_cast<int>(value);
+    }
 }
 
 /// Returns the value for DEFAULT and illegal texts: as in a new handle, with two exceptions.

@@ -18,6 +18,8 @@ struct PartMap {
     bool is_even = true;              ///< as in ranks_of_part()
     std::vector<RankRange> listed{};  ///< of each part; empty if it is even, of many parts
 
+    bool has_one_rank_per_part() const { return !is_even || num_parts >= num_ranks; }
+
     RankRange ranks_of(Part part) const {
         if (one_each) return {part, 1};
         return listed.empty() ? ranks_of_part(part, num_parts, num_ranks) : listed[part];

@@ -2,8 +2,6 @@
 
 #include "zoltan/real/message.hpp"
 
-#include <array>
-#include <atomic>
 #include <cstdlib>
 #include <new>
 #include <string>
@@ -29,11 +27,11 @@ struct Left {
     bool in_hier_only;
     const char* reason;
 };
-constexpr std::array left_methods = {
-    Left{"RIB", false, "LB_METHOD=RIB stays Zoltan's; RRCB_REPLACE replaces RCB alone"},
-    Left{"HSFC", false, "LB_METHOD=HSFC stays Zoltan's; RRCB_REPLACE replaces RCB alone"},
-    Left{"RCB", true,
-         "RCB inside HIER stays Zoltan's; the callback for HIER's methods can set RRCB by name"},
+constexpr Left left_methods[] = {
+    {"RIB", false, "LB_METHOD=RIB stays Zoltan's; RRCB_REPLACE replaces RCB alone"},
+    {"HSFC", false, "LB_METHOD=HSFC stays Zoltan's; RRCB_REPLACE replaces RCB alone"},
+    {"RCB", true,
+     "RCB inside HIER stays Zoltan's; the callback for HIER's methods can set RRCB by name"},
 };
 
 }  // namespace
@@ -82,16 +80,13 @@ void replace_rcb(State& state) noexcept {
 }
 
 void tell_if_not_replaced(const State* state, const char* function) noexcept try {
-    static std::array<std::atomic<bool>, left_methods.size()> told;
     if (state == nullptr || !state->replacement_asked) return;
     const State& programs = outer_state == nullptr ? *state : *outer_state;
-    if (programs.communicator->rank() != 0 || programs.parameters.debug_level <= 0) return;
+    if (programs.parameters.debug_level <= 0) return;
     const std::string method = method_of(*state);
-    for (std::size_t i = 0; i < left_methods.size(); ++i) {
-        const Left& left = left_methods[i];
-        if (method != left.method || (left.in_hier_only && !state->inside_hier)) continue;
-        if (!told[i].exchange(true)) print_warning(0, function, left.reason);
-    }
+    for (const Left& left : left_methods)
+        if (method == left.method && (!left.in_hier_only || state->inside_hier))
+            warn_once(programs.communicator->rank(), function, left.reason);
 } catch (const std::bad_alloc&) {
     // If memory is short, only the notice is lost.
 }

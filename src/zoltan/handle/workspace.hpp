@@ -11,27 +11,24 @@
 
 namespace rrcb::zoltan {
 
-/// Memory that grows and is kept, so that repeated calls touch the same pages.
+/// Returns room for `size` entries in memory that grows and is kept, so that repeated calls touch
+/// the same pages. Old entries are lost. Throws std::bad_alloc.
 template <typename T>
-struct Scratch : private detail::Uninitialized<T> {
-    /// Returns room for `size` entries. Old entries are lost. Throws std::bad_alloc.
-    T* get(std::size_t size) {
-        this->clear();
-        this->resize(size);
-        return detail::Uninitialized<T>::data();
-    }
-    using detail::Uninitialized<T>::data;  ///< null before the first get()
-};
+T* room_in(detail::Uninitialized<T>& memory, std::size_t size) {
+    memory.clear();
+    memory.resize(size);
+    return memory.data();
+}
 
 /// Memory that one handle's calls share.
 struct Workspace {
-    Scratch<double> coordinates;
-    Scratch<double> weights;
-    Scratch<float> callback_weights;
-    Scratch<std::uint32_t> global_ids;
-    Scratch<std::uint32_t> local_ids;
-    Scratch<int> initial_parts;
-    Scratch<int> moving;  ///< indices of objects that move
+    detail::Uninitialized<double> coordinates;
+    detail::Uninitialized<double> weights;
+    detail::Uninitialized<float> callback_weights;
+    detail::Uninitialized<std::uint32_t> global_ids;
+    detail::Uninitialized<std::uint32_t> local_ids;
+    detail::Uninitialized<int> initial_parts;
+    detail::Uninitialized<int> moving;  ///< indices of objects that move
     std::vector<Part> parts;
     ExchangeBuffers records;  ///< of objects that move
 };

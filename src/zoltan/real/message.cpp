@@ -3,6 +3,9 @@
 #include <zoltan_types.h>
 
 #include <cstdio>
+#include <mutex>
+#include <new>
+#include <set>
 
 namespace rrcb::zoltan {
 
@@ -25,6 +28,16 @@ void print_error(int rank, const char* function, std::string_view text) noexcept
 
 void print_warning(int rank, const char* function, std::string_view text) noexcept {
     print(rank, "WARNING", function, text);
+}
+
+void warn_once(int rank, const char* function, std::string_view text) noexcept try {
+    static std::mutex mutex;
+    static auto& printed = *new std::set<std::string>;
+    if (rank != 0) return;
+    const std::scoped_lock lock(mutex);
+    if (printed.emplace(text).second) print_warning(rank, function, text);
+} catch (const std::bad_alloc&) {
+    // Only the warning is lost.
 }
 
 }  // namespace rrcb::zoltan

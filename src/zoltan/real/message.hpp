@@ -23,4 +23,7 @@ class ZoltanError : public std::runtime_error {
 void print_error(int rank, const char* function, std::string_view text) noexcept;
 void print_warning(int rank, const char* function, std::string_view text) noexcept;
 
+/// Prints a warning on rank 0, unless the process has printed it before, or lacks memory.
+void warn_once(int rank, const char* function, std::string_view text) noexcept;
+
 }  // namespace rrcb::zoltan

@@ -8,7 +8,6 @@
 #include "options/validation.hpp"
 
 #include <rrcb/detail/mix.hpp>
-#include <rrcb/options.hpp>
 
 #include <algorithm>
 #include <array>
@@ -237,9 +236,11 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
 }
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, bool is_spread,
-            Participant& self) {
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self,
+            int central_parts) {
     const int num_ranks = mpi::size_of(self.comm);
+    const bool is_spread =
+        std::min<std::ptrdiff_t>(std::ssize(ranks_of_parts), num_ranks) > central_parts;
     std::optional<GroupBuffers> buffers;
     self.attempt([&] {
         check_lists(parts, previous, ranks_of_parts, num_ranks);
@@ -268,14 +269,6 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
     Remap result = find_numbers(parts, previous, *buffers, self).remap;
     if (is_spread) agree(self);
     return result;
-}
-
-Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self) {
-    const bool is_spread =
-        std::min<std::ptrdiff_t>(std::ssize(ranks_of_parts), mpi::size_of(self.comm)) >
-        Tuning{}.central_parts;
-    return remap(parts, previous, ranks_of_parts, shape, is_spread, self);
 }
 
 namespace {

@@ -53,8 +53,7 @@ struct RemapBuffers {
 
     NumberSearch search;
     Butterfly told;
-    Butterfly offers;
-    Butterfly left;
+    Butterfly offers;  ///< then what is left of parts and numbers
     ButterflyMessages messages;
     std::vector<Part> numbers;          ///< of all parts, if wanted
     std::vector<GlobalCount> decision;  ///< of rank 0, if it searches

@@ -7,7 +7,6 @@
 #include <rrcb/restart.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace rrcb {

@@ -32,14 +32,6 @@ void check_lists(const Plan& plan, int num_ranks) {
             "the plan names a rank that is none of this communicator; give that of the plan");
 }
 
-/// Returns the indices of the exports, sorted by rank and ascending for each.
-std::vector<LocalIndex> sort_by_rank(const Plan& plan, RankOrder& order) {
-    std::vector<LocalIndex> sorted(plan.export_indices.size());
-    order.for_each(
-        [&](std::size_t k, std::size_t place) { sorted[place] = plan.export_indices[k]; });
-    return sorted;
-}
-
 }  // namespace
 
 void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
@@ -54,7 +46,9 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
         mpi::require_group(plan.group, "the plan", self);
         check_lists(plan, num_ranks);
         RankOrder order(plan.export_ranks, num_ranks);
-        sent = sort_by_rank(plan, order);
+        sent.resize(plan.export_indices.size());
+        order.for_each(
+            [&](std::size_t k, std::size_t place) { sent[place] = plan.export_indices[k]; });
         to = order.counts();
         from = count_ascending(plan.import_ranks);
         const LocalIndex num_kept = plan.num_points - plan.export_indices.size();

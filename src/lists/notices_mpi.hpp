@@ -4,10 +4,7 @@
 #include "collective/communicator.hpp"
 #include "collective/exchange_mpi.hpp"
 
-#include <rrcb/detail/mix.hpp>
-
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <initializer_list>
 #include <span>
@@ -15,11 +12,6 @@
 #include <vector>
 
 namespace rrcb {
-
-/// Returns the rank that collects all that ranks know of a key.
-inline int home_of(std::uint64_t key, int num_ranks) {
-    return static_cast<int>(detail::mix(key) % static_cast<std::uint64_t>(num_ranks));
-}
 
 /// Sends a record, made by make(k), to each of `ranks`. Calls reserve(number) before any arrives,
 /// and take(source, record) for each, by rank. Collective.

@@ -7,8 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 

@@ -83,7 +83,6 @@ struct Controller::State {
     }
     StepMessage& message() { return *message_; }
     bool has_started() const { return has_started_; }
-    MPI_Comm comm() const { return comm_; }
     int rank() const { return rank_; }
     int num_ranks() const { return num_ranks_; }
     /// Notes that points have other weights from now on: rebalances may leave less imbalance.

@@ -7,7 +7,6 @@
 #include <rrcb/restart.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace rrcb {
@@ -23,12 +22,11 @@ void Controller::State::wait(Participant& self) {
 }
 
 std::array<double, 3> Controller::State::own_numbers() {
-    const auto [load, points] = point_cost.sums();
-    return {load, points, cost_};
+    return {point_cost.load, point_cost.points, cost_};
 }
 
 void Controller::State::set_own_numbers(std::span<const double> numbers) {
-    point_cost = PointCost(numbers[0], numbers[1]);
+    point_cost = {numbers[0], numbers[1]};
     cost_ = numbers[2];
     has_bad_cost_ = !is_amount(cost_);
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 namespace rrcb {
 
 /// Reason to weigh points by learned costs or to count them.

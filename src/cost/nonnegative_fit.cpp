@@ -2,14 +2,12 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace rrcb {
 
 namespace {
 
-using Active = std::array<bool, most_cost_columns>;
+using Active = Eigen::Array<bool, Eigen::Dynamic, 1, 0, most_cost_columns, 1>;
 
 /// Returns the minimum with the columns that are not free held at 0.
 CostVector free_minimum(const CostMatrix& a, const CostVector& b, const Active& is_free) {
@@ -33,27 +31,19 @@ double allowed_share(const CostVector& from, const CostVector& to, const Active&
     return share;
 }
 
-/// Returns the column held at 0 that lowers the sum the fastest; -1 if none does.
-Eigen::Index column_to_free(const CostVector& descent, const Active& is_free, double least) {
-    Eigen::Index best = -1;
-    for (Eigen::Index j = 0; j < descent.size(); ++j) {
-        if (is_free[j] || descent[j] <= least) continue;
-        if (best < 0 || descent[j] > descent[best]) best = j;
-    }
-    return best;
-}
-
 }  // namespace
 
 CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
     CostVector x = CostVector::Zero(b.size());
     if (b.size() == 0) return x;
-    Active is_free{};
+    Active is_free = Active::Constant(b.size(), false);
     const double least = 1e-14 * b.cwiseAbs().maxCoeff();
     // Each turn of the outer loop lowers the sum, so none repeats, except by round-off.
     for (Eigen::Index turn = 0; turn < 4 * b.size(); ++turn) {
-        const Eigen::Index next = column_to_free(b - a * x, is_free, least);
-        if (next < 0) break;
+        // Frees the column that lowers the sum the fastest.
+        Eigen::Index next = 0;
+        const CostVector descent = b - a * x;
+        if (is_free.select(-1.0, descent.array()).maxCoeff(&next) <= least) break;
         is_free[next] = true;
         // x >= 0 throughout: each turn reaches the minimum, or fixes a column at 0 on the way.
         for (;;) {

@@ -1,11 +1,9 @@
 #pragma once
 
 #include "arithmetic/infinity.hpp"
-#include "cuts/owned_cuts.hpp"
 #include "cuts/packed_tree.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <span>
 #include <vector>
@@ -125,15 +123,17 @@ class PartReaches {
 /// touched.
 class BallSearch {
   public:
-    /// Leaves out the parts in `ranges`, which ascend. `cuts` and `reaches` outlive the search.
-    /// With `reaches` it also finds the parts that need the centre.
-    BallSearch(const Cuts& cuts, std::span<const PartRange> ranges,
-               const PartReaches* reaches = nullptr)
+    /// Leaves out the parts for which leaves_out(part, region), called in ascending order, is true.
+    /// `cuts` and `reaches` outlive the search. With `reaches` it also finds the parts that need
+    /// the centre.
+    template <class LeavesOut>
+    BallSearch(const Cuts& cuts, LeavesOut&& leaves_out, const PartReaches* reaches = nullptr)
         : dimension_(cuts.dimension),
           tree_(cuts,
                 [&](Part part, const Box& region) {
-                    return is_in(ranges, part) || is_region_empty(cuts, part, region) ? left_out
-                                                                                      : part;
+                    return leaves_out(part, region) || is_region_empty(cuts, part, region)
+                               ? left_out
+                               : part;
                 }),
           reaches_(reaches) {
         if (reaches != nullptr) find_reaches();
@@ -149,11 +149,6 @@ class BallSearch {
     }
 
   private:
-    static bool is_in(std::span<const PartRange> ranges, Part part) {
-        const auto next = std::ranges::upper_bound(ranges, part, {}, &PartRange::first);
-        return next != ranges.begin() && part < std::prev(next)->end;
-    }
-
     /// `apart` are the distances from the centre to the region of the node along the axes.
     template <class Visit, class Lack>
     void descend(std::int32_t node, const Ball& ball, const Vector& apart, Visit&& visit,

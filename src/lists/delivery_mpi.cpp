@@ -43,14 +43,9 @@ std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
     return bytes;
 }
 
-/// Properties of a column that must be the same on every rank.
-struct ColumnType {
-    std::uint64_t components = 0;
-    std::uint64_t value_bytes = 0;
-    std::uint64_t kind = 0;
-
-    bool operator==(const ColumnType&) const = default;
-};
+/// Properties of a column that must be the same on every rank: components, bytes and kind of a
+/// value.
+using ColumnType = std::array<std::uint64_t, 3>;
 
 ColumnType type_of(const ByteColumn& column) {
     return {column.components, column.value_bytes, static_cast<std::uint64_t>(column.kind)};
@@ -58,17 +53,15 @@ ColumnType type_of(const ByteColumn& column) {
 
 std::string text_of(const ColumnType& type) {
     constexpr std::array kinds{"whole numbers", "floating-point numbers", "values of another type"};
-    return std::to_string(type.components) + " per point, " + kinds.at(type.kind) + " of " +
-           std::to_string(type.value_bytes) + " bytes";
+    const auto [components, value_bytes, kind] = type;
+    return std::to_string(components) + " per point, " + kinds.at(kind) + " of " +
+           std::to_string(value_bytes) + " bytes";
 }
 
 std::uint64_t hash_of_columns(std::span<const ByteColumn> columns) {
     std::uint64_t hash = columns.size();
-    for (const ByteColumn& column : columns) {
-        const auto [components, value_bytes, kind] = type_of(column);
-        for (const std::uint64_t number : {components, value_bytes, kind})
-            hash = detail::mix(hash ^ number);
-    }
+    for (const ByteColumn& column : columns)
+        for (const std::uint64_t number : type_of(column)) hash = detail::mix(hash ^ number);
     return hash;
 }
 

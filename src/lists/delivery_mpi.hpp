@@ -11,14 +11,14 @@
 
 namespace rrcb {
 
-/// Points that this rank keeps, sends and receives.
+/// Points that this rank keeps, sends and receives; borrows the lists.
 struct Delivery {
     LocalIndex num_points = 0;              ///< that this rank holds
     LocalIndex num_kept = 0;                ///< of these, first in the result
     std::span<const LocalIndex> removed{};  ///< ascending; if any are kept, all others
     std::span<const LocalIndex> sent{};     ///< sorted by rank; empty: all, in their order
-    std::vector<RankCount> to{};            ///< number for each rank, ascending
-    std::vector<RankCount> from{};
+    std::span<const RankCount> to{};        ///< number for each rank, ascending
+    std::span<const RankCount> from{};
     std::uint64_t overtaking = 0;  ///< number of a transfer; if the same on all ranks, refused
 };
 

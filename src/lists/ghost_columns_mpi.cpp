@@ -63,12 +63,13 @@ void copy(const ByteColumn& column) {
 
 void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
           TransferReport* report, Participant& self) {
-    Delivery delivery{.num_points = plan.num_points, .sent = plan.send_indices};
+    Delivery delivery{.num_points = plan.num_points,
+                      .sent = plan.send_indices,
+                      .to = plan.send,
+                      .from = plan.receive};
     self.attempt([&] {
         check(plan, self);
         delivery.overtaking = overtaking(plan, self.comm);
-        delivery.to = plan.send;
-        delivery.from = plan.receive;
     });
     deliver(delivery, columns, limits, report, self);
 }
@@ -76,7 +77,7 @@ void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const Tran
 void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                std::span<const ByteColumn> of_points, const TransferLimits& limits,
                TransferReport* report, Participant& self) {
-    Delivery delivery;
+    Delivery delivery{.to = plan.receive, .from = plan.send};
     self.attempt([&] {
         delivery.num_points = check(plan, self);
         delivery.overtaking = overtaking(plan, self.comm);
@@ -90,8 +91,6 @@ void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
             check_column(of_points[k], plan.num_points, "points of the plan");
             copy(of_points[k]);
         }
-        delivery.to = plan.receive;
-        delivery.from = plan.send;
     });
     deliver(delivery, of_ghosts, limits, report, self);
 }
@@ -104,8 +103,11 @@ void move(const detail::Replies& replies, std::span<const ByteColumn> columns,
 void move(const Groups& groups, std::span<const ByteColumn> columns, const TransferLimits& limits,
           TransferReport* report, Participant& self) {
     const LocalIndex num_groups = groups.plan.num_points;
-    Delivery delivery{
-        .num_points = num_groups, .num_kept = num_groups, .sent = groups.plan.send_indices};
+    const Delivery delivery{.num_points = num_groups,
+                            .num_kept = num_groups,
+                            .sent = groups.plan.send_indices,
+                            .to = groups.plan.send,
+                            .from = groups.plan.receive};
     std::vector<ByteResult> values;
     std::vector<ByteColumn> of_groups;
     std::vector<std::byte*> results;
@@ -119,8 +121,6 @@ void move(const Groups& groups, std::span<const ByteColumn> columns, const Trans
             of_groups.push_back(
                 values.emplace_back(ByteResult{column.value_bytes}).result_of(column));
         }
-        delivery.to = groups.plan.send;
-        delivery.from = groups.plan.receive;
     });
     deliver(delivery, of_groups, limits, report, self);
     for (std::size_t k = 0; k < columns.size(); ++k)

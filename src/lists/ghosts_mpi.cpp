@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -42,18 +41,10 @@ struct Holders {
 
     RankRange operator()(Part end) const { return of_part(shape.part_at(end, num_parts)); }
 
-    /// Returns the ends of the parts that only this rank holds, in ranges as long as possible.
-    std::vector<PartRange> alone_here() const {
-        PartRange among{0, num_parts};
-        if (!given && shape.dealt == 0) among = parts_on(rank, num_parts, num_ranks);
-        std::vector<PartRange> ranges;
-        for (Part part = among.first; part < among.end; ++part) {
-            const RankRange ranks = (*this)(part);
-            if (ranks.first_rank != rank || ranks.count > 1) continue;
-            if (ranges.empty() || ranges.back().end != part) ranges.push_back({part, part});
-            ranges.back().end = part + 1;
-        }
-        return ranges;
+    /// Returns true if only this rank holds the part at an end.
+    bool are_only_here(Part end) const {
+        const RankRange ranks = (*this)(end);
+        return ranks.first_rank == rank && ranks.count == 1;
     }
 
     /// Returns the ends of the parts that this rank holds.
@@ -70,96 +61,6 @@ struct Holders {
                 "ranks_of_parts must have one entry for each part");
         check_ranks(*given, num_ranks);
     }
-};
-
-/// Finds which of this rank's points other ranks need, by the cuts that are known.
-class Neighbourhood {
-  public:
-    /// `has_balanced`: the points are those of the balance, which must have been transferred.
-    Neighbourhood(const Cuts& cuts, const Holders& holders,
-                  const std::optional<PeriodicImages>& images, const PartReaches* reaches,
-                  bool has_balanced)
-        : cuts_(cuts),
-          has_balanced_(has_balanced),
-          dimension_(cuts.dimension),
-          holders_(holders),
-          images_(images),
-          alone_(holders.alone_here()),
-          reach_(reaches != nullptr ? reaches->greatest() : -infinity),
-          search_(cuts, alone_, reaches) {
-        if (images_) search_of_images_.emplace(cuts, std::span<const PartRange>{}, reaches);
-        if (alone_.size() != 1 || alone_[0].end - alone_[0].first != 1) return;
-        const Part end = alone_[0].first;
-        if (knows_path(cuts, end)) home_ = box_of(cuts, part_at(cuts, end));
-    }
-
-    /// Notes the ranks that need a point or its images. Points come in ascending order.
-    void add(LocalIndex point, const Ball& ball) {
-        if (!images_) return add(point, ball, Shift{});
-        images_->for_each(ball.widened(reach_), [&](const Shift& shift, const Vector& centre) {
-            add(point, ball.moved_to(centre), shift);
-        });
-    }
-
-    void write(GhostPlan& plan) const {
-        RankOrder order(ranks_, holders_.num_ranks);
-        plan.send = order.counts();
-        plan.send_indices.resize(points_.size());
-        plan.shifts.resize(shifts_.size());
-        order.for_each([&](std::size_t k, std::size_t place) {
-            plan.send_indices[place] = points_[k];
-            if (images_) plan.shifts[place] = shifts_[k];
-        });
-    }
-
-    /// Returns the nodes near points whose cuts are not known.
-    std::vector<std::size_t> lacking() const { return {lacking_.begin(), lacking_.end()}; }
-
-  private:
-    void add(LocalIndex point, const Ball& ball, const Shift& shift) {
-        const bool is_image = shift != Shift{};
-        if (!is_image && home_ && ball.widened(reach_).is_inside(*home_, dimension_)) return;
-        if (!is_image && has_balanced_) require_here(point, ball.centre());
-        const auto first = std::ssize(ranks_);
-        (is_image ? *search_of_images_ : search_)
-            .for_each_part(
-                ball, [&](Part end) { note(holders_(end), is_image); },
-                [&](std::size_t node) { lacking_.insert(node); },
-                is_image ? images_->apart(ball.centre()) : Vector{});
-        // A rank may hold several of the parts.
-        std::ranges::sort(ranks_.begin() + first, ranks_.end());
-        ranks_.erase(std::unique(ranks_.begin() + first, ranks_.end()), ranks_.end());
-        points_.resize(ranks_.size(), point);
-        if (images_) shifts_.resize(ranks_.size(), shift);
-    }
-
-    void require_here(LocalIndex point, const Vector& position) const {
-        const Part part = part_of(cuts_, position);
-        if (part == no_part || holders_.of_part(part).contains(holders_.rank)) return;
-        reject("these are the points of the balance, but point " + std::to_string(point) +
-               " (the first is 0) has to leave this rank for part " + std::to_string(part) +
-               "; give the points that the transfer returned");
-    }
-
-    void note(const RankRange& ranks, bool also_here) {
-        for (int rank = ranks.first_rank; rank < ranks.first_rank + ranks.count; ++rank)
-            if (also_here || rank != holders_.rank) ranks_.push_back(rank);
-    }
-
-    const Cuts& cuts_;
-    bool has_balanced_;
-    int dimension_;
-    const Holders& holders_;
-    const std::optional<PeriodicImages>& images_;
-    std::vector<PartRange> alone_;
-    double reach_;  ///< greatest of all parts
-    BallSearch search_;
-    std::optional<BallSearch> search_of_images_;  ///< of all parts
-    std::optional<Box> home_;  ///< region of the only part that this rank does not share
-    std::vector<LocalIndex> points_;
-    std::vector<int> ranks_;     ///< each to get one of the points
-    std::vector<Shift> shifts_;  ///< of these, if there are images
-    std::set<std::size_t> lacking_;
 };
 
 /// Input of a plan on this rank.
@@ -198,19 +99,111 @@ struct GhostRequest {
             for_each_end(
                 i, [&](Part end) { reaches->note_place(end, radii.of(i), points.position(i)); });
     }
-
-    /// Lists the points that this rank sends, with their shifts; returns the nodes whose cuts it
-    /// lacks for the rest.
-    std::vector<std::size_t> list_sent(const Cuts& cuts, GhostPlan& plan) const {
-        Neighbourhood neighbourhood(cuts, holders, images, reaches ? &*reaches : nullptr,
-                                    has_balanced);
-        for (LocalIndex i = 0; i < points.count; ++i)
-            neighbourhood.add(i, Ball(points.position(i), radii.of_sender(i)));
-        plan.num_points = points.count;
-        neighbourhood.write(plan);
-        return neighbourhood.lacking();
-    }
 };
+
+/// Finds which of this rank's points other ranks need, by the cuts that are known.
+class Neighbourhood {
+  public:
+    /// Both outlive it.
+    Neighbourhood(const Cuts& cuts, const GhostRequest& request)
+        : cuts_(cuts),
+          request_(request),
+          reach_(request.reaches ? request.reaches->greatest() : -infinity),
+          search_(
+              cuts, [&](Part end, const Box& region) { return leaves_out(end, region); },
+              reaches()) {
+        if (request.images)
+            search_of_images_.emplace(
+                cuts, [](Part, const Box&) { return false; }, reaches());
+    }
+
+    /// Notes the ranks that need a point or its images. Points come in ascending order.
+    void add(LocalIndex point, const Ball& ball) {
+        if (!request_.images) return add(point, ball, Shift{});
+        request_.images->for_each(ball.widened(reach_),
+                                  [&](const Shift& shift, const Vector& centre) {
+                                      add(point, ball.moved_to(centre), shift);
+                                  });
+    }
+
+    void write(GhostPlan& plan) const {
+        RankOrder order(ranks_, request_.holders.num_ranks);
+        plan.send = order.counts();
+        plan.send_indices.resize(points_.size());
+        plan.shifts.resize(shifts_.size());
+        order.for_each([&](std::size_t k, std::size_t place) {
+            plan.send_indices[place] = points_[k];
+            if (request_.images) plan.shifts[place] = shifts_[k];
+        });
+    }
+
+    /// Returns the nodes near points whose cuts are not known.
+    std::vector<std::size_t> lacking() const { return {lacking_.begin(), lacking_.end()}; }
+
+  private:
+    const PartReaches* reaches() const { return request_.reaches ? &*request_.reaches : nullptr; }
+
+    /// Leaves out the parts that only this rank holds, and notes the region of one of them.
+    bool leaves_out(Part end, const Box& region) {
+        if (!request_.holders.are_only_here(end)) return false;
+        if (!home_ && !is_region_empty(cuts_, end, region)) home_ = region;
+        return true;
+    }
+
+    void add(LocalIndex point, const Ball& ball, const Shift& shift) {
+        const bool is_image = shift != Shift{};
+        if (!is_image && home_ && ball.widened(reach_).is_inside(*home_, cuts_.dimension)) return;
+        if (!is_image && request_.has_balanced) require_here(point, ball.centre());
+        const auto first = std::ssize(ranks_);
+        (is_image ? *search_of_images_ : search_)
+            .for_each_part(
+                ball, [&](Part end) { note(request_.holders(end), is_image); },
+                [&](std::size_t node) { lacking_.insert(node); },
+                is_image ? request_.images->apart(ball.centre()) : Vector{});
+        // A rank may hold several of the parts.
+        std::ranges::sort(ranks_.begin() + first, ranks_.end());
+        ranks_.erase(std::unique(ranks_.begin() + first, ranks_.end()), ranks_.end());
+        points_.resize(ranks_.size(), point);
+        if (request_.images) shifts_.resize(ranks_.size(), shift);
+    }
+
+    void require_here(LocalIndex point, const Vector& position) const {
+        const Part part = part_of(cuts_, position);
+        const Holders& holders = request_.holders;
+        if (part == no_part || holders.of_part(part).contains(holders.rank)) return;
+        reject("these are the points of the balance, but point " + std::to_string(point) +
+               " (the first is 0) has to leave this rank for part " + std::to_string(part) +
+               "; give the points that the transfer returned");
+    }
+
+    void note(const RankRange& ranks, bool also_here) {
+        for (int rank = ranks.first_rank; rank < ranks.first_rank + ranks.count; ++rank)
+            if (also_here || rank != request_.holders.rank) ranks_.push_back(rank);
+    }
+
+    const Cuts& cuts_;
+    const GhostRequest& request_;
+    double reach_;             ///< greatest of all parts
+    std::optional<Box> home_;  ///< region of a part that only this rank holds
+    BallSearch search_;
+    std::optional<BallSearch> search_of_images_{};  ///< of all parts
+    std::vector<LocalIndex> points_{};
+    std::vector<int> ranks_{};     ///< each to get one of the points
+    std::vector<Shift> shifts_{};  ///< of these, if there are images
+    std::set<std::size_t> lacking_{};
+};
+
+/// Lists the points that this rank sends, with their shifts; returns the nodes whose cuts it lacks
+/// for the rest.
+std::vector<std::size_t> list_sent(const Cuts& cuts, const GhostRequest& request, GhostPlan& plan) {
+    const Points& points = request.points;
+    Neighbourhood neighbourhood(cuts, request);
+    for (LocalIndex i = 0; i < points.count; ++i)
+        neighbourhood.add(i, Ball(points.position(i), request.radii.of_sender(i)));
+    plan.num_points = points.count;
+    neighbourhood.write(plan);
+    return neighbourhood.lacking();
+}
 
 /// Search for the cuts that a plan lacks.
 class GhostSearch : public TierSearch {
@@ -226,7 +219,7 @@ class GhostSearch : public TierSearch {
 
     void learn(const Butterfly& asked) {
         TierSearch::learn(asked);
-        if (!lacking_.empty()) lacking_ = request_.list_sent(cuts(), plan_);
+        if (!lacking_.empty()) lacking_ = list_sent(cuts(), request_, plan_);
     }
 
   private:
@@ -238,13 +231,9 @@ class GhostSearch : public TierSearch {
 /// Sends the shifts of ghosts to the ranks that get these. Collective.
 void exchange_shifts(GhostPlan& plan, Participant& self) {
     const std::vector<Shift> sent = std::exchange(plan.shifts, {});
-    Delivery delivery{.num_points = sent.size()};
-    self.attempt([&] {
-        delivery.to = plan.send;
-        delivery.from = plan.receive;
-    });
     const std::array columns{detail::byte_column(column(sent), plan.shifts)};
-    deliver(delivery, columns, {}, nullptr, self);
+    deliver({.num_points = sent.size(), .to = plan.send, .from = plan.receive}, columns, {},
+            nullptr, self);
 }
 
 /// Takes the greatest reaches of all ranks. Collective.
@@ -261,8 +250,8 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     std::optional<SearchBuffers<GhostSearch>> buffers;
     std::uint64_t bits_of_cuts = 0;
     std::uint64_t bits_of_holders = 0;
-    const auto list_sent = [&] {
-        std::vector<std::size_t> lacking = request.list_sent(cuts, plan);
+    const auto list = [&] {
+        std::vector<std::size_t> lacking = list_sent(cuts, request, plan);
         if (!is_whole(cuts))
             buffers.emplace(GhostSearch(cuts, std::move(lacking), request, plan), self.comm);
     };
@@ -270,7 +259,7 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
         mpi::require_group(cuts.group, "the balance of the cuts", self);
         request.check(cuts);
         request.has_balanced = cuts.points == hash_of(request.points);
-        request.radii.are_of_receivers() ? request.note_reaches(cuts) : list_sent();
+        request.radii.are_of_receivers() ? request.note_reaches(cuts) : list();
         bits_of_cuts = bits_of(cuts);
         if (request.holders.given) bits_of_holders = hash_of(*request.holders.given);
     });
@@ -283,7 +272,7 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
                  {"the periodic box", request.images ? request.images->hash() : 0}});
     if (request.reaches) {
         join(*request.reaches, self);
-        self.attempt(list_sent);
+        self.attempt(list);
         plan.receive = exchange_counts(plan.send, self);
         agree(self);
     }

@@ -20,7 +20,6 @@ NumberRule rule_of_groups(const NumberRule& rule) {
 struct GroupsHere {
     std::vector<Part> groups;   ///< of the parts of its points
     std::vector<Part> origins;  ///< groups whose numbers keep the points; no_part: none
-    GlobalCount num_kept = 0;   ///< points that stay if no number changes
 };
 
 GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previous,
@@ -34,7 +33,6 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::int32_t origin = origins.of(i);
         const Part from = origin == no_origin ? no_part : rule.group_of(origin);
-        if (origin != no_origin && rule.home_of(parts[i]) == origin) ++here.num_kept;
         here.groups[i] = rule.group_of_part(parts[i]);
         here.origins[i] = here.groups[i] < num_full && from < num_full ? from : no_part;
     }
@@ -70,11 +68,13 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
     // The search counts fewer: a rank may have numbers of two groups, of which a part can only get
     // those of its own.
     const Origins origins(previous, rule, mpi::rank_of(self.comm));
-    std::array kept{here.num_kept, GlobalCount{0}};
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        if (origins.of(i) != no_origin &&
-            rule.home_of(remap.numbers[here.groups[i]]) == origins.of(i))
-            ++kept[1];
+    std::array<GlobalCount, 2> kept{};  // by the old numbers, and by the new ones
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::int32_t origin = origins.of(i);
+        if (origin == no_origin) continue;
+        if (rule.home_of(parts[i]) == origin) ++kept[0];
+        if (rule.home_of(remap.numbers[here.groups[i]]) == origin) ++kept[1];
+    }
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, kept.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");
     remap.kept_before = kept[0];

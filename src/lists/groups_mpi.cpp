@@ -6,18 +6,71 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
+#include <rrcb/detail/mix.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
-// The ranks of a group find each other in three exchanges:
-//   keys      to the rank given by their hash, which thus learns all ranks of a key.
-//   owners    back to all ranks of a key except the lowest, which owns the group.
-//   sums      from these to the owner, which adds them up and notes their ranks.
+// The home of a key, a rank given by its hash, learns the labels that ranks have for it, and
+// answers the least one to the ranks that have another.
+//
+// Groups: the label is the rank, and the lowest rank of a key owns the group. The others send their
+// sums to the owner, which adds them up and notes their ranks.
+//
+// Joined keys: each rank joins the keys of its points, and labels joined keys by the least. Labels
+// only fall, so the rounds end.
 
 namespace rrcb {
 
 namespace {
+
+/// A key and its label on a rank.
+struct LabelNotice {
+    std::uint64_t key;
+    std::uint64_t label;
+    std::uint64_t index;  ///< of the key on the rank that sends it
+};
+
+/// The least label of a key.
+struct LeastLabel {
+    std::uint64_t index;
+    std::uint64_t label;
+};
+
+/// Labels of keys, on their way to the homes of these.
+struct Labels : Outgoing<LabelNotice> {
+    void add(const LabelNotice& notice, int num_ranks) {
+        const auto home = detail::mix(notice.key) % static_cast<std::uint64_t>(num_ranks);
+        Outgoing::add(static_cast<int>(home), notice);
+    }
+};
+
+/// Answers the ranks whose label of a key is not the least.
+Outgoing<LeastLabel> answer(std::vector<Arrived<LabelNotice>>& notices) {
+    std::ranges::sort(notices, {}, [](const auto& notice) {
+        return std::pair(notice.second.key, notice.second.label);
+    });
+    Outgoing<LeastLabel> answers;
+    std::uint64_t least = 0;
+    for (std::size_t k = 0; k < notices.size(); ++k) {
+        const auto& [rank, notice] = notices[k];
+        if (k == 0 || notices[k - 1].second.key != notice.key) least = notice.label;
+        if (notice.label != least) answers.add(rank, {notice.index, least});
+    }
+    return answers;
+}
+
+/// Returns the least labels of the keys for which this rank has another. Collective: two exchanges.
+std::vector<Arrived<LeastLabel>> least_of(const Labels& labels,
+                                          std::initializer_list<Shared> arguments,
+                                          Participant& self) {
+    std::vector<Arrived<LabelNotice>> at_home = labels.send(self, arguments);
+    Outgoing<LeastLabel> answers;
+    self.attempt([&] { answers = answer(at_home); });
+    return answers.send(self);
+}
 
 /// Weight and position of a group, of the points known so far.
 struct GroupSum {
@@ -36,18 +89,6 @@ struct GroupSum {
         for (std::size_t a = 0; moves && a < max_dimension; ++a)
             place[a] = std::lerp(place[a], other.place[a], share);
     }
-};
-
-/// A key on its way to the rank that collects all ranks of it.
-struct KeyNotice {
-    std::uint64_t key;
-    std::uint64_t group;  ///< number on the rank that sends it
-};
-
-/// Owner of a group that other ranks have too.
-struct OwnerNotice {
-    std::uint64_t group;
-    std::int64_t owner;
 };
 
 struct SumNotice {
@@ -95,34 +136,19 @@ LocalGroups groups_here(const Points& points, std::span<const std::uint64_t> key
     return local;
 }
 
-/// Answers all ranks of each key except the lowest, the owner.
-Outgoing<OwnerNotice> name_owners(std::vector<Arrived<KeyNotice>>& keys) {
-    std::ranges::sort(
-        keys, {}, [](const auto& notice) { return std::pair(notice.second.key, notice.first); });
-    Outgoing<OwnerNotice> owners;
-    int owner = 0;
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-        const auto& [rank, notice] = keys[k];
-        const bool is_lowest = k == 0 || keys[k - 1].second.key != notice.key;
-        if (is_lowest) owner = rank;
-        if (!is_lowest) owners.add(rank, {notice.group, owner});
-    }
-    return owners;
-}
-
 /// Numbers the groups that this rank owns, then the others; returns the sums for their owners.
 Outgoing<SumNotice> number_groups(const LocalGroups& local,
-                                  std::span<const Arrived<OwnerNotice>> owners, int num_ranks,
+                                  std::span<const Arrived<LeastLabel>> owners, int num_ranks,
                                   Groups& result, std::vector<LocalIndex>& numbers) {
     constexpr auto unknown = std::numeric_limits<LocalIndex>::max();
     numbers.assign(local.keys.size(), 0);
     Outgoing<SumNotice> sums;
     std::vector<LocalIndex> elsewhere;
     for (const auto& [source, notice] : owners) {
-        numbers[notice.group] = unknown;
-        elsewhere.push_back(notice.group);
-        sums.add(static_cast<int>(notice.owner),
-                 {local.keys[notice.group], local.sums[notice.group]});
+        numbers[notice.index] = unknown;
+        elsewhere.push_back(notice.index);
+        sums.add(static_cast<int>(notice.label),
+                 {local.keys[notice.index], local.sums[notice.index]});
     }
     LocalIndex num_groups = 0;
     for (LocalIndex& number : numbers)
@@ -167,7 +193,7 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
     result.dimension = points.dimension;
     result.plan.group = mpi::group_of(self.comm);
     LocalGroups local;
-    Outgoing<KeyNotice> to_homes;
+    Labels ranks;
     self.attempt([&] {
         require(keys.size() == points.count,
                 "keys must have one entry for each point; no_group for those without");
@@ -175,18 +201,16 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
                 "the place of groups must be their centre or their first point");
         check_points(points);
         local = groups_here(points, keys, place);
-        for (const LocalIndex group : local.by_key) {
-            const std::uint64_t key = local.keys[group];
-            to_homes.add(home_of(key, num_ranks), {key, group});
-        }
+        const auto rank = static_cast<std::uint64_t>(mpi::rank_of(self.comm));
+        for (const LocalIndex group : local.by_key)
+            ranks.add({local.keys[group], rank, group}, num_ranks);
     });
-    std::vector<Arrived<KeyNotice>> at_home =
-        to_homes.send(self, {{"the dimension", static_cast<std::uint64_t>(points.dimension)},
-                             {"the place of groups", static_cast<std::uint64_t>(place)},
-                             weights_given(points)});
-    Outgoing<OwnerNotice> owners;
-    self.attempt([&] { owners = name_owners(at_home); });
-    const std::vector<Arrived<OwnerNotice>> owned_elsewhere = owners.send(self);
+    const std::vector<Arrived<LeastLabel>> owned_elsewhere =
+        least_of(ranks,
+                 {{"the dimension", static_cast<std::uint64_t>(points.dimension)},
+                  {"the place of groups", static_cast<std::uint64_t>(place)},
+                  weights_given(points)},
+                 self);
     Outgoing<SumNotice> to_owners;
     std::vector<LocalIndex> numbers;
     self.attempt(
@@ -201,6 +225,103 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, MPI_Com
               GroupPlace place) {
     Participant self = mpi::enter(comm, CallName::groups);
     return groups(points, keys, place, self);
+}
+
+namespace {
+
+/// Keys of the points of this rank.
+class LocalKeys {
+  public:
+    LocalKeys() = default;
+    LocalKeys(std::span<const std::uint64_t> keys, std::size_t keys_per_point) {
+        for (const std::uint64_t key : keys)
+            if (key != no_group) keys_.push_back(key);
+        std::ranges::sort(keys_);
+        keys_.erase(std::ranges::unique(keys_).begin(), keys_.end());
+        labels_ = keys_;
+        parents_.resize(keys_.size());
+        std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+        for (std::size_t i = 0; i < keys.size(); i += keys_per_point) {
+            const auto of_point = keys.subspan(i, keys_per_point);
+            const auto first = std::ranges::find_if(of_point, is_key);
+            for (const std::uint64_t key : of_point)
+                if (is_key(key)) join(index_of(*first), index_of(key));
+        }
+    }
+
+    std::span<const std::uint64_t> keys() const { return keys_; }
+    std::uint64_t label(std::size_t key) { return labels_[top_of(key)]; }
+    void lower(const LeastLabel& to) {
+        std::uint64_t& label = labels_[top_of(to.index)];
+        label = std::min(label, to.label);
+    }
+
+    /// Returns the label of the keys of a point; no_group without keys.
+    std::uint64_t label_of(std::span<const std::uint64_t> of_point) {
+        const auto first = std::ranges::find_if(of_point, is_key);
+        return first == of_point.end() ? no_group : label(index_of(*first));
+    }
+
+  private:
+    static bool is_key(std::uint64_t key) { return key != no_group; }
+    std::size_t index_of(std::uint64_t key) const {
+        return static_cast<std::size_t>(std::ranges::lower_bound(keys_, key) - keys_.begin());
+    }
+    std::size_t top_of(std::size_t key) {
+        while (parents_[key] != key) key = parents_[key] = parents_[parents_[key]];
+        return key;
+    }
+    /// The lesser key is on top, so its label is the least.
+    void join(std::size_t a, std::size_t b) {
+        a = top_of(a);
+        b = top_of(b);
+        parents_[std::max(a, b)] = std::min(a, b);
+    }
+
+    std::vector<std::uint64_t> keys_;    ///< ascending
+    std::vector<std::uint64_t> labels_;  ///< valid at the top of joined keys
+    std::vector<std::size_t> parents_;
+};
+
+/// Lowers the labels once. Returns false if none changes on any rank. Collective.
+bool lower_labels(LocalKeys& local, std::size_t keys_per_point, Participant& self) {
+    Labels labels;
+    self.attempt([&] {
+        for (std::size_t k = 0; k < local.keys().size(); ++k)
+            labels.add({local.keys()[k], local.label(k), k}, mpi::size_of(self.comm));
+    });
+    const std::vector<Arrived<LeastLabel>> least =
+        least_of(labels, {{"keys_per_point", static_cast<std::uint64_t>(keys_per_point)}}, self);
+    for (const auto& [home, label] : least) local.lower(label);
+    return mpi::sum_of(least.empty() ? 0 : 1, self.comm) > 0;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> join_keys(std::span<const std::uint64_t> keys,
+                                     std::size_t keys_per_point, Participant& self) {
+    LocalKeys local;
+    self.attempt([&] {
+        require(keys_per_point > 0 && keys.size() % keys_per_point == 0,
+                "keys must have keys_per_point entries, 1 or more, for each point; no_group for "
+                "those that a point lacks");
+        local = LocalKeys(keys, keys_per_point);
+    });
+    while (lower_labels(local, keys_per_point, self)) {
+    }
+    std::vector<std::uint64_t> joined;
+    self.attempt([&] {
+        for (std::size_t i = 0; i < keys.size(); i += keys_per_point)
+            joined.push_back(local.label_of(keys.subspan(i, keys_per_point)));
+    });
+    agree(self);
+    return joined;
+}
+
+std::vector<std::uint64_t> join_keys(std::span<const std::uint64_t> keys,
+                                     std::size_t keys_per_point, MPI_Comm comm) {
+    Participant self = mpi::enter(comm, CallName::join_keys);
+    return join_keys(keys, keys_per_point, self);
 }
 
 }  // namespace rrcb

@@ -4,20 +4,36 @@
 #include "collective/communicator.hpp"
 #include "collective/exchange_mpi.hpp"
 
-#include <rrcb/detail/mix.hpp>
-
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <initializer_list>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace rrcb {
 
-/// Returns the rank that collects all that ranks know of a key.
-inline int home_of(std::uint64_t key, int num_ranks) {
-    return static_cast<int>(detail::mix(key) % static_cast<std::uint64_t>(num_ranks));
+/// Sends a record, made by make(k), to each of `ranks`. Calls reserve(number) before any arrives,
+/// and take(source, record) for each, by rank. Collective.
+template <class Record, class Make, class Reserve, class Take>
+void exchange_records(std::span<const int> ranks, Make&& make, Reserve&& reserve, Take&& take,
+                      std::initializer_list<Shared> arguments, Participant& self) {
+    Exchange exchange(sizeof(Record), mpi::size_of(self.comm));
+    self.attempt([&] {
+        exchange.fill(ranks, [&](std::size_t k, std::byte* place) {
+            const Record record = make(k);
+            std::memcpy(place, &record, sizeof record);
+        });
+    });
+    const std::size_t num_arrivals = exchange.announce(self);
+    self.attempt([&] { reserve(num_arrivals); });
+    agree(self, arguments);
+    exchange.run(self);
+    exchange.for_each([&](int source, const std::byte* place) {
+        Record record;
+        std::memcpy(&record, place, sizeof record);
+        take(source, record);
+    });
 }
 
 /// A record and the rank that it comes from.
@@ -38,22 +54,12 @@ struct Outgoing {
     /// Sends each record to its rank; returns those received, by rank. Collective.
     std::vector<Arrived<Record>> send(Participant& self,
                                       std::initializer_list<Shared> arguments = {}) const {
-        Exchange exchange(sizeof(Record), mpi::size_of(self.comm));
-        self.attempt([&] {
-            exchange.fill(ranks, [&](std::size_t k, std::byte* place) {
-                std::memcpy(place, &records[k], sizeof(Record));
-            });
-        });
-        const std::size_t num_arrivals = exchange.announce(self);
         std::vector<Arrived<Record>> arrived;
-        self.attempt([&] { arrived.reserve(num_arrivals); });
-        agree(self, arguments);
-        exchange.run(self);
-        exchange.for_each([&](int source, const std::byte* place) {
-            Record record;
-            std::memcpy(&record, place, sizeof record);
-            arrived.emplace_back(source, record);
-        });
+        exchange_records<Record>(
+            ranks, [&](std::size_t k) { return records[k]; },
+            [&](std::size_t number) { arrived.reserve(number); },
+            [&](int source, const Record& record) { arrived.emplace_back(source, record); },
+            arguments, self);
         return arrived;
     }
 };

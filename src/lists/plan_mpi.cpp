@@ -1,8 +1,7 @@
-#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "collective/exchange_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/notices_mpi.hpp"
 #include "lists/transfer_log.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
@@ -10,7 +9,6 @@
 #include <rrcb/balance.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 namespace rrcb {
@@ -58,29 +56,6 @@ void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Pla
     }
 }
 
-void post(const Plan& plan, Exchange& exchange) {
-    exchange.fill(plan.export_ranks, [&](std::size_t k, std::byte* place) {
-        const Notice notice{plan.export_indices[k], plan.export_parts[k]};
-        std::memcpy(place, &notice, sizeof notice);
-    });
-}
-
-void allocate(std::size_t num_imports, Plan& plan) {
-    plan.import_ranks.reserve(num_imports);
-    plan.import_indices.reserve(num_imports);
-    plan.import_parts.reserve(num_imports);
-}
-
-void list_imports(const Exchange& exchange, Plan& plan) {
-    exchange.for_each([&](int source, const std::byte* place) {
-        Notice notice;
-        std::memcpy(&notice, place, sizeof notice);
-        plan.import_ranks.push_back(source);
-        plan.import_indices.push_back(notice.index);
-        plan.import_parts.push_back(notice.part);
-    });
-}
-
 }  // namespace
 
 RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
@@ -102,17 +77,26 @@ RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
 Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
     Plan result;
     result.num_points = parts.size();
-    Exchange exchange(sizeof(Notice), mpi::size_of(self.comm));
     self.attempt([&] {
         check_parts(parts, num_parts);
         list_exports(parts, num_parts, self.comm, result);
-        post(result, exchange);
     });
-    const std::size_t num_imports = exchange.announce(self);
-    self.attempt([&] { allocate(num_imports, result); });
-    agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
-    exchange.run(self);
-    list_imports(exchange, result);
+    exchange_records<Notice>(
+        result.export_ranks,
+        [&](std::size_t k) {
+            return Notice{result.export_indices[k], result.export_parts[k]};
+        },
+        [&](std::size_t num_imports) {
+            result.import_ranks.reserve(num_imports);
+            result.import_indices.reserve(num_imports);
+            result.import_parts.reserve(num_imports);
+        },
+        [&](int source, const Notice& notice) {
+            result.import_ranks.push_back(source);
+            result.import_indices.push_back(notice.index);
+            result.import_parts.push_back(notice.part);
+        },
+        {{"num_parts", static_cast<std::uint64_t>(num_parts)}}, self);
     result.group = mpi::group_of(self.comm);
     result.stamp = next_stamp();
     return result;

@@ -18,16 +18,6 @@ void check_part_sizes(std::span<const double> part_weights, std::span<const doub
             "part_sizes must hold one entry per part, or none for equal parts");
 }
 
-std::vector<double> ideal_weights(std::span<const double> part_weights,
-                                  std::span<const double> part_sizes) {
-    const double total = std::accumulate(part_weights.begin(), part_weights.end(), 0.0);
-    const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
-    std::vector<double> ideal(part_weights.size(),
-                              total / static_cast<double>(part_weights.size()));
-    for (std::size_t p = 0; p < part_sizes.size(); ++p) ideal[p] = total * (part_sizes[p] / sizes);
-    return ideal;
-}
-
 }  // namespace
 
 double imbalance(std::span<const double> part_weights, std::span<const double> part_sizes) {
@@ -49,9 +39,12 @@ std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
                                            std::span<const double> part_sizes) {
     check_part_sizes(part_weights, part_sizes);
     std::vector<double> unbalance =
-        locally([&] { return ideal_weights(part_weights, part_sizes); });
+        locally([&] { return std::vector<double>(part_weights.size()); });
+    const double total = std::accumulate(part_weights.begin(), part_weights.end(), 0.0);
+    const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
     for (std::size_t p = 0; p < unbalance.size(); ++p) {
-        const double ideal = unbalance[p];
+        const double ideal = part_sizes.empty() ? total / static_cast<double>(unbalance.size())
+                                                : total * (part_sizes[p] / sizes);
         unbalance[p] = ideal > 0 ? (ideal - part_weights[p]) / ideal * 100 : 0;
     }
     return unbalance;

@@ -8,7 +8,6 @@
 #include "options/validation.hpp"
 
 #include <rrcb/detail/mix.hpp>
-#include <rrcb/options.hpp>
 
 #include <algorithm>
 #include <array>
@@ -114,7 +113,7 @@ bool exchange_offers(RemapBuffers& buffers, Participant& self) {
 
 /// Gives unused numbers to the parts without one.
 void join_what_is_left(RemapBuffers& buffers, Participant& self) {
-    auto& left = buffers.left;
+    Butterfly& left = buffers.offers;
     const NumberSearch::Counts here = buffers.search.left();
     NumberSearch::Counts before{};
     if (buffers.search.rule().is_spread) {
@@ -122,7 +121,10 @@ void join_what_is_left(RemapBuffers& buffers, Participant& self) {
                    "MPI_Exscan");
         if (mpi::rank_of(self.comm) == 0) before = {};
     }
-    self.attempt([&] { buffers.search.meet(before, left); });
+    self.attempt([&] {
+        left.clear();
+        buffers.search.meet(before, left);
+    });
     pass(left, Butterfly::to_owners, here[0] > 0, buffers, self);
     if (left.flags()[1] == 0) return;
     self.attempt([&] {
@@ -143,7 +145,7 @@ Remap make_summary(std::span<const GlobalCount, 3> sums) {
 
 /// Broadcasts the numbers found by rank 0, or a failure known to it. Collective.
 NewNumbers share_decision(RemapBuffers& buffers, Participant& self) {
-    auto& [search, told, offers, left, messages, numbers, decision] = buffers;
+    auto& [search, told, offers, messages, numbers, decision] = buffers;
     if (mpi::rank_of(self.comm) == root) {
         const auto sums = search.count_points();
         if (sums[2] <= sums[1]) search.reset();
@@ -223,7 +225,6 @@ RemapBuffers::RemapBuffers(const NumberRule& rule, int rank, bool wants_all)
            rule.is_spread ? Butterfly::Way::spread : Butterfly::Way::central),
       offers(rule.is_spread ? rank : root, rule.is_spread ? rule.num_ranks : 1,
              NumberSearch::append),
-      left(offers),
       numbers(wants_all || !rule.is_spread ? static_cast<std::size_t>(rule.num_parts) : 0),
       decision(rule.is_spread ? 0 : static_cast<std::size_t>(rule.num_parts) + 4) {}
 
@@ -237,9 +238,11 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
 }
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, bool is_spread,
-            Participant& self) {
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self,
+            int central_parts) {
     const int num_ranks = mpi::size_of(self.comm);
+    const bool is_spread =
+        std::min<std::ptrdiff_t>(std::ssize(ranks_of_parts), num_ranks) > central_parts;
     std::optional<GroupBuffers> buffers;
     self.attempt([&] {
         check_lists(parts, previous, ranks_of_parts, num_ranks);
@@ -268,14 +271,6 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
     Remap result = find_numbers(parts, previous, *buffers, self).remap;
     if (is_spread) agree(self);
     return result;
-}
-
-Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self) {
-    const bool is_spread =
-        std::min<std::ptrdiff_t>(std::ssize(ranks_of_parts), mpi::size_of(self.comm)) >
-        Tuning{}.central_parts;
-    return remap(parts, previous, ranks_of_parts, shape, is_spread, self);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include "collective/butterfly_mpi.hpp"
 #include "lists/number_search.hpp"
 
+#include <rrcb/options.hpp>
 #include <rrcb/remap.hpp>
 
 #include <cstdint>
@@ -52,8 +53,7 @@ struct RemapBuffers {
 
     NumberSearch search;
     Butterfly told;
-    Butterfly offers;
-    Butterfly left;
+    Butterfly offers;  ///< then what is left of parts and numbers
     ButterflyMessages messages;
     std::vector<Part> numbers;          ///< of all parts, if wanted
     std::vector<GlobalCount> decision;  ///< of rank 0, if it searches
@@ -77,13 +77,10 @@ struct NewNumbers {
 NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
                         RemapBuffers& buffers, Participant& self);
 
-/// Renumbers as the public functions do; all ranks search if `is_spread`. Collective.
+/// Renumbers as the public functions do; all ranks search if more than `central_parts` have parts.
+/// Collective.
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, bool is_spread,
-            Participant& self);
-
-/// As above, with the default options of balance(). Collective.
-Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self);
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self,
+            int central_parts = Tuning{}.central_parts);
 
 }  // namespace rrcb

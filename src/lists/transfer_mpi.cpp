@@ -32,33 +32,27 @@ void check_lists(const Plan& plan, int num_ranks) {
             "the plan names a rank that is none of this communicator; give that of the plan");
 }
 
-/// Returns the indices of the exports, sorted by rank and ascending for each.
-std::vector<LocalIndex> sort_by_rank(const Plan& plan, RankOrder& order) {
-    std::vector<LocalIndex> sorted(plan.export_indices.size());
-    order.for_each(
-        [&](std::size_t k, std::size_t place) { sorted[place] = plan.export_indices[k]; });
-    return sorted;
-}
-
 }  // namespace
 
 void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self) {
     Delivery delivery;
     std::vector<LocalIndex> sent;
+    std::vector<RankCount> to;
+    std::vector<RankCount> from;
     TransferLog* log = nullptr;
     self.attempt([&] {
         const int num_ranks = mpi::size_of(self.comm);
         mpi::require_group(plan.group, "the plan", self);
         check_lists(plan, num_ranks);
         RankOrder order(plan.export_ranks, num_ranks);
-        sent = sort_by_rank(plan, order);
-        delivery.num_points = plan.num_points;
-        delivery.num_kept = plan.num_points - plan.export_indices.size();
-        delivery.removed = plan.export_indices;
-        delivery.to = order.counts();
-        delivery.from = count_ascending(plan.import_ranks);
-        delivery.sent = sent;
+        sent.resize(plan.export_indices.size());
+        order.for_each(
+            [&](std::size_t k, std::size_t place) { sent[place] = plan.export_indices[k]; });
+        to = order.counts();
+        from = count_ascending(plan.import_ranks);
+        const LocalIndex num_kept = plan.num_points - plan.export_indices.size();
+        delivery = {plan.num_points, num_kept, plan.export_indices, sent, to, from};
         log = mpi::Attribute<TransferLog>::find(self.comm);
         if (log == nullptr)
             log = mpi::Attribute<TransferLog>::keep(std::make_unique<TransferLog>(), self.comm);

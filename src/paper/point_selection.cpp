@@ -10,14 +10,17 @@ namespace rrcb {
 
 namespace {
 
-struct Place {
-    std::size_t index;
-    double below;  ///< weight of the points before it
+/// Equal points, consecutive and behind all smaller ones, with the weight below them.
+struct EqualPoints {
+    std::size_t begin;
+    std::size_t end;
+    double below;
+    double weight;
 };
 
-/// Moves the point at which the cumulative weight reaches the target to its sorted position, and
-/// smaller points before it.
-Place select(std::span<MassPoint> points, const PositionOrder& before, double target) {
+/// Gathers the points equal to the one at which the cumulative weight reaches the target, and moves
+/// smaller points before them.
+EqualPoints select(std::span<MassPoint> points, const PositionOrder& before, double target) {
     // Round-off must not decide the side of a gap between clusters.
     const double enough = target - 1e-12 * target;
     std::size_t first = 0;
@@ -38,35 +41,18 @@ Place select(std::span<MassPoint> points, const PositionOrder& before, double ta
             first = middle;
         }
     }
-    return {first, below};
-}
-
-/// Equal points, consecutive, with the weight below them.
-struct EqualPoints {
-    std::size_t begin;
-    std::size_t end;
-    double below;
-    double weight;
-};
-
-/// Moves the points equal to the selected one next to it.
-EqualPoints gather_ties(std::span<MassPoint> points, const PositionOrder& before,
-                        const Place& place) {
-    const Vector selected = points[place.index].position;
-    const auto lower = points.first(place.index);
-    const auto upper = points.subspan(place.index);
-    const auto first = std::partition(lower.begin(), lower.end(), [&](const MassPoint& point) {
-        return before(point.position, selected);
-    });
-    const auto behind = std::partition(upper.begin(), upper.end(), [&](const MassPoint& point) {
-        return !before(selected, point.position);
-    });
-    EqualPoints ties{static_cast<std::size_t>(first - lower.begin()),
-                     place.index + static_cast<std::size_t>(behind - upper.begin()), place.below,
-                     0};
-    ties.below -= weight_of(points.subspan(ties.begin, place.index - ties.begin));
-    ties.weight = weight_of(points.subspan(ties.begin, ties.end - ties.begin));
-    return ties;
+    const Vector selected = points[first].position;
+    const auto at = points.begin() + first;
+    const std::size_t begin =
+        std::partition(points.begin(), at,
+                       [&](const MassPoint& point) { return before(point.position, selected); }) -
+        points.begin();
+    const std::size_t end =
+        std::partition(at, points.end(),
+                       [&](const MassPoint& point) { return !before(selected, point.position); }) -
+        points.begin();
+    return {begin, end, below - weight_of(points.subspan(begin, first - begin)),
+            weight_of(points.subspan(begin, end - begin))};
 }
 
 /// Makes a cut between the last point below it and the first above, halfway or `on` the latter,
@@ -93,7 +79,7 @@ double weight_of(std::span<const MassPoint> points) {
 std::size_t select_below(std::span<MassPoint> points, int dimension, double target, bool plain,
                          Cut& cut) {
     const PositionOrder order(cut.axis, 0, plain ? 1 : dimension);
-    const EqualPoints ties = gather_ties(points, order, select(points, order, target));
+    const EqualPoints ties = select(points, order, target);
     const double missing = target - ties.below;
     const bool above = missing < ties.weight / 2;
     const std::size_t num_below = above ? ties.begin : ties.end;

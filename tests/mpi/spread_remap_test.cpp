@@ -24,7 +24,7 @@ Remap found(bool together, std::span<const Part> parts, const PreviousParts& pre
             int num_parts) {
     Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
     const auto ranks = ranks_of_parts(num_parts);
-    return remap(parts, previous, ranks, {}, together, self);
+    return remap(parts, previous, ranks, {}, self, together ? 0 : num_parts);
 }
 
 void expect_same(const Remap& a, const Remap& b) {

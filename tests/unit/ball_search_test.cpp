@@ -34,16 +34,6 @@ Cuts random_cuts(int dimension, int num_parts, std::mt19937_64& engine) {
     return cuts;
 }
 
-std::vector<PartRange> ranges_of(const std::vector<char>& is_wanted) {
-    std::vector<PartRange> ranges;
-    for (Part part = 0; part < std::ssize(is_wanted); ++part) {
-        if (is_wanted[static_cast<std::size_t>(part)] != 0) continue;
-        if (ranges.empty() || ranges.back().end != part) ranges.push_back({part, part});
-        ranges.back().end = part + 1;
-    }
-    return ranges;
-}
-
 std::vector<Part> parts_found(const BallSearch& search, const Vector& x, double radius) {
     std::vector<Part> parts;
     search.for_each_part(
@@ -63,8 +53,9 @@ TEST(BallSearch, finds_the_parts_whose_boxes_are_within_the_radius) {
         std::vector<char> is_wanted(static_cast<std::size_t>(num_parts));
         for (char& wanted : is_wanted) wanted = engine() % 4 != 0;
         const double radius = std::vector{0.0, 0.5, 1.0, 5.0, std::sqrt(2.0), 30.0}[engine() % 6];
-        const std::vector<PartRange> left_out = ranges_of(is_wanted);
-        const BallSearch search(cuts, left_out);
+        const BallSearch search(cuts, [&](Part part, const Box&) {
+            return is_wanted[static_cast<std::size_t>(part)] == 0;
+        });
         for (int k = 0; k < 100; ++k) {
             Vector x{};
             for (int a = 0; a < dimension; ++a)
@@ -88,12 +79,11 @@ TEST(BallSearch, finds_the_parts_whose_boxes_are_within_the_radius) {
 /// One cut at 0: its parts are apart from a point as its coordinate is.
 TEST(BallSearch, loses_no_part_by_rounding_and_finds_none_beyond_it) {
     const Cuts cuts{3, 2, {{0, 0, {0, -infinity, -infinity}}}};
-    const std::vector<PartRange> lower{{0, 1}};
     std::mt19937_64 engine(7);
     for (int k = 0; k < 100'000; ++k) {
         const double radius =
             std::ldexp(test::uniform(engine, 1, 2), static_cast<int>(engine() % 2000) - 1000);
-        const BallSearch search(cuts, lower);
+        const BallSearch search(cuts, [](Part part, const Box&) { return part == 0; });
         EXPECT_EQ(parts_found(search, {-radius, 0, 0}, radius).size(), 1u);
         EXPECT_EQ(parts_found(search, {-std::nextafter(radius, 0), 0, 0}, radius).size(), 1u);
         EXPECT_EQ(parts_found(search, {-radius * (1 + 2e-15), 0, 0}, radius).size(), 0u);

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <exception>
 #include <new>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>

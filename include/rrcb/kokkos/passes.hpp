@@ -5,7 +5,6 @@
 #include <rrcb/kokkos/parts.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <type_traits>
 #include <utility>

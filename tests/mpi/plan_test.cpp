@@ -66,19 +66,6 @@ TEST(Plan, imports_mirror_exports) {
     EXPECT_EQ(next, result.import_indices.size());
 }
 
-TEST(Plan, nothing_moves_when_every_point_is_at_home) {
-    const std::vector<Part> parts(5, rank());
-    const Plan result = plan(parts, num_ranks(), MPI_COMM_WORLD);
-    EXPECT_TRUE(result.export_indices.empty());
-    EXPECT_TRUE(result.import_indices.empty());
-}
-
-TEST(Plan, points_of_a_part_that_spans_ranks_stay) {
-    const std::vector<Part> parts(3, 0);
-    const Plan result = plan(parts, 1, MPI_COMM_WORLD);
-    EXPECT_TRUE(result.export_indices.empty());
-}
-
 TEST(Plan, a_part_out_of_range_on_one_rank_fails_everywhere) {
     const std::vector<Part> parts(1, rank() == num_ranks() - 1 ? num_ranks() : 0);
     try {

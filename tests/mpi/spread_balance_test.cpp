@@ -1,4 +1,5 @@
 // Parts that many ranks make, see Tuning::central_parts.
+#include "../support/same_error.hpp"
 #include "clouds_of_all_ranks.hpp"
 #include "spread_checks.hpp"
 
@@ -264,22 +265,12 @@ TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
     for (const int faulty : {0, num_ranks() - 1}) {
         Options options = spread_options(2);
         if (rank() == faulty) options.tuning.central_parts = 1;
-        try {
-            balance(points, options, {}, MPI_COMM_WORLD);
-            ADD_FAILURE() << "expected an error";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.what(), "rank " + std::to_string(faulty) +
-                                        ": tuning.central_parts must be at least 2");
-        }
+        test::expect_same_error(
+            [&] { balance(points, options, {}, MPI_COMM_WORLD); },
+            "rank " + std::to_string(faulty) + ": tuning.central_parts must be at least 2");
         options.tuning.central_parts = rank() == faulty ? 2 : 1000;
-        try {
-            balance(points, options, {}, MPI_COMM_WORLD);
-            ADD_FAILURE() << "expected an error";
-        } catch (const Error& error) {
-            EXPECT_NE(std::string(error.what()).find("central_parts differs between rank"),
-                      std::string::npos)
-                << error.what();
-        }
+        test::expect_same_error([&] { balance(points, options, {}, MPI_COMM_WORLD); },
+                                "central_parts differs between rank");
     }
     const std::vector<double> fine{0.5, 1.5};
     EXPECT_EQ(balance(interleaved_points(fine, 1), {}, {}, MPI_COMM_WORLD).parts.size(), 2u);

@@ -15,22 +15,6 @@ void expect_same(const Outcome& a, const Outcome& b) {
     expect_same(a.exports, b.exports);
 }
 
-TEST(Forwarding, leaves_other_methods_as_they_are_on_a_handle_that_never_saw_rrcb) {
-    for (const char* method : {"RCB", "RIB", "HSFC", "BLOCK"}) {
-        SCOPED_TRACE(method);
-        Program untouched, switched;
-        scatter_points(untouched, 300);
-        scatter_points(switched, 300);
-        switched.set("LB_METHOD", "RRCB");
-        switched.set("RRCB_DOMAIN", "SAMPLED");
-        EXPECT_EQ(switched.partition().code, ZOLTAN_OK);
-        for (Program* program : {&untouched, &switched}) {
-            EXPECT_EQ(program->set("LB_METHOD", method), ZOLTAN_OK);
-        }
-        expect_same(switched.partition(), untouched.partition());
-    }
-}
-
 TEST(Forwarding, leaves_look_ups_of_rcb_to_zoltan) {
     Program untouched, switched;
     scatter_points(untouched, 300);
@@ -50,30 +34,6 @@ TEST(Forwarding, leaves_look_ups_of_rcb_to_zoltan) {
         Zoltan_LB_Point_PP_Assign(switched.zz, &untouched.coordinates[i], nullptr, &found);
         EXPECT_EQ(found, expected);
     }
-}
-
-TEST(Handles, give_the_same_when_asked_again_or_switched_back) {
-    Program program;
-    scatter_points(program, 300);
-    program.set("LB_METHOD", "RRCB");
-    const Outcome first = program.partition();
-    expect_same(program.partition(), first);
-    program.set("LB_METHOD", "RIB");
-    program.partition();
-    program.set("LB_METHOD", "RRCB");
-    expect_same(program.partition(), first);
-}
-
-TEST(Handles, are_independent_of_each_other) {
-    Program one, other;
-    scatter_points(one, 300);
-    scatter_points(other, 300);
-    one.set("LB_METHOD", "RRCB");
-    one.set("NUM_GLOBAL_PARTS", "3");
-    other.set("LB_METHOD", "RCB");
-    const Outcome zoltans = other.partition();
-    one.partition();
-    expect_same(other.partition(), zoltans);
 }
 
 TEST(Handles, copies_keep_method_parameters_sizes_and_cuts) {

@@ -1,9 +1,9 @@
 #include "rebalances.hpp"
 
 #include "../support/held_memory.hpp"
+#include "../support/mpi_handles.hpp"
 #include "../support/ranks.hpp"
 #include "cloud.hpp"
-#include "mpi_handles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace rrcb::hard_test {
 namespace {
 
 struct Resources {
-    MpiHandles handles;
+    test::MpiHandles handles;
     std::ptrdiff_t files = 0;
     test::HeldMemory memory;
 };
@@ -25,11 +25,11 @@ struct Resources {
 Resources resources() {
     using std::filesystem::directory_iterator;
     const auto num_files = std::distance(directory_iterator("/proc/self/fd"), {});
-    return {mpi_handles(), num_files, {}};
+    return {test::mpi_handles(), num_files, {}};
 }
 
 void print(int num_steps, const Resources& held) {
-    const MpiHandles& handles = held.handles;
+    const test::MpiHandles& handles = held.handles;
     std::printf(
         "after %d steps rank 0 holds %ld bytes, %td files, %d communicators, "
         "%d datatypes, %d operations\n",

@@ -1,5 +1,5 @@
+#include "../support/mpi_handles.hpp"
 #include "../zoltan/program.hpp"
-#include "mpi_handles.hpp"
 #include "rebalances.hpp"
 
 #include <gtest/gtest.h>
@@ -32,9 +32,9 @@ TEST(CallbackRebalances, of_handles_that_come_and_go_hold_what_they_held) {
         EXPECT_EQ(program.partition().code, ZOLTAN_OK);
     };
     partition_once();
-    const MpiHandles before = mpi_handles();
+    const test::MpiHandles before = test::mpi_handles();
     for (int k = 0; k < 20; ++k) partition_once();
-    EXPECT_EQ(mpi_handles(), before);
+    EXPECT_EQ(test::mpi_handles(), before);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "rebalances.hpp"
 
+#include "../support/mpi_handles.hpp"
 #include "../support/ranks.hpp"
 #include "cloud.hpp"
-#include "mpi_handles.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/paper.hpp>
@@ -45,9 +45,9 @@ TEST(Rebalances, leave_nothing_on_a_communicator_that_is_freed) {
         MPI_Comm_free(&comm);
     };
     balance_once(MPI_COMM_WORLD);
-    const MpiHandles before = mpi_handles();
+    const test::MpiHandles before = test::mpi_handles();
     for (int k = 0; k < 20; ++k) balance_once(MPI_COMM_WORLD);
-    EXPECT_EQ(mpi_handles(), before);
+    EXPECT_EQ(test::mpi_handles(), before);
 }
 
 }  // namespace

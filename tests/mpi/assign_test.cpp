@@ -1,5 +1,6 @@
 // Parts of positions by cuts that are spread over the ranks, beside those by the whole tree.
 #include "../support/clouds.hpp"
+#include "../support/same_error.hpp"
 #include "partial_trees.hpp"
 
 #include <rrcb/cuts.hpp>
@@ -65,13 +66,7 @@ TEST(AssignTogether, finds_the_parts_of_a_tree_of_many_tiers) {
 
 /// Expects an Error with this text on every rank, after which the next call works.
 void expect_refusal(const std::string& text, const Cuts& cuts, const Points& points) {
-    try {
-        assign_all(cuts, points, MPI_COMM_WORLD);
-        ADD_FAILURE() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-        EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-    }
+    test::expect_same_error([&] { assign_all(cuts, points, MPI_COMM_WORLD); }, text);
     const Cuts whole = random_cuts(2, 9);
     expect_located(whole, known_here(whole), 1);
 }

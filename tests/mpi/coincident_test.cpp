@@ -24,62 +24,6 @@ Options dividing(int num_parts, Refine refine = Refine::exact) {
     return options;
 }
 
-TEST(CoincidentPoints, in_one_place_are_divided_by_number) {
-    const std::vector<double> mine(rank() == 1 ? 0 : 3 * 1000, 0.7);
-    const Points points = interleaved_points(mine, 3);
-    const double count = 1000.0 * (num_ranks() > 1 ? num_ranks() - 1 : 1);
-    for (const int num_parts : {2, 3, 7, 16}) {
-        const Balance result = balance(points, dividing(num_parts), {}, MPI_COMM_WORLD);
-        for (const double weight : part_weights(points, result.parts, num_parts, MPI_COMM_WORLD))
-            EXPECT_LE(std::abs(weight - count / num_parts), 1) << num_parts << " parts";
-        EXPECT_GT(result.report.details.coincident_cuts, 0);
-    }
-}
-
-TEST(CoincidentPoints,
-     in_few_places_leave_parts_within_one_point_and_other_points_where_they_look) {
-    // Seven places, of which two parts share several, among points that lie apart.
-    std::vector<double> mine;
-    std::mt19937_64 engine(3);
-    for (int i = 0; i < 7000; ++i) {
-        const double u = test::uniform(engine);
-        const double v = test::uniform(engine);
-        if (i % num_ranks() != rank()) continue;
-        const bool apart = i % 10 == 0;
-        mine.insert(mine.end(), {apart ? u : 0.1 * (i % 7), apart ? v : 0.5});
-    }
-    const Points points = interleaved_points(mine, 2);
-    const Balance result = balance(points, dividing(6), {}, MPI_COMM_WORLD);
-    for (const double weight : part_weights(points, result.parts, 6, MPI_COMM_WORLD))
-        EXPECT_LE(std::abs(weight - 7000.0 / 6), 1);
-    for (LocalIndex i = 0; i < points.count; ++i) {
-        const Vector x = points.position(i);
-        const std::vector<Part> touched = parts_touching(result.cuts, {x, x});
-        EXPECT_NE(std::ranges::find(touched, result.parts[i]), touched.end());
-        if (mine[2 * i + 1] == 0.5) continue;
-        EXPECT_EQ(touched.size(), 1u);
-        EXPECT_EQ(result.parts[i], part_of(result.cuts, x));
-    }
-}
-
-TEST(CoincidentPoints, of_different_weight_are_divided_within_the_heaviest) {
-    std::vector<double> mine;
-    std::vector<double> weights;
-    std::mt19937_64 engine(8);
-    for (int i = 0; i < 2000; ++i) {
-        const double weight = std::pow(100, test::uniform(engine));
-        if (i % num_ranks() != rank()) continue;
-        mine.insert(mine.end(), {1, 2});
-        weights.push_back(weight);
-    }
-    const Points points = interleaved_points(mine, 2, weights);
-    const Balance result = balance(points, dividing(4), {}, MPI_COMM_WORLD);
-    const auto sums = part_weights(points, result.parts, 4, MPI_COMM_WORLD);
-    const double total = std::accumulate(sums.begin(), sums.end(), 0.0);
-    // Half of the heaviest at each of two cuts.
-    for (const double sum : sums) EXPECT_LE(std::abs(sum - total / 4), 100);
-}
-
 /// Whether each cut below a node leaves the share of the parts below it, but for the heaviest
 /// point.
 bool are_cuts_within(std::span<const double> weights, double heaviest) {

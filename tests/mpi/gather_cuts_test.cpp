@@ -1,3 +1,4 @@
+#include "../support/same_error.hpp"
 #include "partial_trees.hpp"
 
 #include <rrcb/cuts.hpp>
@@ -43,13 +44,7 @@ TEST(WholeCuts, are_those_that_each_rank_had_a_part_of) {
 
 /// Expects an Error with this text on every rank, after which the next call works.
 void expect_refusal(const std::string& text, const Cuts& cuts) {
-    try {
-        gather_cuts(cuts, MPI_COMM_WORLD);
-        ADD_FAILURE() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-        EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-    }
+    test::expect_same_error([&] { gather_cuts(cuts, MPI_COMM_WORLD); }, text);
     const Cuts whole = random_cuts(2, 9);
     expect_same(gather_cuts(known_here(whole), MPI_COMM_WORLD), whole);
 }

@@ -1,5 +1,6 @@
 #include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
+#include "../support/same_error.hpp"
 #include "slabs.hpp"
 
 #include <rrcb/balance.hpp>
@@ -25,13 +26,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Expects an Error with this text on every rank, after which the next call works.
 void expect_refusal(const std::string& text, const std::function<void()>& call) {
-    try {
-        call();
-        ADD_FAILURE() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-        EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-    }
+    test::expect_same_error([&] { call(); }, text);
     const std::vector<double> none;
     EXPECT_EQ(
         ghosts(slabs(), interleaved_points(none, 2), {.radius = 1}, MPI_COMM_WORLD).num_points, 0u);

@@ -1,4 +1,5 @@
 #include "../support/clouds.hpp"
+#include "../support/distance.hpp"
 #include "../support/ranks.hpp"
 #include "slabs.hpp"
 
@@ -34,10 +35,8 @@ struct Cloud {
     Vector position(std::size_t i) const { return points().position(i); }
 };
 
-Cloud random_cloud(std::size_t count, int dimension, double scale = 1) {
-    Cloud cloud{dimension, test::uniform_cloud(count, dimension, 3)};
-    for (double& x : cloud.coordinates) x *= scale;
-    return cloud;
+Cloud random_cloud(std::size_t count, int dimension) {
+    return {dimension, test::uniform_cloud(count, dimension, 3)};
 }
 
 /// Whole coordinates: many points share them, lie on cuts, and are exactly 1, sqrt(2), 5 apart.
@@ -56,18 +55,6 @@ Cloud lattice_cloud(int dimension) {
         return flat;
     }
     return cloud;
-}
-
-long double square(long double x) {
-    return x * x;
-}
-
-long double distance(const Vector& a, const Box& box, int dimension) {
-    long double sum = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k)
-        sum += square(std::max({0.0L, static_cast<long double>(box.lower[k]) - a[k],
-                                static_cast<long double>(a[k]) - box.upper[k]}));
-    return std::sqrt(sum);
 }
 
 /// The points of a cloud on the ranks of their parts, by number.
@@ -126,8 +113,8 @@ long double distance_to_mine(const Division& division, const Vector& x) {
     for (Part part = 0; part < division.cuts.num_parts; ++part) {
         const RankRange& ranks = division.ranks_of_parts[static_cast<std::size_t>(part)];
         if (rank() >= ranks.first_rank && rank() < ranks.first_rank + ranks.count)
-            least =
-                std::min(least, distance(x, box_of(division.cuts, part), division.cloud.dimension));
+            least = std::min(
+                least, test::distance(x, box_of(division.cuts, part), division.cloud.dimension));
     }
     return least;
 }
@@ -169,20 +156,6 @@ TEST(Ghosts, miss_none_of_a_million_pairs) {
     EXPECT_GT(num_pairs, 1'000'000);
 }
 
-TEST(Ghosts, are_those_of_all_parts_where_there_are_more_than_ranks) {
-    const Division division = divide(random_cloud(400, 2), 3 * num_ranks() + 1);
-    for (const double radius : {0.0, 0.05, 0.5})
-        expect_ghosts(division, radius,
-                      ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD));
-}
-
-TEST(Ghosts, include_all_points_of_a_part_that_ranks_share) {
-    const Division division = divide(random_cloud(400, 3), (num_ranks() + 1) / 2);
-    for (const double radius : {0.0, 0.1})
-        expect_ghosts(division, radius,
-                      ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD));
-}
-
 TEST(Ghosts, follow_parts_to_the_ranks_that_have_them) {
     const Division division = divide(lattice_cloud(2), 2 * num_ranks(), 1);
     for (const double radius : {0.0, 1.0, 2.5})
@@ -190,40 +163,6 @@ TEST(Ghosts, follow_parts_to_the_ranks_that_have_them) {
             division, radius,
             ghosts(division.cuts, division.points(),
                    {.radius = radius, .ranks_of_parts = division.ranks_of_parts}, MPI_COMM_WORLD));
-}
-
-TEST(Ghosts, keep_their_numbers_at_the_ends_of_the_range) {
-    for (const double scale : {1e308, 1e-310}) {
-        const Division division = divide(random_cloud(200, 3, scale), num_ranks());
-        for (const double radius : {0.0, 0.1 * scale, 1.5 * scale})
-            expect_ghosts(
-                division, radius,
-                ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD));
-    }
-}
-
-TEST(Ghosts, of_points_outside_the_regions_of_their_rank_are_those_near_another) {
-    // Points stay where they were scattered.
-    Division division = divide(random_cloud(300, 2), num_ranks());
-    division.cuts.points = 0;
-    division.numbers.clear();
-    division.here.clear();
-    for (std::size_t i = 0; i < division.cloud.count(); ++i) {
-        division.owners[i] = static_cast<int>(i) % num_ranks();
-        if (division.owners[i] != rank()) continue;
-        division.numbers.push_back(static_cast<std::int64_t>(i));
-        for (std::size_t a = 0; a < 2; ++a)
-            division.here.push_back(division.cloud.coordinates[2 * i + a]);
-    }
-    const double radius = 0.1;
-    const GhostPlan lists =
-        ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD);
-    const std::vector<std::int64_t> got = fetch(lists, division.numbers, MPI_COMM_WORLD);
-    for (std::size_t j = 0; j < division.cloud.count(); ++j) {
-        const bool is_near = distance_to_mine(division, division.cloud.position(j)) <= radius;
-        EXPECT_EQ(std::ranges::count(got, static_cast<std::int64_t>(j)),
-                  is_near && division.owners[j] != rank() ? 1 : 0);
-    }
 }
 
 TEST(Ghosts, come_from_neighbours_alone_in_one_message_each) {

@@ -1,6 +1,7 @@
 #include "../support/clouds.hpp"
 #include "../support/distance.hpp"
 #include "../support/ranks.hpp"
+#include "../support/same_error.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
@@ -295,12 +296,7 @@ TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
 }
 
 void expect_refusal(const std::string& text, const std::function<void()>& call) {
-    try {
-        call();
-        ADD_FAILURE() << "nothing was thrown instead of: " << text;
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-    }
+    test::expect_same_error(call, text);
 }
 
 TEST(Groups, that_do_not_fit_on_one_rank_are_refused_on_all) {

@@ -1,5 +1,6 @@
 #include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
+#include "../support/same_error.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
@@ -101,13 +102,8 @@ TEST(Inputs, of_any_arrangement_give_the_same_bits) {
 }
 
 void expect_refusal(const Points& points, const std::string& text) {
-    try {
-        balance(points, {}, {}, MPI_COMM_WORLD);
-        ADD_FAILURE() << "nothing was thrown instead of: " << text;
-    } catch (const Error& error) {
-        const std::string expected = "rank " + std::to_string(test::num_ranks() - 1) + ": " + text;
-        EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-    }
+    test::expect_same_error([&] { balance(points, {}, {}, MPI_COMM_WORLD); },
+                            "rank " + std::to_string(test::num_ranks() - 1) + ": " + text);
 }
 
 TEST(Inputs, that_are_unusable_on_one_rank_are_refused_on_all) {

@@ -1,4 +1,5 @@
 #include "../support/ranks.hpp"
+#include "../support/same_error.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/plan.hpp>
@@ -66,31 +67,12 @@ TEST(Plan, imports_mirror_exports) {
     EXPECT_EQ(next, result.import_indices.size());
 }
 
-TEST(Plan, nothing_moves_when_every_point_is_at_home) {
-    const std::vector<Part> parts(5, rank());
-    const Plan result = plan(parts, num_ranks(), MPI_COMM_WORLD);
-    EXPECT_TRUE(result.export_indices.empty());
-    EXPECT_TRUE(result.import_indices.empty());
-}
-
-TEST(Plan, points_of_a_part_that_spans_ranks_stay) {
-    const std::vector<Part> parts(3, 0);
-    const Plan result = plan(parts, 1, MPI_COMM_WORLD);
-    EXPECT_TRUE(result.export_indices.empty());
-}
-
 TEST(Plan, a_part_out_of_range_on_one_rank_fails_everywhere) {
     const std::vector<Part> parts(1, rank() == num_ranks() - 1 ? num_ranks() : 0);
-    try {
-        plan(parts, num_ranks(), MPI_COMM_WORLD);
-        FAIL() << "expected an error";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-        EXPECT_EQ(std::string(error.what()),
-                  "rank " + std::to_string(num_ranks() - 1) + ": part " +
-                      std::to_string(num_ranks()) + " of point 0 is none of the " +
-                      std::to_string(num_ranks()) + " parts; they count from 0");
-    }
+    test::expect_same_error([&] { plan(parts, num_ranks(), MPI_COMM_WORLD); },
+                            "rank " + std::to_string(num_ranks() - 1) + ": part " +
+                                std::to_string(num_ranks()) + " of point 0 is none of the " +
+                                std::to_string(num_ranks()) + " parts; they count from 0");
 }
 
 TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
@@ -113,14 +95,9 @@ TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
 void expect_refusal(double measure(const Points&, std::span<const Part>)) {
     const std::vector<double> x(1);
     const std::vector<Part> parts{test::is_last_rank() ? 7 : 0};
-    try {
-        measure(interleaved_points(x, 1), parts);
-        ADD_FAILURE() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.what(),
-                  "rank " + std::to_string(num_ranks() - 1) +
-                      ": part 7 of point 0 is none of the 2 parts; they count from 0");
-    }
+    test::expect_same_error([&] { measure(interleaved_points(x, 1), parts); },
+                            "rank " + std::to_string(num_ranks() - 1) +
+                                ": part 7 of point 0 is none of the 2 parts; they count from 0");
 }
 
 TEST(PartWeights, of_a_part_that_is_none_are_refused_on_all_ranks) {
@@ -132,28 +109,20 @@ TEST(PartWeights, of_a_part_that_is_none_are_refused_on_all_ranks) {
 TEST(PartWeights, of_points_without_a_part_are_refused_on_all_ranks) {
     const std::vector<double> x(2);
     const std::vector<Part> parts(test::is_last_rank() ? 1 : 2);
-    try {
-        part_weights(interleaved_points(x, 1), parts, 2, MPI_COMM_WORLD);
-        ADD_FAILURE() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) +
-                                    ": parts has 1 entries for 2 points; give one per point");
-    }
+    test::expect_same_error(
+        [&] { part_weights(interleaved_points(x, 1), parts, 2, MPI_COMM_WORLD); },
+        "rank " + std::to_string(num_ranks() - 1) +
+            ": parts has 1 entries for 2 points; give one per point");
 }
 
 /// The last rank divides into so many parts that messages of their length would be others.
 void expect_refusal_of_numbers_that_differ(const std::function<void(int num_parts)>& call) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     for (const int other : {2, 3, 5000}) {
-        try {
-            call(test::is_last_rank() ? other : 1);
-            ADD_FAILURE() << "nothing was thrown";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-            EXPECT_EQ(error.what(), "num_parts differs between rank 0 and rank " +
-                                        std::to_string(num_ranks() - 1) +
-                                        "; give the same value on every rank");
-        }
+        test::expect_same_error([&] { call(test::is_last_rank() ? other : 1); },
+                                "num_parts differs between rank 0 and rank " +
+                                    std::to_string(num_ranks() - 1) +
+                                    "; give the same value on every rank");
         call(2);
     }
 }

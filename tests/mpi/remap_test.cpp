@@ -257,15 +257,9 @@ TEST(Remap, needs_no_previous_parts_on_a_rank_without_points) {
 TEST(Remap, refuses_arguments_that_differ_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const auto expect_difference = [](const std::string& name, auto call) {
-        try {
-            call();
-            ADD_FAILURE() << "expected: " << name << " differs";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-            EXPECT_EQ(error.what(), name + " differs between rank 0 and rank " +
-                                        std::to_string(num_ranks() - 1) +
-                                        "; give the same value on every rank");
-        }
+        test::expect_same_error([&] { call(); }, name + " differs between rank 0 and rank " +
+                                                     std::to_string(num_ranks() - 1) +
+                                                     "; give the same value on every rank");
         EXPECT_EQ(remap({}, ranks_of_parts(3), MPI_COMM_WORLD).num_points, 0);
     };
     const std::vector<Part> parts(3);
@@ -289,13 +283,9 @@ TEST(Remap, refuses_arguments_that_differ_between_ranks) {
 TEST(Remap, refuses_on_all_ranks_what_one_gets_wrong) {
     const auto expect_error = [](const std::vector<Part>& parts, const std::vector<Part>& previous,
                                  const std::string& expected) {
-        try {
-            remap(parts, previous, ranks_of_parts(num_ranks()), MPI_COMM_WORLD);
-            ADD_FAILURE() << "expected: " << expected;
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-            EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) + ": " + expected);
-        }
+        test::expect_same_error(
+            [&] { remap(parts, previous, ranks_of_parts(num_ranks()), MPI_COMM_WORLD); },
+            "rank " + std::to_string(num_ranks() - 1) + ": " + expected);
     };
     const std::string number = std::to_string(num_ranks());
     const std::vector<Part> fine{0, 0, 0};

@@ -1,5 +1,6 @@
 // Calls that start from the cuts of an earlier one: these stay while they are good enough, at the
 // cost of one assignment and one count.
+#include "../support/same_error.hpp"
 #include "reuse_cases.hpp"
 
 #include <rrcb/error.hpp>
@@ -139,17 +140,6 @@ TEST(Reuse, moves_cuts_beyond_the_tolerance) {
     }
 }
 
-/// Expects the same error on every rank, which names `what`.
-template <class Call>
-void expect_error(Call&& call, const std::string& what) {
-    try {
-        call();
-        ADD_FAILURE() << "nothing was thrown, not " << what;
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
-    }
-}
-
 TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
     const Options options = with_parts(4, 1.05);
     std::vector<double> mine = test::uniform_cloud(700, 2, static_cast<unsigned>(rank() + 1));
@@ -161,14 +151,14 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
     if (num_ranks() > 1) {
         Cuts others = cuts;
         if (is_last) others.tree[1].at.fill(7);
-        expect_error([&] { call(others); }, "previous differs between rank");
-        expect_error(
+        test::expect_same_error([&] { call(others); }, "previous differs between rank");
+        test::expect_same_error(
             [&] {
                 balance(interleaved_points(mine, 2), with_parts(is_last ? 5 : 4, 1.05),
                         is_last ? Cuts{2, 5, {Cut{}, Cut{}, Cut{}, Cut{}}} : cuts, MPI_COMM_WORLD);
             },
             "num_parts differs between rank");
-        expect_error(
+        test::expect_same_error(
             [&] {
                 if (is_last)
                     balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD);
@@ -177,18 +167,18 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
             },
             "previous differs between rank");
     }
-    expect_error(
+    test::expect_same_error(
         [&] {
             call(is_last ? Cuts{2, 3, {Cut{}, Cut{}}} : cuts);
         },
         "previous cuts have 3 parts, not 4; set num_parts to 3");
     std::vector<double> weights(700, 1.0);
     if (is_last) weights[3] = -1;
-    expect_error([&] { call(cuts, weights); }, "weight of point 3");
+    test::expect_same_error([&] { call(cuts, weights); }, "weight of point 3");
     std::vector<double> giant(700, is_last ? 2e305 : 1e305);
-    if (num_ranks() > 2) expect_error([&] { call(cuts, giant); }, "overflows");
+    if (num_ranks() > 2) test::expect_same_error([&] { call(cuts, giant); }, "overflows");
     if (is_last) mine[601] = std::nan("");
-    expect_error([&] { call(cuts); }, "coordinate of point 300 on axis 1");
+    test::expect_same_error([&] { call(cuts); }, "coordinate of point 300 on axis 1");
     if (is_last) mine[601] = 0.5;
     call(cuts);
 }

@@ -1,4 +1,5 @@
 // Parts that many ranks make, see Tuning::central_parts.
+#include "../support/same_error.hpp"
 #include "clouds_of_all_ranks.hpp"
 #include "spread_checks.hpp"
 
@@ -50,27 +51,6 @@ std::vector<std::int32_t> numbers_up_to(int count) {
     std::vector<std::int32_t> numbers(static_cast<std::size_t>(count));
     std::iota(numbers.begin(), numbers.end(), 0);
     return numbers;
-}
-
-TEST(SpreadBalance, exact_leaves_each_part_within_one_point_of_the_ideal) {
-    const std::vector<std::pair<std::string, Coordinate>> clouds{
-        {"uniform", uniform},
-        {"power law", [](std::size_t, int, double u) { return std::pow(u, 9); }},
-        {"far clusters",
-         [](std::size_t i, int, double u) { return 1e6 * static_cast<double>(i % 2) + 1e-6 * u; }},
-        {"whole range", [](std::size_t, int, double u) { return (2 * u - 1) * 1.7e308; }}};
-    for (const auto& [name, coordinate] : clouds)
-        for (const int dimension : {1, 2, 3})
-            for (const int central : central_parts()) {
-                const auto mine = share_of_cloud(2048, dimension, coordinate);
-                const Points points = interleaved_points(mine, dimension);
-                const Balance result = balance(points, spread_options(central), {}, MPI_COMM_WORLD);
-                const auto weights = expect_consistent(points, result);
-                for (const double weight : weights)
-                    EXPECT_LE(std::abs(weight - 2048.0 / num_ranks()), 1)
-                        << name << ", " << dimension << "-D, " << central;
-                EXPECT_NEAR(result.report.imbalance, imbalance(weights), 1e-12);
-            }
 }
 
 TEST(SpreadBalance, tolerance_is_met_and_measured) {
@@ -162,58 +142,6 @@ TEST(SpreadBalance, cuts_lie_across_the_axes_given_to_them) {
         }
 }
 
-TEST(SpreadBalance, parts_have_the_sizes_asked_for_and_stay_empty_where_these_are_0) {
-    for (const int num_parts : {num_ranks(), 2 * num_ranks() + 1, 3}) {
-        if (num_parts < 3) continue;
-        const auto mine = share_of_cloud(3000, 2, uniform);
-        const Points points = interleaved_points(mine, 2);
-        Options options = spread_options(2);
-        options.num_parts = num_parts;
-        for (int part = 0; part < num_parts; ++part) options.part_sizes.push_back(part % 3);
-        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
-        const auto weights = expect_consistent(points, result);
-        const double sizes =
-            std::accumulate(options.part_sizes.begin(), options.part_sizes.end(), 0.0);
-        for (std::size_t part = 0; part < weights.size(); ++part)
-            EXPECT_LE(std::abs(weights[part] - 3000 * options.part_sizes[part] / sizes),
-                      part % 3 == 0 ? 0 : 1.5);
-    }
-}
-
-TEST(SpreadBalance, points_without_weight_are_balanced_by_count) {
-    const auto mine = share_of_cloud(2000, 2, uniform);
-    const std::vector<double> weights(mine.size() / 2, 0.0);
-    const Points points = interleaved_points(mine, 2, weights);
-    const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
-    EXPECT_TRUE(result.report.details.all_weights_zero);
-    for (const double count : expect_consistent(points, result))
-        EXPECT_LE(std::abs(count - 2000.0 / num_ranks()), 1);
-}
-
-TEST(SpreadBalance, weights_over_decades_are_halved_as_well_as_any_cut_can) {
-    const auto mine = share_of_cloud(3000, 3, uniform);
-    std::vector<double> weights;
-    for (std::size_t i = 0; i < mine.size(); i += 3) weights.push_back(std::pow(10, 3 * mine[i]));
-    const Points points = interleaved_points(mine, 3, weights);
-    const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
-    const auto sums = expect_consistent(points, result);
-    const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / num_ranks();
-    const double heaviest = 1000;
-    for (const double sum : sums) EXPECT_LE(std::abs(sum - mean), heaviest);
-    EXPECT_EQ(result.report.details.least_imbalance, 1)
-        << "the heaviest point is no part of its own";
-}
-
-TEST(SpreadBalance, points_in_one_place_stay_together) {
-    const auto mine = share_of_cloud(500, 2, [](std::size_t, int, double) { return 4.5; });
-    const Points points = interleaved_points(mine, 2);
-    const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
-    const auto weights = expect_consistent(points, result);
-    EXPECT_EQ(std::ranges::count(weights, 500), 1);
-    EXPECT_GT(result.report.details.coincident_cuts, 0);
-    EXPECT_NEAR(result.report.imbalance, num_ranks(), 1e-9);
-}
-
 TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ranks_below) {
     // All in one place; or in so few that cuts divide some.
     for (const double places : {1.0, 3.0, 40.0})
@@ -247,45 +175,6 @@ TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ra
             MPI_Allgather(ends, 2, MPI_INT, all.data(), 2, MPI_INT, MPI_COMM_WORLD);
             EXPECT_TRUE(std::ranges::is_sorted(all));
         }
-}
-
-TEST(SpreadBalance, ranks_may_be_empty_and_all_points_on_one) {
-    for (const int holder : {0, num_ranks() / 2, num_ranks() - 1}) {
-        std::vector<double> mine;
-        if (rank() == holder) mine = test::uniform_cloud(1000, 2, 7);
-        const Points points = interleaved_points(mine, 2);
-        const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
-        for (const double weight : expect_consistent(points, result))
-            EXPECT_LE(std::abs(weight - 1000.0 / num_ranks()), 1);
-    }
-}
-
-TEST(SpreadBalance, there_may_be_fewer_points_than_parts_and_none_at_all) {
-    for (const std::size_t count : {0U, 1U, 3U}) {
-        const auto mine = share_of_cloud(count, 2, uniform);
-        const Points points = interleaved_points(mine, 2);
-        const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
-        const auto weights = expect_consistent(points, result);
-        EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), 0.0), count);
-        EXPECT_LE(*std::ranges::max_element(weights), count == 3 && num_ranks() == 3 ? 2 : 1);
-        EXPECT_EQ(result.report.details.surplus_parts,
-                  std::max(0, num_ranks() - static_cast<int>(count)));
-    }
-}
-
-TEST(SpreadBalance, the_same_call_gives_the_same_bits) {
-    const auto mine = share_of_cloud(3000, 2, uniform);
-    const Points points = interleaved_points(mine, 2);
-    for (const Refine refine : {Refine::exact, Refine::tolerance}) {
-        // One after the other, without a barrier.
-        const Balance a = balance(points, spread_options(2, refine), {}, MPI_COMM_WORLD);
-        const Balance b = balance(points, spread_options(2, refine), {}, MPI_COMM_WORLD);
-        EXPECT_EQ(a.parts, b.parts);
-        EXPECT_EQ(a.cuts.nodes, b.cuts.nodes);
-        for (std::size_t k = 0; k < a.cuts.tree.size(); ++k)
-            EXPECT_EQ(a.cuts.tree[k].at, b.cuts.tree[k].at);
-        EXPECT_EQ(a.report.imbalance, b.report.imbalance);
-    }
 }
 
 TEST(SpreadBalance, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
@@ -376,22 +265,12 @@ TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
     for (const int faulty : {0, num_ranks() - 1}) {
         Options options = spread_options(2);
         if (rank() == faulty) options.tuning.central_parts = 1;
-        try {
-            balance(points, options, {}, MPI_COMM_WORLD);
-            ADD_FAILURE() << "expected an error";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.what(), "rank " + std::to_string(faulty) +
-                                        ": tuning.central_parts must be at least 2");
-        }
+        test::expect_same_error(
+            [&] { balance(points, options, {}, MPI_COMM_WORLD); },
+            "rank " + std::to_string(faulty) + ": tuning.central_parts must be at least 2");
         options.tuning.central_parts = rank() == faulty ? 2 : 1000;
-        try {
-            balance(points, options, {}, MPI_COMM_WORLD);
-            ADD_FAILURE() << "expected an error";
-        } catch (const Error& error) {
-            EXPECT_NE(std::string(error.what()).find("central_parts differs between rank"),
-                      std::string::npos)
-                << error.what();
-        }
+        test::expect_same_error([&] { balance(points, options, {}, MPI_COMM_WORLD); },
+                                "central_parts differs between rank");
     }
     const std::vector<double> fine{0.5, 1.5};
     EXPECT_EQ(balance(interleaved_points(fine, 1), {}, {}, MPI_COMM_WORLD).parts.size(), 2u);

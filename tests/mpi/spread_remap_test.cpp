@@ -1,4 +1,5 @@
 // Part numbers by all ranks together, beside those that one rank finds.
+#include "../support/same_error.hpp"
 #include "collective/duplicate.hpp"
 #include "lists/remap_mpi.hpp"
 #include "part_ranks.hpp"
@@ -85,14 +86,10 @@ TEST(SpreadRemap, leaves_numbers_that_nobody_gains_by) {
 TEST(SpreadRemap, refuses_on_all_ranks_what_one_gets_wrong) {
     const std::vector<Part> wrong(3, test::is_last_rank() ? 200 : 0);
     for (int k = 0; k < 2; ++k) {
-        try {
-            found(true, wrong, {}, 200);
-            ADD_FAILURE() << "expected an error";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.what(),
-                      "rank " + std::to_string(num_ranks() - 1) +
-                          ": part 200 of point 0 is none of the 200 parts; they count from 0");
-        }
+        test::expect_same_error(
+            [&] { found(true, wrong, {}, 200); },
+            "rank " + std::to_string(num_ranks() - 1) + ": " +
+                "part 200 of point 0 is none of the 200 parts; they count from 0");
         EXPECT_EQ(found(true, dealt(200, 1), {}, 200).numbers.size(), 200u);
     }
 }

@@ -143,33 +143,6 @@ TEST(TreeShape, each_point_is_where_the_cuts_of_whole_groups_put_it) {
     });
 }
 
-/// Of 6,000 points, the second part being twice as large as each other.
-void expect_exact(const Balance& result, const Points& points) {
-    const int num_parts = result.cuts.num_parts;
-    const std::vector<double> weights =
-        part_weights(points, result.parts, num_parts, MPI_COMM_WORLD);
-    if (!result.report.part_weights.empty()) {
-        EXPECT_EQ(result.report.part_weights, weights);
-    }
-    for (std::size_t p = 0; p < weights.size(); ++p)
-        EXPECT_NEAR(weights[p], (p == 1 ? 2 : 1) * 6000.0 / (num_parts + 1), 2);
-}
-
-TEST(TreeShape, exact_leaves_each_part_within_two_points_of_the_ideal) {
-    for_each_shape([](const Machines& all, bool larger_below) {
-        Options options = options_for(all, larger_below);
-        options.refine = Refine::exact;
-        options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
-        options.part_sizes[1] = 2;
-        const std::vector<double> coordinates = cloud_here(3);
-        const Points points = interleaved_points(coordinates, 3);
-        expect_exact(balance(points, options, {}, MPI_COMM_WORLD), points);
-        if (all.dealt > 0) return;
-        options.tuning.central_parts = 2;
-        expect_exact(balance(points, options, {}, MPI_COMM_WORLD), points);
-    });
-}
-
 TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
     if (num_ranks() < 3) GTEST_SKIP() << "rank 0 makes two parts and more alone";
     for_each_shape([](const Machines& all, bool larger_below) {
@@ -219,39 +192,6 @@ TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
         options.tree = shape;
         EXPECT_THROW(balance(interleaved_points({}, 2), options, {}, MPI_COMM_WORLD), Error);
     }
-}
-
-TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
-    constexpr double radius = 0.05;
-    for_each_shape([](const Machines& all, bool larger_below) {
-        const Options options = options_for(all, larger_below);
-        const std::vector<double> coordinates = cloud_here(2);
-        const Points points = interleaved_points(coordinates, 2);
-        Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
-        cuts.points = 0;  // the points stay where they are
-        const GhostPlan found = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);
-        std::vector<std::size_t> expected;
-        for (int to = 0; to < num_ranks(); ++to) {
-            for (LocalIndex i = 0; i < points.count && to != rank(); ++i) {
-                bool is_near = false;
-                for (Part part = 0; part < options.num_parts && !is_near; ++part) {
-                    const RankRange ranks = ranks_of_part(part, options.num_parts, num_ranks());
-                    if (to < ranks.first_rank || to >= ranks.first_rank + ranks.count) continue;
-                    const Box box = box_of(cuts, part);
-                    const Vector x = points.position(i);
-                    double square = 0;
-                    for (std::size_t a = 0; a < 2; ++a) {
-                        const double gap =
-                            std::max({0.0, box.lower[a] - x[a], x[a] - box.upper[a]});
-                        square += gap * gap;
-                    }
-                    is_near = square <= radius * radius;
-                }
-                if (is_near) expected.push_back(i);
-            }
-        }
-        EXPECT_EQ(found.send_indices, expected);
-    });
 }
 
 }  // namespace

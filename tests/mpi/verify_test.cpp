@@ -100,25 +100,6 @@ TEST(Verify, finds_all_pairs_and_no_faults_in_sound_plans) {
     }
 }
 
-TEST(Verify, finds_no_faults_for_any_radii_and_dimension) {
-    for (const int dimension : {1, 2, 3}) {
-        const Scene scene(dimension);
-        for (const Needs needs : {Needs::sender, Needs::receiver, Needs::either})
-            for (const bool is_periodic : {false, true}) {
-                GhostOptions options{.radii = scene.radii, .needs = needs};
-                if (is_periodic) options.periodic = unit;
-                VerifyOptions all{everything};
-                all.radii = scene.radii;
-                all.ids_before = scene.before;
-                const Verification seen = scene.seen(scene.near(options), all);
-                expect_sound(seen);
-                if (is_periodic || num_ranks() > 1) {
-                    EXPECT_GT(seen.num_pairs, 0);
-                }
-            }
-    }
-}
-
 TEST(Verify, looks_at_no_more_than_a_sample) {
     const Scene scene(2);
     const GhostPlan near = scene.near({.radius = 0.5, .periodic = unit});

@@ -2,7 +2,7 @@
 rrcb_add_test(NAME mpm_soil_test SOURCES materials/soil_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_balancers_test SOURCES parallel/balancers_test.cpp
-              LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 3 LABELS mpm)
+              LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 5 LABELS mpm)
 rrcb_add_test(NAME mpm_anchor_test SOURCES effects/anchor_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm hard)
 rrcb_add_test(NAME mpm_scene_file_test SOURCES scene/scene_file_test.cpp
@@ -19,14 +19,12 @@ rrcb_add_test(NAME mpm_variations_test SOURCES analytic/variations_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_infinite_slope_test SOURCES analytic/infinite_slope_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
-rrcb_add_test(NAME mpm_two_disks_test SOURCES analytic/two_disks_test.cpp
-              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_dam_break_test SOURCES analytic/dam_break_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_work_columns_test SOURCES step/work_columns_test.cpp
               LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 2 4 LABELS mpm)
 foreach(test mpm_variations_test mpm_infinite_slope_test mpm_balancers_test mpm_work_columns_test mpm_scene_file_test mpm_reference_test mpm_soil_test
-             mpm_two_disks_test mpm_dam_break_test mpm_anchor_test
+             mpm_dam_break_test mpm_anchor_test
              mpm_time_step_test mpm_state_test mpm_scene_reports_test)
   target_compile_definitions(${test}
                              PRIVATE RRCB_SCENES="${PROJECT_SOURCE_DIR}/examples/mpm/scenes")

@@ -158,6 +158,25 @@ inline Material elastic_material(const std::string& name, double density, double
              {"poissons_ratio", poissons_ratio}}};
 }
 
+/// Soil by Drucker and Prager as a scene names it; Young's modulus 1 MPa, Poisson's ratio 0.3.
+inline Material soil_material(const std::string& name, double density, double cohesion,
+                              double friction_angle) {
+    Material soil = elastic_material(name, density, 1e6, 0.3);
+    soil.model = "drucker_prager";
+    soil.parameters.insert({{"cohesion", cohesion}, {"friction_angle", friction_angle}});
+    return soil;
+}
+
+/// Clay by von Mises as a scene names it; Poisson's ratio 0.45.
+inline Material clay_material(double youngs_modulus, double strength,
+                              double strength_gradient = 0) {
+    Material clay = elastic_material("clay", 1600, youngs_modulus, 0.45);
+    clay.model = "von_mises";
+    clay.parameters["strength"] = strength;
+    if (strength_gradient > 0) clay.parameters["strength_gradient"] = strength_gradient;
+    return clay;
+}
+
 /// Gravity in two dimensions as a scene names it.
 inline Effect gravity_effect(double acceleration) {
     return {"gravity", {{"acceleration", std::vector<double>{0, -acceleration}}}};

@@ -38,4 +38,11 @@ inline Scene shipped(const std::string& name, const Variation& varied = {}) {
     return scene;
 }
 
+/// A shipped scene in cells of another size. Collective.
+inline Scene shipped(const std::string& name, double cell_size) {
+    Scene scene = shipped(name);
+    resize_cells(scene, cell_size);
+    return scene;
+}
+
 }  // namespace mpm::test

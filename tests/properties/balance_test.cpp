@@ -79,6 +79,9 @@ std::string fault_of_report(const Answer& answer) {
         return "wrong count";
     if (!(std::abs(report.details.total_weight - total) <= 1e-12 * total))
         return "wrong total weight";
+    const std::vector<double>& all = answer.cloud.weights;
+    if (report.details.all_weights_zero != (!all.empty() && std::ranges::max(all) == 0))
+        return "wrong about weights";
     if (std::isnan(report.imbalance) || report.details.all_weights_zero) return {};
     const double measured = imbalance(weights, answer.options.part_sizes);
     if (measured == report.imbalance) return {};

@@ -34,6 +34,7 @@ rc::Gen<Case::Shape> any_shape() {
         gen::set(&Shape::refine,
                  gen::element(Refine::tolerance, Refine::tolerance, Refine::exact, Refine::none)),
         gen::set(&Shape::support_mesh, gen::element<std::int32_t>(0, 0, 1, 3, 9)),
+        gen::set(&Shape::central_parts, gen::element<std::int32_t>(0, 0, 2, 3)),
         gen::set(&Shape::tolerance, gen::element(1.01, 1.0, 1.1, 2.0)),
         gen::set(&Shape::plain_cuts, gen::element<std::int32_t>(0, 0, 0, 1)),
         gen::set(&Shape::group_size, gen::element<std::int32_t>(1, 1, 1, 2, 3, 5)),

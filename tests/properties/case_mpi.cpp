@@ -96,6 +96,7 @@ Options Case::options() const {
     options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
     options.refine = shape.refine;
     options.tuning.support_mesh = shape.support_mesh;
+    if (shape.central_parts != 0) options.tuning.central_parts = shape.central_parts;
     options.imbalance_tolerance = shape.tolerance;
     options.axes.plain = shape.plain_cuts != 0;
     options.tree = {shape.group_size, shape.larger_below != 0};
@@ -122,9 +123,10 @@ std::ostream& operator<<(std::ostream& out, const Case& input) {
         << ", owners " << name(shape.owners) << ", copies " << shape.copies << ", parts "
         << shape.num_parts << " of sizes {";
     for (const int size : input.part_sizes) out << ' ' << size;
-    out << " }, refine " << name(shape.refine) << ", mesh " << shape.support_mesh << ", tolerance "
-        << shape.tolerance << ", plain " << shape.plain_cuts << ", groups of " << shape.group_size
-        << ", larger below " << shape.larger_below << ", choice " << shape.choice << ", points {";
+    out << " }, refine " << name(shape.refine) << ", mesh " << shape.support_mesh
+        << ", central parts " << shape.central_parts << ", tolerance " << shape.tolerance
+        << ", plain " << shape.plain_cuts << ", groups of " << shape.group_size << ", larger below "
+        << shape.larger_below << ", choice " << shape.choice << ", points {";
     for (const Seed& seed : input.seeds) {
         out << " (";
         for (const int number : seed.position) out << number << ' ';

@@ -44,6 +44,7 @@ struct Case {
         std::int32_t num_parts = 1;
         Refine refine = Refine::tolerance;
         std::int32_t support_mesh = 0;
+        std::int32_t central_parts = 0;  ///< 0: as by default, so that rank 0 makes all parts
         double tolerance = 1.01;
         std::int32_t plain_cuts = 0;
         std::int32_t group_size = 1;

@@ -394,14 +394,6 @@ def test_finds_all_pairs_in_a_tilted_box():
     assert np.array_equal(*counts)
 
 
-def test_plain_parts_are_half_open_boxes():
-    lattice = np.stack(np.meshgrid(np.arange(15.0), np.arange(15.0)), axis=-1).reshape(-1, 2)
-    x = lattice[ME::RANKS]
-    balance = rrcb.balance(x, comm=comm, axes__plain=True)
-    lower, upper = balance.cuts.boxes()[balance.parts].swapaxes(0, 1)
-    assert ((x >= lower) & (x < upper)).all()
-
-
 def test_verifies_ghosts():
     x = cloud(2, 150, empty=0 if RANKS > 2 else None)
     balance = rrcb.balance(x, comm=comm)

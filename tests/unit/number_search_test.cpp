@@ -1,5 +1,5 @@
 // The search for numbers of parts by many ranks in one process, compared with the greedy method at
-// one place and, for few parts, with all permutations.
+// one place.
 #include "lists/number_search.hpp"
 
 #include "../support/clouds.hpp"
@@ -182,15 +182,6 @@ GlobalCount kept_under(const Numbers& numbers, const NumberRule& rule, const Ove
     return kept;
 }
 
-GlobalCount most_kept(const NumberRule& rule, const Overlaps& overlaps) {
-    Numbers numbers = unchanged(rule.num_parts);
-    GlobalCount most = 0;
-    do {
-        most = std::max(most, kept_under(numbers, rule, overlaps));
-    } while (std::ranges::next_permutation(numbers).found);
-    return most;
-}
-
 /// Overlaps of few counts, so that many are equal, of `per_origin` parts each; some origins have
 /// none.
 Overlaps random_overlaps(const NumberRule& rule, int per_origin, unsigned seed) {
@@ -244,42 +235,6 @@ TEST(NumberSearch, takes_any_numbers_of_parts_on_the_ranks) {
         const Overlaps overlaps = random_overlaps(rule, 5, seed);
         expect_greedy(rule, overlaps, ManyRanks(rule, overlaps).run());
     }
-}
-
-TEST(NumberSearch, keeps_at_least_half_of_the_best_permutation) {
-    double least = 1;
-    double sum = 0;
-    constexpr unsigned num_cases = 100;
-    for (unsigned seed = 0; seed < num_cases; ++seed) {
-        NumberRule rule{7, 3};
-        rule.by_rank = seed % 2 == 0;
-        rule.is_spread = seed % 4 < 2;
-        Overlaps overlaps = random_overlaps(rule, 5, seed);
-        for (Overlap& overlap : overlaps) overlap.count = 1 + overlap.count * 37 % 23;
-        const auto best = static_cast<double>(most_kept(rule, overlaps));
-        const double share =
-            static_cast<double>(kept_under(ManyRanks(rule, overlaps).run(), rule, overlaps)) / best;
-        least = std::min(least, share);
-        sum += share;
-    }
-    EXPECT_GE(least, 0.5);
-    EXPECT_GT(sum / num_cases, 0.9);
-}
-
-TEST(NumberSearch, leaves_numbers_by_which_nothing_is_gained) {
-    for (const bool by_rank : {true, false}) {
-        const NumberRule rule{4, 2, by_rank, true};
-        EXPECT_EQ(ManyRanks(rule, {}).run(), unchanged(4));
-        const Part last = by_rank ? 3 : 1;
-        const Overlaps equal{{0, 0, 5}, {1, 0, 5}, {0, last, 5}, {1, last, 5}};
-        EXPECT_EQ(ManyRanks(rule, equal).run(), unchanged(4));
-    }
-}
-
-TEST(NumberSearch, gives_the_numbers_of_a_rank_to_its_largest_overlaps) {
-    // All points are on rank 1, which has two numbers. Part 3 keeps its own, part 0 gets the other.
-    const Overlaps overlaps{{1, 0, 9}, {1, 1, 2}, {1, 2, 3}, {1, 3, 8}};
-    EXPECT_EQ(ManyRanks({4, 2}, overlaps).run(), (Numbers{2, 1, 0, 3}));
 }
 
 TEST(NumberSearch, uses_each_number_once_however_few_the_rounds) {

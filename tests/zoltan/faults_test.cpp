@@ -40,6 +40,11 @@ struct FaultyProgram : Program {
     }
 };
 
+constexpr std::pair<const char*, const char*> methods[] = {{"ANALYTIC", "NONE"},
+                                                           {"ANALYTIC", "TOLERANCE"},
+                                                           {"ANALYTIC", "EXACT"},
+                                                           {"SAMPLED", "NONE"},
+                                                           {"POINTS", "NONE"}};
 constexpr const char* callbacks[] = {"NUM_OBJ", "OBJ_LIST", "NUM_GEOM", "GEOM_MULTI"};
 
 TEST(Faults, of_a_callback_on_one_rank_give_every_rank_the_same_code) {
@@ -131,10 +136,11 @@ TEST(Faults, a_missing_callback_is_fatal) {
 TEST(Faults, coordinates_that_are_not_finite_are_fatal) {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity()}) {
-        for (const char* domain : {"ANALYTIC", "SAMPLED", "POINTS"}) {
-            SCOPED_TRACE(domain);
+        for (const auto& [domain, refine] : methods) {
+            SCOPED_TRACE(std::string(domain) + " " + refine);
             FaultyProgram program;
             program.set("RRCB_DOMAIN", domain);
+            program.set("RRCB_REFINE", refine);
             const double good = program.coordinates[31];
             if (is_faulty(program)) program.coordinates[31] = bad;
             EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
@@ -145,13 +151,18 @@ TEST(Faults, coordinates_that_are_not_finite_are_fatal) {
 }
 
 TEST(Faults, weights_that_are_not_finite_or_negative_are_fatal) {
-    for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity(), -1.0F}) {
-        FaultyProgram program;
-        const float good = program.weights[7];
-        if (is_faulty(program)) program.weights[7] = bad;
-        EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
-        program.weights[7] = good;
-        EXPECT_EQ(program.partition().code, ZOLTAN_OK);
+    for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity(), -1e-30F}) {
+        for (const auto& [domain, refine] : methods) {
+            SCOPED_TRACE(std::string(domain) + " " + refine);
+            FaultyProgram program;
+            program.set("RRCB_DOMAIN", domain);
+            program.set("RRCB_REFINE", refine);
+            const float good = program.weights[7];
+            if (is_faulty(program)) program.weights[7] = bad;
+            EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
+            program.weights[7] = good;
+            EXPECT_EQ(program.partition().code, ZOLTAN_OK);
+        }
     }
 }
 

@@ -1,32 +1,9 @@
 #include "../support/held_memory.hpp"
+#include "../support/mpi_handles.hpp"
 #include "same_lists.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-
-// Counts the communicators that are alive in this process.
-static int num_communicators = 0;
-
-extern "C" int MPI_Comm_dup(MPI_Comm comm, MPI_Comm* copy) {
-    ++num_communicators;
-    return PMPI_Comm_dup(comm, copy);
-}
-
-extern "C" int MPI_Comm_idup(MPI_Comm comm, MPI_Comm* copy, MPI_Request* request) {
-    ++num_communicators;
-    return PMPI_Comm_idup(comm, copy, request);
-}
-
-extern "C" int MPI_Comm_split_type(MPI_Comm comm, int type, int key, MPI_Info info,
-                                   MPI_Comm* part) {
-    ++num_communicators;
-    return PMPI_Comm_split_type(comm, type, key, info, part);
-}
-
-extern "C" int MPI_Comm_free(MPI_Comm* comm) {
-    --num_communicators;
-    return PMPI_Comm_free(comm);
-}
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -36,22 +13,6 @@ void expect_same(const Outcome& a, const Outcome& b) {
     EXPECT_EQ(a.changes, b.changes);
     expect_same(a.imports, b.imports);
     expect_same(a.exports, b.exports);
-}
-
-TEST(Forwarding, leaves_other_methods_as_they_are_on_a_handle_that_never_saw_rrcb) {
-    for (const char* method : {"RCB", "RIB", "HSFC", "BLOCK"}) {
-        SCOPED_TRACE(method);
-        Program untouched, switched;
-        scatter_points(untouched, 300);
-        scatter_points(switched, 300);
-        switched.set("LB_METHOD", "RRCB");
-        switched.set("RRCB_DOMAIN", "SAMPLED");
-        EXPECT_EQ(switched.partition().code, ZOLTAN_OK);
-        for (Program* program : {&untouched, &switched}) {
-            EXPECT_EQ(program->set("LB_METHOD", method), ZOLTAN_OK);
-        }
-        expect_same(switched.partition(), untouched.partition());
-    }
 }
 
 TEST(Forwarding, leaves_look_ups_of_rcb_to_zoltan) {
@@ -73,30 +34,6 @@ TEST(Forwarding, leaves_look_ups_of_rcb_to_zoltan) {
         Zoltan_LB_Point_PP_Assign(switched.zz, &untouched.coordinates[i], nullptr, &found);
         EXPECT_EQ(found, expected);
     }
-}
-
-TEST(Handles, give_the_same_when_asked_again_or_switched_back) {
-    Program program;
-    scatter_points(program, 300);
-    program.set("LB_METHOD", "RRCB");
-    const Outcome first = program.partition();
-    expect_same(program.partition(), first);
-    program.set("LB_METHOD", "RIB");
-    program.partition();
-    program.set("LB_METHOD", "RRCB");
-    expect_same(program.partition(), first);
-}
-
-TEST(Handles, are_independent_of_each_other) {
-    Program one, other;
-    scatter_points(one, 300);
-    scatter_points(other, 300);
-    one.set("LB_METHOD", "RRCB");
-    one.set("NUM_GLOBAL_PARTS", "3");
-    other.set("LB_METHOD", "RCB");
-    const Outcome zoltans = other.partition();
-    one.partition();
-    expect_same(other.partition(), zoltans);
 }
 
 TEST(Handles, copies_keep_method_parameters_sizes_and_cuts) {
@@ -145,26 +82,27 @@ TEST(Handles, let_zoltan_evaluate_under_rrcb) {
 }
 
 TEST(Handles, free_every_communicator_and_do_not_gather_more_by_repeated_calls) {
-    const int at_start = num_communicators;
+    const test::MpiHandles at_start = test::mpi_handles();
     {
         Program program;
         scatter_points(program, 500);
         program.set("LB_METHOD", "RRCB");
-        program.set("KEEP_CUTS", "1");
+        for (const char* name : {"KEEP_CUTS", "RCB_REUSE", "RCB_LOCK_DIRECTIONS"})
+            program.set(name, "1");
         program.partition();
         Zoltan_Struct* copy = Zoltan_Copy(program.zz);
         program.partition(copy);
-        const int after_first = num_communicators;
+        const test::MpiHandles after_first = test::mpi_handles();
         repeat(program, 20);
         const test::HeldMemory before;
         EXPECT_GT(before.blocks, 0);
         EXPECT_GT(before.bytes_of_zoltan, 0);
         repeat(program, 200);
-        EXPECT_EQ(num_communicators, after_first);
+        EXPECT_EQ(test::mpi_handles(), after_first);
         test::expect_no_growth(before, 200);
         Zoltan_Destroy(&copy);
     }
-    EXPECT_EQ(num_communicators, at_start);
+    EXPECT_EQ(test::mpi_handles().communicators, at_start.communicators);
 }
 
 TEST(Handles, keep_the_memory_for_each_object) {

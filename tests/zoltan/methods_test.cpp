@@ -1,33 +1,8 @@
-#include "../support/held_memory.hpp"
 #include "program.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-
-// Counts the communicators that are alive in this process.
-static int num_communicators = 0;
-
-extern "C" int MPI_Comm_dup(MPI_Comm comm, MPI_Comm* copy) {
-    ++num_communicators;
-    return PMPI_Comm_dup(comm, copy);
-}
-
-extern "C" int MPI_Comm_idup(MPI_Comm comm, MPI_Comm* copy, MPI_Request* request) {
-    ++num_communicators;
-    return PMPI_Comm_idup(comm, copy, request);
-}
-
-extern "C" int MPI_Comm_split(MPI_Comm comm, int color, int key, MPI_Comm* part) {
-    ++num_communicators;
-    return PMPI_Comm_split(comm, color, key, part);
-}
-
-extern "C" int MPI_Comm_free(MPI_Comm* comm) {
-    --num_communicators;
-    return PMPI_Comm_free(comm);
-}
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -111,30 +86,6 @@ TEST(Methods, look_ups_need_a_partition_of_the_method_that_is_set) {
         EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, program.coordinates.data(), &rank, &part),
                   ZOLTAN_FATAL)
             << method;
-    }
-}
-
-TEST(State, does_not_grow_over_two_thousand_partitions) {
-    constexpr int warm_up = 50, repeats = 2000;
-    Program program;
-    scatter_points(program, 50);
-    for (const char* method : {"RCB", "RRCB"}) {
-        program.set("LB_METHOD", method);
-        for (const char* name : {"KEEP_CUTS", "RCB_REUSE", "RCB_LOCK_DIRECTIONS"}) {
-            program.set(name, "1");
-        }
-        repeat(program, warm_up);
-        const test::HeldMemory before;
-        const int communicators = num_communicators;
-        repeat(program, repeats);
-        if (program.rank == 0) {
-            std::printf("%-4s %d partitions: %ld bytes more, %d communicators more\n", method,
-                        repeats, test::HeldMemory{}.bytes - before.bytes,
-                        num_communicators - communicators);
-        }
-        if (std::string(method) == "RCB") continue;
-        EXPECT_EQ(num_communicators, communicators);
-        test::expect_no_growth(before, repeats);
     }
 }
 

@@ -157,20 +157,6 @@ TEST(Parameters, out_of_range_fall_back_to_the_default_as_in_zoltan) {
     }
 }
 
-TEST(Parameters, that_differ_between_ranks_are_fatal_everywhere) {
-    for (const char* name : {"NUM_LID_ENTRIES", "OBJ_WEIGHT_DIM", "IMBALANCE_TOL"}) {
-        SCOPED_TRACE(name);
-        Program program;
-        if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
-        scatter_points(program, 100);
-        program.set("LB_METHOD", "RRCB");
-        program.set(name, program.rank == 0 ? "2" : "1");
-        const Outcome outcome = program.partition();
-        EXPECT_EQ(outcome.code, ZOLTAN_FATAL);
-        EXPECT_EQ(outcome.exports.count, 0);
-    }
-}
-
 /// Whether each list was asked for, and whether the exports are all objects.
 std::array<bool, 3> shape_of(const Program& program, const Outcome& outcome) {
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
@@ -199,13 +185,48 @@ TEST(Parameters, for_lists_may_differ_between_ranks_as_in_zoltan) {
     }
 }
 
-TEST(Parameters, of_the_domain_that_differ_between_ranks_are_fatal_everywhere) {
+/// All ranks fail; rank 0 names the parameter.
+void expect_difference(const std::string& name, const char* value) {
+    SCOPED_TRACE(name);
     Program program;
-    if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
-    scatter_points(program, 100);
+    scatter_points(program, 50);
     program.set("LB_METHOD", "RRCB");
-    program.set("RRCB_SUPPORT_MESH", program.rank == 0 ? "4" : "5");
-    EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
+    program.set("OBJ_WEIGHT_DIM", "1");
+    // By the method that takes the parameter.
+    const bool is_of_paper = name == "RRCB_CUT_RULE" || name == "RRCB_SIGMA_MULTIPLIER" ||
+                             name == "RRCB_SAMPLE_FRACTION" || name == "RRCB_SEED";
+    if (is_of_paper) program.set("RRCB_DOMAIN", "SAMPLED");
+    if (program.rank == program.num_ranks - 1) program.set(name.c_str(), value);
+    testing::internal::CaptureStderr();
+    const Outcome outcome = program.partition();
+    const std::string printed = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(outcome.code, ZOLTAN_FATAL);
+    EXPECT_EQ(outcome.exports.count, 0);
+    const bool names_it = printed.find(name + " differs between ranks") != printed.npos;
+    EXPECT_EQ(names_it, program.rank == 0) << printed;
+}
+
+TEST(Parameters, that_differ_between_ranks_are_named_and_fatal_everywhere) {
+    if (Program().num_ranks == 1) GTEST_SKIP() << "needs two ranks";
+    constexpr std::pair<const char*, const char*> others[] = {{"NUM_GID_ENTRIES", "2"},
+                                                              {"NUM_LID_ENTRIES", "2"},
+                                                              {"OBJ_WEIGHT_DIM", "0"},
+                                                              {"AUTO_MIGRATE", "1"},
+                                                              {"REMAP", "0"},
+                                                              {"RCB_REUSE", "1"},
+                                                              {"RCB_LOCK_DIRECTIONS", "1"},
+                                                              {"RCB_SET_DIRECTIONS", "3"},
+                                                              {"RCB_RECTILINEAR_BLOCKS", "1"},
+                                                              {"IMBALANCE_TOL", "1.3"},
+                                                              {"RRCB_DOMAIN", "SAMPLED"},
+                                                              {"RRCB_REFINE", "EXACT"},
+                                                              {"RRCB_COINCIDENT", "TOGETHER"},
+                                                              {"RRCB_CUT_RULE", "MIDPOINT"},
+                                                              {"RRCB_SUPPORT_MESH", "9"},
+                                                              {"RRCB_SIGMA_MULTIPLIER", "2"},
+                                                              {"RRCB_SAMPLE_FRACTION", "0.5"},
+                                                              {"RRCB_SEED", "5"}};
+    for (const auto& [name, value] : others) expect_difference(name, value);
 }
 
 }  // namespace

@@ -103,28 +103,6 @@ TEST(Replacement, leaves_cuts_within_the_tolerance_unless_told_not_to) {
     EXPECT_EQ(faces_after_a_move(), again);
 }
 
-TEST(Replacement, gives_no_look_ups_without_keep_cuts) {
-    Program program;
-    scatter_points(program, 200);
-    for (int call = 0; call < 2; ++call) {
-        program.partition();
-        std::array<double, 2> x = {0.5, 0.5};
-        int rank = 17, part = 17;
-        EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &rank, &part), ZOLTAN_FATAL);
-        EXPECT_EQ(rank, -1);
-        EXPECT_EQ(part, -1);
-    }
-}
-
-TEST(Replacement, lets_zoltan_evaluate) {
-    TenParts program;
-    const std::vector<int> before = program.parts();
-    ZOLTAN_BALANCE_EVAL evaluation;
-    EXPECT_EQ(Zoltan_LB_Eval(program.zz, 0, &evaluation, nullptr, nullptr), ZOLTAN_OK);
-    EXPECT_EQ(evaluation.nobj[EVAL_GLOBAL_SUM], 500.0F * static_cast<float>(program.num_ranks));
-    EXPECT_EQ(program.parts(), before);
-}
-
 TEST(Replacement, leaves_the_handles_that_zoltan_makes_for_itself) {
     Program program;
     scatter_points(program, 300);

@@ -54,9 +54,7 @@ const double height_time = std::sqrt(width / g);                    // s
 
 /// The shipped scene in larger cells.
 Scene dam_break(double cell_size = 0.1) {
-    Scene scene = read_scene(RRCB_SCENES "/dam_break.yaml", MPI_COMM_WORLD).scene;
-    resize_cells(scene, cell_size);
-    return scene;
+    return shipped("dam_break", cell_size);
 }
 
 /// Front and height of the column after each step, m and s.

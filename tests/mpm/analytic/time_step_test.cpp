@@ -1,6 +1,5 @@
 // Results that do not depend on the time step.
-#include "scene_file/scene_file_mpi.hpp"
-#include "support.hpp"
+#include "variations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,12 +44,6 @@ void expect_same_at_any_step(const Scene& scene, double end_time, bool keeps_ene
             EXPECT_NEAR(coarse.energy, fine.energy, 0.02 * fine.energy);
         }
     }
-}
-
-Scene shipped(const std::string& name, double cell_size) {
-    Scene scene = read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
-    resize_cells(scene, cell_size);
-    return scene;
 }
 
 struct Case {

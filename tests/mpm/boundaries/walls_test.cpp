@@ -14,16 +14,11 @@ constexpr ShapeFunction all_shapes[] = {ShapeFunction::linear, ShapeFunction::qu
 /// Soil without strength in tension that fills a corner of the domain, thrown into it.
 Scene thrown_into_corner(ShapeFunction shape, double friction) {
     const Wall wall{Wall::frictional, friction};
+    Material sand = soil_material("sand", 1600, 0, 31);
+    sand.parameters["most_expansion"] = 1.5;
     return {.name = "thrown",
             .grid = {.lower = {0, 0}, .spacing = 0.1, .num_cells = {60, 24}},
-            .materials = {{"sand",
-                           "drucker_prager",
-                           {{"density", 1600.0},
-                            {"youngs_modulus", 1e6},
-                            {"poissons_ratio", 0.3},
-                            {"cohesion", 0.0},
-                            {"friction_angle", 31.0},
-                            {"most_expansion", 1.5}}}},
+            .materials = {sand},
             .bodies = {{.contains = box_region({{0.4, 0.3}, {1.2, 1.1}}),
                         .material = "sand",
                         .velocity = velocity_field({.constant = {-4, -3}})}},

@@ -17,10 +17,7 @@ constexpr double deepest = 2.8, slow_speed = 2, slowing = 1.5 * g;
 /// A quarter of an anchor, `lift` of whose weight a fluid carries, above clay that rests under its
 /// weight.
 Scene anchor_scene(double body_mass, double lift, double first_speed, bool has_rate) {
-    Material clay = elastic_material("clay", density, 1e6, 0.45);
-    clay.model = "von_mises";
-    clay.parameters["strength"] = 2e3;
-    clay.parameters["strength_gradient"] = 1.5e3;
+    Material clay = clay_material(1e6, 2e3, 1.5e3);
     if (has_rate) {
         clay.parameters["rate_factor"] = rate_factor;
         clay.parameters["reference_rate"] = reference_rate;

@@ -126,9 +126,7 @@ TEST(LongRun, of_a_ball_between_rollers_gains_no_energy) {
 }
 
 TEST(LongRun, of_clay_at_30_metres_a_second_against_a_wall_gains_no_energy) {
-    Material clay = elastic_material("clay", 1600, 2e6, 0.45);
-    clay.model = "von_mises";
-    clay.parameters["strength"] = 5e3;
+    const Material clay = clay_material(2e6, 5e3);
     for (const bool has_cure : {false, true}) {
         Scene scene = boxed(clay, box_region({{1, 1}, {2, 2}}), {-30, 3});
         if (has_cure) scene.effects = {{"locking_cure", {}}};
@@ -141,14 +139,8 @@ TEST(LongRun, of_clay_at_30_metres_a_second_against_a_wall_gains_no_energy) {
 TEST(LongRun, of_soil_without_strength_gains_no_energy) {
     for (const double angle : {0.0, 10.0, 30.0})
         for (const bool has_cure : {false, true}) {
-            const Material soil{"soil",
-                                "drucker_prager",
-                                {{"density", 1600.0},
-                                 {"youngs_modulus", 1e6},
-                                 {"poissons_ratio", 0.3},
-                                 {"cohesion", 0.0},
-                                 {"friction_angle", angle}}};
-            Scene scene = boxed(soil, box_region({{0, 0}, {1, 1.5}}), {2, 2});
+            Scene scene = boxed(soil_material("soil", 1600, 0, angle),
+                                box_region({{0, 0}, {1, 1.5}}), {2, 2});
             scene.effects = {gravity_effect(9.81)};
             if (has_cure) scene.effects.push_back({"locking_cure", {}});
             EXPECT_LT(growth(scene, 10000), allowed) << angle << ' ' << has_cure;

@@ -1,6 +1,6 @@
 #include "balancers/balancers_mpi.hpp"
-#include "scene_file/scene_file_mpi.hpp"
-#include "support.hpp"
+#include "variations.hpp"
+#include "words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,9 +20,8 @@ constexpr std::array<const char*, 5> balancers{"none", "rrcb", "rrcb-exact", "rr
 constexpr std::array<const char*, 1> usual{"rrcb"};
 
 /// A shipped scene in larger cells, in full weight from its first step.
-Scene shipped(const std::string& name, double cell_size) {
-    Scene scene = read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
-    resize_cells(scene, cell_size);
+Scene in_full_weight(const std::string& name, double cell_size) {
+    Scene scene = shipped(name, cell_size);
     if (Parameters* gravity = find_effect(scene, "gravity")) gravity->erase("ramp");
     return scene;
 }
@@ -90,7 +89,7 @@ void expect_serial_under(std::span<const char* const> names, const Scene& scene)
 }
 
 TEST(Balancers, do_not_show_in_soil_that_fails) {
-    Scene scene = shipped("slope", 4);
+    Scene scene = in_full_weight("slope", 4);
     scene.materials.front().parameters["cohesion"] = 1e3;
     scene.materials.front().parameters["tension_cut_off"] = 1e3;
     scene.effects.push_back({"damping", {{"rate", 0.3}, {"until", 0.2}}});
@@ -101,13 +100,13 @@ TEST(Balancers, do_not_show_where_many_ranks_make_the_parts) {
     rrcb::Options options;
     options.tuning.central_parts = 2;
     options.cuts = rrcb::HeldCuts::own;
-    const Scene scene = shipped("slope", 4);
+    const Scene scene = in_full_weight("slope", 4);
     expect_same(run(scene, "none", MPI_COMM_SELF),
                 run(scene, rrcb_balancer(options), MPI_COMM_WORLD));
 }
 
 TEST(Balancers, do_not_show_under_water_where_clay_softens_and_is_dragged) {
-    Scene scene = shipped("submarine_slide", 4);
+    Scene scene = in_full_weight("submarine_slide", 4);
     scene.materials.front().parameters["strength"] = 1e3;
     scene.materials.front().parameters["softening_strain"] = 0.01;
     scene.bodies.front().velocity = velocity_field({.constant = {3, 0}});
@@ -115,11 +114,11 @@ TEST(Balancers, do_not_show_under_water_where_clay_softens_and_is_dragged) {
 }
 
 TEST(Balancers, do_not_show_where_a_penetrator_strikes) {
-    expect_serial_under(usual, shipped("torpedo_anchor", 0.375));
+    expect_serial_under(usual, in_full_weight("torpedo_anchor", 0.375));
 }
 
 TEST(Balancers, do_not_show_in_large_strains_and_wide_shape_functions) {
-    Scene scene = shipped("elastic_structure", 0.25);
+    Scene scene = in_full_weight("elastic_structure", 0.25);
     scene.bodies.front().velocity = [](const Vector& at) {
         return Vector{0, 0.1 * at[0] * at[0], 0};
     };
@@ -127,7 +126,7 @@ TEST(Balancers, do_not_show_in_large_strains_and_wide_shape_functions) {
 }
 
 TEST(Balancers, do_not_show_in_sand_that_parts_or_bodies_that_meet) {
-    Scene disks = shipped("two_disks", 0.05);
+    Scene disks = in_full_weight("two_disks", 0.05);
     for (Body& body : disks.bodies) {
         const Region contains = body.contains;
         const double offset = &body == &disks.bodies.front() ? -0.15 : 0.15;
@@ -138,11 +137,11 @@ TEST(Balancers, do_not_show_in_sand_that_parts_or_bodies_that_meet) {
     }
     disks.courant_number = 0.5;
     expect_serial_under(usual, disks);
-    expect_serial_under(usual, shipped("granular_column", 0.2));
+    expect_serial_under(usual, in_full_weight("granular_column", 0.2));
 }
 
 TEST(Balancers, do_not_show_in_water_that_strikes_a_wall) {
-    Scene scene = shipped("dam_break", 0.1);
+    Scene scene = in_full_weight("dam_break", 0.1);
     scene.bodies.front().contains = box_region({{3.95, 0}, {5.95, 1}});
     scene.bodies.front().bounds = everywhere;
     scene.bodies.front().velocity = velocity_field({.constant = {6, 0}});
@@ -150,7 +149,7 @@ TEST(Balancers, do_not_show_in_water_that_strikes_a_wall) {
 }
 
 TEST(Balancers, do_not_show_on_an_inclined_plane) {
-    Scene scene = shipped("incline_block", 0.25);
+    Scene scene = in_full_weight("incline_block", 0.25);
     scene.bodies.front().velocity = velocity_field({.constant = {4, -2}});
     expect_serial_under(usual, scene);
 }
@@ -164,7 +163,7 @@ bool ends_at_cell(const GridShape& grid, double face, std::size_t axis) {
 
 TEST(Balancers, of_cells_cut_on_faces_and_do_not_show) {
     for (const ShapeFunction function : {ShapeFunction::linear, ShapeFunction::quadratic}) {
-        Scene scene = shipped("slope", 2);
+        Scene scene = in_full_weight("slope", 2);
         scene.shape_function = function;
         const int num_nodes = function == ShapeFunction::linear ? 2 : 3;
         expect_same(run(scene, "none", MPI_COMM_SELF), run(scene, "rrcb-cells", MPI_COMM_WORLD));
@@ -173,9 +172,7 @@ TEST(Balancers, of_cells_cut_on_faces_and_do_not_show) {
         const std::int64_t anywhere = simulation.totals().num_ghost_nodes;
         simulation.rebalance(*make_balancer("rrcb-cells", scene));
         const std::int64_t on_faces = simulation.totals().num_ghost_nodes;
-        if (size_of(MPI_COMM_WORLD) > 1) {
-            EXPECT_LT(on_faces, anywhere);
-        }
+        EXPECT_LT(on_faces, anywhere);
         for (const Box& box : simulation.decomposition().boxes) {
             for (std::size_t a = 0; a < 2; ++a) {
                 for (const double face : {box.lower[a], box.upper[a]})
@@ -190,14 +187,7 @@ TEST(Balancers, of_cells_cut_on_faces_and_do_not_show) {
 }
 
 TEST(Balancers, of_an_unknown_name_are_refused_with_the_known_ones) {
-    try {
-        make_balancer("magic");
-        ADD_FAILURE();
-    } catch (const std::invalid_argument& error) {
-        EXPECT_NE(std::string(error.what()).find("choose from: none, rrcb, rrcb-exact"),
-                  std::string::npos)
-            << error.what();
-    }
+    expect_refused([] { make_balancer("magic"); }, {"choose from: none, rrcb, rrcb-exact"});
 }
 
 /// A ball in space that leaves through a side after some steps.

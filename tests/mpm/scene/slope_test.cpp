@@ -86,19 +86,6 @@ TEST(Slope, presses_on_what_is_deep_after_it_has_failed) {
     EXPECT_GT(share_in_tension(simulation, locked.grid.spacing), 0.3) << "without the cure";
 }
 
-TEST(Slope, builds_only_what_the_scene_names) {
-    Scene scene = coarse_slope();
-    EXPECT_EQ(Simulation(scene, MPI_COMM_WORLD).kernels(),
-              (std::vector<std::string>{"p2g", "locking_cure", "ghost_nodes", "gravity", "walls",
-                                        "move_nodes", "g2p", "locking_cure", "elastic",
-                                        "drucker_prager", "migrate"}));
-    scene.effects.clear();
-    scene.materials.front() = elastic_material("soil", 2100, 70e6, 0.3);
-    EXPECT_EQ(Simulation(scene, MPI_COMM_WORLD).kernels(),
-              (std::vector<std::string>{"p2g", "ghost_nodes", "walls", "move_nodes", "g2p",
-                                        "elastic", "migrate"}));
-}
-
 TEST(Scene, is_refused_with_the_reason) {
     Scene scene = coarse_slope();
     scene.materials.front().parameters["poissons_ratio"] = 0.5;

@@ -87,18 +87,6 @@ TEST(LeastMass, of_a_body_does_not_depend_on_one_that_it_never_touches) {
     }
 }
 
-TEST(LeastMass, is_the_same_on_any_number_of_ranks) {
-    const Scene scene = wave_into_other(0.05, ShapeFunction::linear, true);
-    Simulation parallel(scene, MPI_COMM_WORLD), serial(scene, MPI_COMM_SELF);
-    while (serial.time() < 2) {
-        parallel.step();
-        serial.step();
-    }
-    EXPECT_LT(relative_difference(gathered(serial, "stress_xx", MPI_COMM_SELF),
-                                  gathered(parallel, "stress_xx", MPI_COMM_WORLD)),
-              1e-12);
-}
-
 /// A block of a number of points along a cell that strikes a heavier disk.
 Scene block_and_disk(int points) {
     return {.name = "block and disk",

@@ -1,5 +1,4 @@
-#include "scene_file/scene_file_mpi.hpp"
-#include "support.hpp"
+#include "variations.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -79,12 +78,6 @@ void expect_same_bits_with_a_stop(const Scene& scene) {
         advance(*simulation, half - 20);
     }
     expect_same_bits(whole, continued);
-}
-
-Scene shipped(const std::string& name, double cell_size) {
-    Scene scene = read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
-    resize_cells(scene, cell_size);
-    return scene;
 }
 
 /// An elastic block that slides on a wall, which gives way to it.

@@ -1,8 +1,7 @@
 // Columns of the work of ranks: parts of points add up to them, and a cost model that is told the
 // seconds by them evens out the dam break. Seconds are counts here, not a clock's.
 #include "balancers_mpi.hpp"
-#include "scene_file/scene_file_mpi.hpp"
-#include "support.hpp"
+#include "variations.hpp"
 
 #include <rrcb/cost.hpp>
 
@@ -16,9 +15,7 @@ namespace mpm::test {
 namespace {
 
 Scene dam_break() {
-    Scene scene = read_scene(RRCB_SCENES "/dam_break.yaml", MPI_COMM_WORLD).scene;
-    resize_cells(scene, 0.1);
-    return scene;
+    return shipped("dam_break", 0.1);
 }
 
 TEST(WorkColumns, are_the_sums_of_the_parts_of_points) {

@@ -4,7 +4,7 @@
 
 namespace {
 
-rrcb::hard_test::MpiHandles held;
+rrcb::test::MpiHandles held;
 
 int count_if_done(int code, int& number, int change) {
     if (code == MPI_SUCCESS) number += change;
@@ -13,13 +13,13 @@ int count_if_done(int code, int& number, int change) {
 
 }  // namespace
 
-namespace rrcb::hard_test {
+namespace rrcb::test {
 
 MpiHandles mpi_handles() {
     return held;
 }
 
-}  // namespace rrcb::hard_test
+}  // namespace rrcb::test
 
 extern "C" {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace rrcb::hard_test {
+namespace rrcb::test {
 
 /// Handles of MPI that this rank made and did not free.
 struct MpiHandles {
@@ -15,4 +15,4 @@ struct MpiHandles {
 /// What the program holds, as a layer between it and MPI counts.
 MpiHandles mpi_handles();
 
-}  // namespace rrcb::hard_test
+}  // namespace rrcb::test

@@ -44,7 +44,7 @@ void prepare(const Options& given, bool may_keep, Call& call, const Participant&
     add_records(points, summary.box, mpi::size_of(self.comm), options, call.mine);
 }
 
-/// Makes the parts that the ranks hold the result. Collective.
+/// Makes the ranks' present parts the result. Collective.
 void keep(Call& call, Participant& self) {
     Decision& decision = call.decision;
     const bool is_known = decision.verdict.answer == Answer::kept;

@@ -12,7 +12,7 @@ namespace rrcb {
 /// Returns the machines of the parts of a call. Collective as mpi::machines_of().
 Ranks ranks_of(Participant& self);
 
-/// Balances as the public functions do, over a communicator that is a duplicate already.
+/// Balances as the public functions do, over a communicator already duplicated.
 ///
 /// `previous` may be null. An earlier failure on one rank is thrown on all. Points that are
 /// balanced well enough are kept (Report::kept) only if all ranks allow it: `may_keep` may differ

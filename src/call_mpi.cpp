@@ -59,7 +59,7 @@ void estimate(Call& call, Participant& self) {
 
 namespace {
 
-/// Returns the cuts above each of these points, and those known before. Collective.
+/// Returns the cuts above each of these points, and the ones known before. Collective.
 Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self) {
     std::vector<Part> parts;
     std::optional<SearchBuffers<PathSearch>> buffers;

@@ -38,7 +38,7 @@ class SpreadReuse {
   public:
     /// Assigns the points by the cuts of the decision that this rank knows; `was_whole` if all
     /// ranks had all cuts. Borrows the call. Not collective; throws std::bad_alloc, and Error if
-    /// the rank lacks a cut that it owns.
+    /// the rank lacks a cut of its own.
     SpreadReuse(Call& call, bool was_whole, MPI_Comm comm)
         : call_(call),
           was_whole_(was_whole),
@@ -73,7 +73,7 @@ class SpreadReuse {
     }
 
   private:
-    /// Adds up the parts found at once, and those of points that were searched one by one.
+    /// Adds up the parts found at once, and the parts of points searched one by one.
     void add_up(int num_parts) {
         const bool by_count = call_.decision.verdict.is_counted();
         const std::vector<double>& known = by_count ? totals_.counts : totals_.weights;
@@ -88,7 +88,7 @@ class SpreadReuse {
         }
     }
 
-    /// Returns the largest weight of a part that this rank owns over its ideal weight.
+    /// Returns the largest weight over the ideal one of this rank's own parts.
     double largest_share(int num_parts) const {
         const std::vector<double>& sizes = call_.options.part_sizes;
         const double all_sizes = sizes.empty() ? num_parts : sum_of(sizes);
@@ -171,7 +171,7 @@ bool keeps_earlier(Call& call) {
     Report& report = call.result.report;
     if (report.details.num_points == 0) return true;
     if (are_cuts_limited(options)) return false;
-    // An imbalance that was not counted is NaN; > would raise a floating-point exception.
+    // An uncounted imbalance is NaN; > would raise a floating-point exception.
     if (is_refined(options) && !std::islessequal(report.imbalance, options.imbalance_tolerance))
         return false;
     report.details.rounds = is_refined(options) ? 1 : 0;
@@ -233,7 +233,7 @@ Balance balance_from_earlier(PointPasses& points, const Options& given, const Cu
     Call call(points, given.observer, self);
     std::optional<SpreadReuse> spread;
     self.attempt([&] { prepare_to_reuse(given, previous, call, spread, self); });
-    // Both ways begin with the same messages, so a rank that has failed does not wait alone.
+    // Both ways begin with the same messages, so a failed rank does not wait alone.
     if (!self.failed() && !may_reuse(previous, call))
         return balance_from_scratch(points, given, may_keep, self);
     estimate(call, self);

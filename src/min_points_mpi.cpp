@@ -13,7 +13,8 @@ namespace rrcb {
 
 namespace {
 
-/// Parts that may have points, in ascending order, and how many of the first ones are to have them.
+/// Parts allowed to have points, in ascending order, and how many of the first ones are to have
+/// them.
 struct UsedParts {
     std::vector<Part> parts{};
     std::vector<double> sizes{};  ///< of all parts

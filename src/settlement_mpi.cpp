@@ -87,7 +87,7 @@ void Refinement::run(Participant& self) {
     TargetRule& rule = tree_.rule;
     start(self);
     const bool are_accepted = accepts_cuts(self);
-    // A search that would miss the tolerance, and be repeated exactly, is exact at once.
+    // A search likely to miss the tolerance, and be repeated exactly, is exact at once.
     const bool may_miss = !call_.is_spread && !limits_ && !is_earlier() && !rule.is_attainable();
     rule.is_exact = rule.is_exact || (may_miss && !are_accepted);
     const bool is_searched = rule.is_exact || !are_accepted;

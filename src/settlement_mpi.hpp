@@ -15,7 +15,7 @@ namespace rrcb {
 
 struct Call;
 
-/// Weights of the parts: those of this rank's points, and their sums over all ranks.
+/// Weights of the parts: of this rank's points, and their sums over all ranks.
 class PartSums {
   public:
     /// Makes the buffers of add_up(). Not collective. Throws std::bad_alloc.
@@ -44,7 +44,7 @@ class PartSums {
 
 /// Searches for the cuts of a call until all parts are as even as requested, see TreeSearch.
 ///
-/// Many ranks find the cuts, or rank 0 moves those of its decision, unless these are good enough.
+/// Many ranks find the cuts, or rank 0 moves the cuts of its decision, unless they are good enough.
 /// Buffers are made before the first message.
 class Refinement {
   public:

@@ -9,7 +9,7 @@ namespace rrcb {
 /// Returns whether RRCB_VERBOSE is in the environment of this process, and not 0.
 bool is_verbosity_asked();
 
-/// Prints a line about a balance that began at `start` by MPI_Wtime(), on rank 0 of the
+/// Prints a line about a balance begun at `start` by MPI_Wtime(), on rank 0 of the
 /// communicator if is_verbosity_asked() there. Not collective.
 void print_line(const Balance& made, double start, const Participant& self);
 

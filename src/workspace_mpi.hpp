@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// Memory for each point that the calls on a communicator reuse.
+/// Memory for each point, reused by the calls on a communicator.
 ///
 /// A step may move an entry out. If it does not put the entry back, the memory is freed.
 struct Workspace {

@@ -18,10 +18,10 @@ inline constexpr double nearly = 0.9;
 /// Returns the first of `axes` whose extent is at least the share `enough` of the greatest.
 int longest_axis(const Box& box, std::span<const int> axes, double enough);
 
-/// Chooses the axes that each cut may cross: the given one, that of its level, or any allowed.
+/// Chooses the axes for each cut to cross: the given one, its level's, or any allowed.
 class AxisChoice {
   public:
-    /// `box` is that of all points; options are complete and checked. The options must outlive it.
+    /// `box` holds all points; options are complete and checked. The options must outlive it.
     AxisChoice(const Options& options, const Box& box, int dimension);
 
     /// Returns the axes of cut number `node` in preorder, at `depth` cuts below the root.

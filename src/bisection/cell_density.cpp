@@ -43,7 +43,7 @@ bool is_nowhere_negative(const UnitPiece& density) {
 /// Returns one or two pieces for a spread that no quadratic density on the cell has; mean <= 0.
 std::array<UnitPiece, 2> pieces_of(const Spread& spread) {
     const auto [mean, variance] = spread;
-    // A parabola that is 0 at both ends has the variance half^2 / 5.
+    // A parabola with 0 at both ends has the variance half^2 / 5.
     const double half = std::sqrt(5 * variance);
     if (mean - half >= -1)
         return {UnitPiece{mean - half, mean + half, 1, 0, -1}, UnitPiece{0, 0, 0}};

@@ -17,7 +17,7 @@ namespace rrcb {
 
 namespace {
 
-/// An axis that a cut may cross, and its places.
+/// An axis for a cut to cross, and its places.
 struct Way {
     int axis;
     Places places;

@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// A node and the domain that it divides.
+/// A node and its domain.
 struct Piece {
     StatisticalDomain domain;  ///< of patches
     Descent at;
@@ -29,7 +29,7 @@ Bisection bisect_within(const Box& points, StatisticalDomain domain, const Optio
                         bool with_brackets);
 
 /// Moves cuts to allowed places, for which there is room. A cut without one across its axis gets
-/// the longest axis that has one, if axes are free. Not collective.
+/// the longest axis with one, if axes are free. Not collective.
 void move_into_places(CutLimits& limits, Cuts& cuts);
 
 }  // namespace rrcb

@@ -7,7 +7,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the axis that decides the side of a patch: the cut's, or the next one without a tie.
+/// Returns the axis deciding the side of a patch: the cut's, or the next one without a tie.
 int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
     const auto tied = [&](int axis) {
         return patch.lower[axis] == cut.at[axis] && patch.upper[axis] == cut.at[axis];
@@ -44,7 +44,7 @@ void restrict_to_first(double t, double& slope, double& bow) {
 }
 
 /// Takes the part of a patch below a value between its ends along an axis; the weights add up.
-/// Returns that part.
+/// Returns the part.
 Patch cut_off_below(Patch& patch, int axis, double value) {
     const double t = fraction_below(patch.lower[axis], value, patch.upper[axis]);
     const double mean = mean_of_first(t, patch.slope[axis], patch.bow[axis]);
@@ -72,7 +72,7 @@ Halves split_domain(StatisticalDomain domain, const Cut& cut) {
     const int dimension = domain.dimension;
     StatisticalDomain lower{dimension, {}};
     lower.patches.reserve(domain.patches.size());
-    auto upper = domain.patches.begin();  // end of those above, which stay in this memory
+    auto upper = domain.patches.begin();  // end of the upper ones, which stay in this memory
     for (Patch& patch : domain.patches) {
         const int axis = deciding_axis(cut, patch, dimension);
         const double value = cut.at[axis];

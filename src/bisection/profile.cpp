@@ -38,7 +38,7 @@ struct Patches {
     fill(of_axis + 3 * stride, patches.bow);
 }
 
-/// The shares of patches below a value, as if they were even; and those that the slopes take away.
+/// The shares of patches below a value, as if they were even; and what the slopes take away.
 struct Shares {
     Row even, u, rest, tilt;
 };

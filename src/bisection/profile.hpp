@@ -27,7 +27,7 @@ class Profile {
     double weight_below(int axis, double value) const;
     double weight_within(int axis, double value, double reach) const;
 
-    /// Estimates the ghosts that a cut costs, by the weight near it; all weight if all of it is on
+    /// Estimates the ghosts a cut costs, by the weight near it; all weight if all of it is on
     /// one side.
     ///
     /// If `reach` is 0, as of patches without sides, the domain is taken as an even box: the weight

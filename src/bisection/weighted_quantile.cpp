@@ -49,7 +49,7 @@ Profile::Range between_ends(const Along& along, Profile::Range range, double tar
     return range;
 }
 
-/// Returns the middle between a value and the weight that begins at `next`.
+/// Returns the middle between a value and the weight from `next` on.
 double middle_of_gap(double value, double next) {
     return next == infinity ? value : value / 2 + next / 2;
 }

@@ -41,7 +41,7 @@ class AxisLimits {
     /// Returns the position of line number `k` of the grid.
     double line(double k) const;
 
-    /// Returns the number of the last line that is not above `value`.
+    /// Returns the number of the last line not above `value`.
     double line_below(double value) const;
 
   private:

@@ -10,7 +10,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the number of levels of cuts that can halve a room.
+/// Returns how many levels of cuts can halve a room.
 int halvings(int room) {
     return std::bit_width(static_cast<unsigned>(room)) - 1;
 }
@@ -74,7 +74,7 @@ int BoxPacking::least_length(std::size_t number, int width, int height) {
     return lengths_[key] = least;
 }
 
-/// Returns the least room that both children need side by side, if `width` is divided among them.
+/// Returns the least room for both children side by side, if `width` is divided among them.
 int BoxPacking::shared_length(const Shape& shape, int width, int height) {
     const auto length = [&](std::size_t child, int part_of_width) {
         return least_length(child, std::min(part_of_width, height),

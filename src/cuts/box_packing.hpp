@@ -9,7 +9,7 @@
 
 namespace rrcb {
 
-/// Number of boxes that fit side by side along each axis.
+/// Number of boxes with room side by side along each axis.
 using Room = std::array<int, max_dimension>;
 
 /// Finds whether a bisection has room, if each part takes one unit of room along each axis.
@@ -24,7 +24,7 @@ using Room = std::array<int, max_dimension>;
 /// 2-D and 16 % in 3-D of the rooms that fit if they have up to 1.5 units for each part.
 class BoxPacking {
   public:
-    /// Takes the relative sizes of the parts; those of size 0 take no room.
+    /// Takes the relative sizes of the parts; with size 0 they take no room.
     BoxPacking(std::span<const double> sizes, const TreeShape& shape);
 
     int num_parts(const Descent& at) const { return shapes_[shape_of(at)].num_parts; }

@@ -10,7 +10,7 @@ namespace rrcb {
 /// Returns the limits of cuts across each axis; for any options.
 std::array<AxisLimits, max_dimension> axis_limits(const Options& options);
 
-/// Places that a cut may have, both ends included.
+/// Allowed places of a cut, both ends included.
 struct Places {
     double first = -std::numeric_limits<double>::infinity();
     double last = std::numeric_limits<double>::infinity();
@@ -25,12 +25,12 @@ struct Places {
 /// of its own.
 class CutLimits {
   public:
-    /// Takes complete options that limit the cuts, the box of the points, and the axes of the cuts
+    /// Takes complete options with limits of cuts, the box of the points, and the axes of the cuts
     /// in preorder, none if they are free. Throws Error if the grid is too fine.
     CutLimits(const Options& options, const Box& points, int dimension,
               std::vector<int> given = {});
 
-    /// Returns the box that the cuts divide.
+    /// Returns the box to be cut.
     const Box& region() const { return region_; }
 
     int dimension() const { return dimension_; }
@@ -38,7 +38,7 @@ class CutLimits {
 
     bool has_room();
 
-    /// Throws Error with the number of parts that fit if there is not enough room.
+    /// Throws Error with the possible number of parts if there is not enough room.
     void require_room();
 
     /// Returns true if weight may be on both sides of the cut of a node.
@@ -58,7 +58,7 @@ class CutLimits {
   private:
     Room room_in(const Box& region, int most) const;
     bool has_room_across(const Descent& at, int axis);
-    /// Returns the child with parts of a node that does not divide.
+    /// Returns the child with parts of a node without a division.
     Descent with_parts(const Descent& at) const {
         return packing_.num_parts(at.lower()) > 0 ? at.lower() : at.upper();
     }

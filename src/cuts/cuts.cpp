@@ -49,7 +49,7 @@ bool leave_nothing(const Cut* lower, const Cut* upper, int dimension) {
     return is_above(*upper, lower->at, dimension) && !holds_divided;
 }
 
-/// Calls visit(part) for the parts at or below `at` that a box touches.
+/// Calls visit(part) for each part at or below `at` touching a box.
 template <class Visit>
 void visit_touching(const Cuts& cuts, const Descent& at, const Box& box, Visit&& visit) {
     if (at.is_part()) return visit(at.first_part);

@@ -15,7 +15,7 @@ inline int owner_of(const Descent& node, int num_parts, int num_ranks) {
     return ranks_of_part(node.first_part, num_parts, num_ranks).first_rank;
 }
 
-/// Parts from `first` to `end` - 1; parts_on() returns those of a rank, alone or shared.
+/// Parts from `first` to `end` - 1; parts_on() returns a rank's, alone or shared.
 struct PartRange {
     Part first;
     Part end;
@@ -26,7 +26,7 @@ PartRange parts_on(int rank, int num_parts, int num_ranks);
 PartRange parts_from(int rank, int num_parts, int num_ranks);
 PartRange parts_from(int rank, std::span<const RankRange> ranks_of_parts);
 
-/// Calls visit(node, cut) for each cut that a rank owns, in preorder. Throws Error if one is
+/// Calls visit(node, cut) for each of a rank's own cuts, in preorder. Throws Error if one is
 /// missing.
 void for_each_owned(const Cuts& cuts, int rank, int num_ranks,
                     const std::function<void(std::size_t node, const Cut& cut)>& visit);

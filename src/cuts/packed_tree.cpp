@@ -28,7 +28,7 @@ void descend_top(const PackedTree::Top& top, const Columns& columns, LocalIndex 
     }
 }
 
-/// 1 for points of a block on a plane that breaks ties by position.
+/// 1 for points of a block on a plane breaking ties by position.
 using TiedPoints = std::array<std::int32_t, block_length>;
 
 /// Moves each point of a block down one level; if `marks`, marks those on a plane.
@@ -78,7 +78,7 @@ void PackedTree::pack(const Packing& packing, const Box& box) {
 void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::int32_t node,
                      int depth) {
     const Cut* cut = nullptr;
-    // If cuts are pruned, skips those with the whole box on one side.
+    // If cuts are pruned, skips a cut with the whole box on one side.
     while (!at.is_part() && (cut = find_cut(packing.cuts, at.node)) != nullptr) {
         if (!packing.prunes) break;
         const Sides sides = sides_of(box, *cut, dimension_);

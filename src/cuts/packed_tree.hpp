@@ -22,7 +22,7 @@ constexpr std::size_t unknown_node(Part part) {
     return static_cast<std::size_t>(~part);
 }
 
-/// Number of a part that a search leaves out.
+/// Number of a part left out by a search.
 inline constexpr Part left_out = std::numeric_limits<Part>::min();
 
 inline constexpr LocalIndex block_length = 512;
@@ -47,7 +47,7 @@ class PackedTree {
     /// Packs all known cuts. `cuts.tree` must outlive the result, in the same memory.
     explicit PackedTree(const Cuts& cuts, const EntryOf& entry_of = {}) { pack(cuts, entry_of); }
 
-    /// Packs only the cuts that divide a box.
+    /// Packs only the cuts dividing a box.
     PackedTree(const Cuts& cuts, const Box& box);
 
     /// Reserves memory for all cuts between this many parts, which may be 0.
@@ -81,7 +81,7 @@ class PackedTree {
     int axis_of(std::int32_t node) const { return nodes_[node].axis; }
     double plane_of(std::int32_t node) const { return nodes_[node].plane; }
 
-    /// Calls visit(entry) for the ends at or below a node that a box touches, see parts_touching().
+    /// Calls visit(entry) for the ends at or below a node touching a box, see parts_touching().
     template <class Visit>
     void visit_touching(const Box& box, Visit&& visit, std::int32_t node = 0) const {
         const std::int32_t lower = lower_of(node);
@@ -116,7 +116,7 @@ class PackedTree {
     struct Packing {
         const Cuts& cuts;
         const EntryOf& entry_of;
-        bool prunes;  ///< leaves out cuts that do not divide the box
+        bool prunes;  ///< leaves out cuts beside the box
     };
     void pack(const Packing& packing, const Box& box);
     void add(const Packing& packing, Descent at, const Box& box, std::int32_t node, int depth);

@@ -65,7 +65,7 @@ Descent node_at(const Cuts& cuts, std::size_t node);
 /// Returns true if all cuts above a part are known.
 bool knows_path(const Cuts& cuts, Part part);
 
-/// Throws the Error of a look-up that needs an unknown cut.
+/// Throws the Error of a look-up without a cut it needs.
 [[noreturn]] void reject_unknown();
 
 /// Returns a cut without ties.
@@ -74,7 +74,7 @@ Cut plane(int axis, double value);
 /// Returns true if a cut is a plane, without ties by position.
 bool is_plane(const Cut& cut, int dimension);
 
-/// Sides of a cut that a box reaches; both only if the cut crosses it.
+/// Sides of a cut within a box; both only if the cut crosses it.
 struct Sides {
     bool below;
     bool above;

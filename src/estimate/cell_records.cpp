@@ -175,7 +175,7 @@ double half_extent(std::span<const CellMoments> cells, int dimension) {
     return longest;
 }
 
-/// Finds the finest lattice that is coarse enough. The search starts at the edge at which points
+/// Finds the finest lattice coarse enough. The search starts at the edge at which points
 /// that fill their cube have about as many cells as wanted; other points leave most of the lattice
 /// empty.
 int finest_exponent(const CellSet& set, int dimension, std::size_t most) {

@@ -26,7 +26,7 @@ Vector take_vector(std::span<const double>& records, int dimension);
 /// one.
 struct CellSet {
     std::vector<CellMoments> cells;
-    int exponent = no_lattice;  ///< the greatest of those that cells were merged on
+    int exponent = no_lattice;  ///< the greatest among the lattices of merged cells
 
     static constexpr int no_lattice = std::numeric_limits<int>::min();
 };
@@ -45,7 +45,7 @@ struct LeanCells {
 
 LeanCells pack_cells(std::span<const CellMoments> cells, const SupportMesh& mesh);
 
-/// Appends the cells that were packed, without their counts. `packed` may contain more after them.
+/// Appends the packed cells, without their counts. `packed` may contain more after them.
 void unpack_cells(int exponent, std::span<const std::byte> packed, std::size_t count,
                   const SupportMesh& mesh, std::vector<CellMoments>& cells);
 
@@ -54,7 +54,7 @@ void unpack_cells(int exponent, std::span<const std::byte> packed, std::size_t c
 void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh, double unit,
                        std::vector<double>& records);
 
-/// Appends cells that were merged on the lattice of their exponent.
+/// Appends cells merged on the lattice of their exponent.
 void append_cells(const CellSet& merged, int dimension, double unit, std::vector<double>& records);
 
 /// Returns the cells in the order appended. The box of a lattice's cell is the cube of its mean, or
@@ -62,7 +62,7 @@ void append_cells(const CellSet& merged, int dimension, double unit, std::vector
 /// their unit.
 CellSet read_cells(std::span<const double> records, int dimension, bool in_units);
 
-/// Returns the cube of the lattice of `exponent` that holds a position, in units of its edge.
+/// Returns the cube of a position on the lattice of `exponent`, in units of its edge.
 Vector cube_of(const Vector& position, int dimension, int exponent);
 
 /// Returns the finest lattice worth trying: that of the last binary digits of the greatest

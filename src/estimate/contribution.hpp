@@ -27,7 +27,7 @@ struct Totals {
 /// Summary of one rank, or of all ranks of a subtree: failures, requests and totals.
 struct Summary : Totals {
     std::int32_t first_rank = 0;             ///< lowest rank of the summary
-    std::int32_t failing_rank = no_rank;     ///< lowest of the ranks that failed
+    std::int32_t failing_rank = no_rank;     ///< lowest failed rank
     std::int32_t differing_rank = no_rank;   ///< one with another request than ...
     std::int32_t reference_rank = no_rank;   ///< ... this one
     std::int32_t weighted_rank = no_rank;    ///< one whose points have weights
@@ -56,7 +56,7 @@ struct Contribution {
 /// Returns the totals of a rank's points, from one reading of these.
 Summary summarize(const PointSummary& points, bool are_weighted, int rank);
 
-/// Totals before those of the parts.
+/// Totals before the parts' totals.
 inline constexpr std::size_t num_near_totals = 2 + max_dimension;
 
 /// Reduces checked points in a box to the moments of their cells in the support mesh of the
@@ -71,7 +71,7 @@ void add_totals(const PartTotals& totals, const NearShare& near, Contribution& m
 /// the options choose the mesh. Twice as many lean cells may be passed on unmerged.
 std::size_t most_cells(const Options& options);
 
-/// Adds the totals of the ranks that follow, and their failures and differences.
+/// Adds the totals of later ranks, and their failures and differences.
 void join(Summary& mine, const Summary& next);
 
 /// Adds the ranks that follow, whose cells, extents and part totals are the `doubles`: appends
@@ -80,7 +80,7 @@ void join(Summary& mine, const Summary& next);
 void absorb(Contribution& mine, const Summary& next, std::span<const double> doubles, int dimension,
             std::size_t most);
 
-/// Returns the domain that the root bisects, from the contributions of all ranks.
+/// Returns the domain for the root to bisect, from the contributions of all ranks.
 StatisticalDomain build_domain(const Contribution& all, int dimension);
 
 }  // namespace rrcb

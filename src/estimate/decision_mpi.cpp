@@ -29,7 +29,7 @@ namespace rrcb {
 namespace {
 
 /// Returns the least imbalance of points of one weight in parts of these relative sizes: each point
-/// beyond the whole numbers of the shares goes to the part that it makes the least too heavy.
+/// beyond the whole numbers of the shares goes to the part it makes the least too heavy.
 double least_imbalance_by_count(GlobalCount num_points, std::span<const double> part_sizes) {
     const double unit = static_cast<double>(num_points) / sum_of(part_sizes);
     using NextPoint = std::pair<double, double>;  // relative weight of a part with it, and the size
@@ -64,7 +64,7 @@ double least_imbalance(const Verdict& verdict, int num_parts, std::span<const do
     return std::max(1.0, verdict.balanced_heaviest() / verdict.balanced_weight() * parts);
 }
 
-/// Returns the arrays that the answer has, as bytes.
+/// Returns the arrays of the answer, as bytes.
 std::array<std::span<std::byte>, 3> arrays_of(Decision& decision) {
     const auto bytes = [](auto& array) { return std::as_writable_bytes(std::span(array)); };
     switch (decision.verdict.answer) {
@@ -155,7 +155,7 @@ bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contributio
            are_axes_good(build_domain(all, estimate.dimension), kept, estimate.near);
 }
 
-/// Reads the parts that the ranks hold from the extents of their points.
+/// Reads the ranks' present parts from the extents of their points.
 void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.cuts;
     std::vector<PointSummary> extents = read_extents(all.extents, estimate.dimension);

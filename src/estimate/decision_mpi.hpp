@@ -15,10 +15,10 @@
 
 namespace rrcb {
 
-/// Imbalance of the parts of a report that was not counted or estimated.
+/// Imbalance of parts neither counted nor estimated.
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// Imbalance of the parts that the ranks hold, if they cannot be kept.
+/// Imbalance of the ranks' present parts, if they cannot be kept.
 inline constexpr double not_kept = std::numeric_limits<double>::infinity();
 
 /// What rank 0 decides on.
@@ -33,7 +33,7 @@ struct Verdict : Totals {
     std::int32_t failing_rank = no_rank;
     Answer answer = Answer::cuts;
     double estimated_imbalance = not_known;
-    double kept_imbalance = not_kept;       ///< of the parts that the ranks hold
+    double kept_imbalance = not_kept;       ///< of the ranks' present parts
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
     NearCuts near{};                        ///< of the new cuts, or counted for the earlier ones
     double near_per_cut = 0;                ///< of the earlier cuts, see NearCuts::share
@@ -50,15 +50,15 @@ struct Verdict : Totals {
     double balanced_heaviest() const { return is_counted() ? 1 : heaviest; }
 };
 
-/// Decision of rank 0: a verdict, and the arrays that its answer has.
+/// Decision of rank 0: a verdict, and the arrays of its answer.
 ///
 /// cuts:    the cuts, with brackets if they may move
 /// weights: of the parts of `cuts`, which all ranks have, if counted
-/// kept:    the cuts, weights and parts that the ranks hold
+/// kept:    the cuts, weights and parts of the ranks' points
 struct Decision {
     Verdict verdict;
     Cuts cuts{};                         ///< to assign by, or to start from
-    std::vector<Bracket> brackets{};     ///< one per cut that may move
+    std::vector<Bracket> brackets{};     ///< one per movable cut
     std::vector<double> part_weights{};  ///< counted
     std::vector<Part> parts{};           ///< of each rank's points
     std::optional<KeptTree> held{};      ///< what the ranks hold, on rank 0 if that may be kept
@@ -72,7 +72,7 @@ void check_together(const Summary& summary);
 Verdict verdict_of(const Summary& summary, const NearCuts& near, std::span<const double> estimated,
                    std::span<const double> part_sizes);
 
-/// Returns the report on a partition that was not measured. Empty sizes: equal parts.
+/// Returns the report on an unmeasured partition. Empty sizes: equal parts.
 Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes);
 
 /// Adds the counted imbalance.
@@ -123,10 +123,10 @@ void decide_together(const Contribution& all, StageObserver* observer, Decision&
     broadcast(decision, self);
 }
 
-/// Returns the smallest box that holds those of all ranks. Collective.
+/// Returns the smallest box around the boxes of all ranks. Collective.
 Box box_together(Box box, const Participant& self);
 
-/// Sends the parts that the root has read to all ranks: the points are kept after all. Collective.
+/// Sends the parts read by the root to all ranks: the points are kept after all. Collective.
 void broadcast_kept(Decision& decision, const Participant& self);
 
 }  // namespace rrcb

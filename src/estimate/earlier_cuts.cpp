@@ -46,7 +46,7 @@ void fit(const Options& options, const Descent& at, Cut& cut) {
     cut.at[axis] = value;
 }
 
-/// Number of cuts near a position, and the end of the tree that it is in.
+/// Number of cuts near a position, and its end of the tree.
 struct NearCount {
     int number = 0;
     Part end = 0;

@@ -6,7 +6,7 @@
 
 #include <span>
 
-// When points stay in parts that they have.
+// When points stay in their parts.
 
 namespace rrcb {
 
@@ -21,7 +21,7 @@ bool keeps_at_once(double kept, double tolerance);
 /// Returns true if parts of the imbalance `offered` are worth moving points out of parts of the
 /// imbalance `kept`.
 ///
-/// Points that do not move are therefore kept after a few calls. Each call that moves points
+/// Points at rest are therefore kept after a few calls. Each call that moves points
 /// reduces the imbalance: by a twentieth of (tolerance - 1), or from above the tolerance to within
 /// it.
 bool is_worth_moving(double kept, double offered, const Options& options);
@@ -35,7 +35,7 @@ bool may_save_ghosts(const Options& options, const NearCuts& chosen, double shar
 
 /// Returns NearCuts::share for later calls, if the axes are kept; `chosen` is that of the call
 /// before, 0 after a comparison. It falls by a twentieth if cuts were moved: other axes may have
-/// become better, so calls that go on moving cuts compare new ones now and then.
+/// become better, so calls moving cuts compare new ones now and then.
 double reference(double chosen, double share_now, bool are_moved);
 
 /// Compares the points near two sets of cuts, by samples of the `count` points of each rank.

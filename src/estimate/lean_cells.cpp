@@ -52,7 +52,7 @@ std::byte code_of_deviation(double deviation, double lower, double upper) {
 }
 
 /// Returns the mean of a cell. If it is on a face although the deviation is not 0, it is moved to
-/// the mean of a uniform density that touches the face.
+/// the mean of a uniform density touching the face.
 double mean_of(std::byte code, double deviation, double lower, double upper) {
     const double share = share_of(code);
     if (share > 0 && share < 1) return std::lerp(lower, upper, share);

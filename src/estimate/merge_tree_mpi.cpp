@@ -52,7 +52,7 @@ void send_up(Contribution& mine, int to, Participant& self) {
 }
 
 /// Receives and adds the contribution of a child. Without memory it still receives all messages,
-/// because the sender waits for that.
+/// because the sender waits.
 void receive_up(Contribution& mine, int child, int dimension, std::size_t most, Participant& self) {
     FirstMessage first;
     receive(std::as_writable_bytes(std::span(&first, 1)), child, mpi::contribution_tag, self);

@@ -38,7 +38,7 @@ Layers span_of(const PointSample& sample, int axis) {
     return {*first, *last};
 }
 
-/// Frames the layers of a mesh along an axis, if that makes them much narrower.
+/// Frames the layers of a mesh along an axis, if they become much narrower.
 void frame_axis(const Layers& span, std::size_t axis, SupportMesh& mesh) {
     constexpr double much = 4;
     constexpr double margin = 0.25;  // of half the span: holds the rest of a ball
@@ -68,8 +68,8 @@ double most_cells_per_axis(int dimension) {
 }
 
 /// Returns a mesh whose cells are one or more cells of the grid that limits the cuts: the weight
-/// between the lines is then known, which saves 7 % of the rounds. Returns nullopt if the numbers do
-/// not allow it.
+/// between the lines is then known, which saves 7 % of the rounds. Returns nullopt if the numbers
+/// do not allow it.
 std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Options& options) {
     SupportMesh mesh = make_support_mesh(box, dimension, 1);
     const auto limits = axis_limits(options);

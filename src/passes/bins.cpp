@@ -10,7 +10,7 @@ namespace rrcb {
 
 Bins::Bins(double lower, double upper, bool by_bits, int num_bins)
     : lower_(lower), upper_(upper), num_bins_(num_bins), by_bits_(by_bits) {
-    // A bracket that includes the largest double ends at infinity; its width is still finite.
+    // A bracket with the largest double ends at infinity; its width is still finite.
     using Limits = std::numeric_limits<double>;
     const double end = std::min(upper, Limits::max());
     width_ = end / num_bins - lower / num_bins;

@@ -55,7 +55,7 @@ class Bins {
     int num_bins_;
     bool by_bits_;
     double width_ = 0;               ///< of a bin
-    double bins_a_length_ = 0;       ///< 1 / width_, if that is finite
+    double bins_a_length_ = 0;       ///< 1 / width_, if finite
     double sure_ = 0;                ///< distance from the middle of a bin, in bins, up to which
                                      ///< round-off cannot put a value into another
     std::int64_t lower_rank_ = 0;    ///< of `lower` among all doubles, in ascending order

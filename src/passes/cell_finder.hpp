@@ -11,7 +11,7 @@
 
 namespace rrcb {
 
-/// A support mesh in the form that the loop over points needs, one entry per axis.
+/// A support mesh as the loop over points needs it, one entry per axis.
 struct CellFinder {
     explicit CellFinder(const SupportMesh& mesh) : scale(mesh.scale) {
         for (std::size_t a = 0; a < max_dimension; ++a) {
@@ -31,7 +31,7 @@ struct CellFinder {
     bool is_open = false;      ///< points may be below the frame
 };
 
-/// As find_cells(), for a mesh that is open as stated.
+/// As find_cells(), for a mesh open as stated.
 template <bool is_open, class Layout>
 RRCB_ARITHMETIC_CLONES void find_cells_of(const CellFinder& mesh, const Layout& points,
                                           LocalIndex first, LocalIndex length,

@@ -93,7 +93,7 @@ std::vector<std::size_t> wanted_of_parts(std::span<const Wanted> wanted, std::si
     return of_parts;
 }
 
-/// Weighs once more the points that are left in parts of wanted nodes.
+/// Weighs once more the points left in parts of wanted nodes.
 void weigh_again(const Points& points, std::span<const Part> parts,
                  std::span<const std::size_t> of_parts, std::vector<double>& part_weights) {
     RunningSums<double> weights(of_parts.size());

@@ -30,7 +30,7 @@ struct CellSum {
     }
 };
 
-/// A cell while points are added: 64 bytes in 2-D, a size that is cheap to multiply by.
+/// A cell while points are added: 64 bytes in 2-D, a size cheap to multiply by.
 template <std::size_t Dimension, bool Weighted>
 struct alignas(2 * sizeof(double)) RunningCell : CellSum<Dimension, Weighted> {
     std::array<double, Dimension> origin{};  ///< its first point, unless another is set
@@ -45,7 +45,7 @@ bool is_far_off(double first, double second, double weight) {
     return rest * rest * (most_variances + 1) > second / weight * most_variances;
 }
 
-/// Returns a power of two that keeps weights times squared lengths in range.
+/// Returns a power of two to keep weights times squared lengths in range.
 double scale_of_weights(std::span<const double> weights) {
     constexpr int harmless_exponent = 200;
     return safe_scale(weights.empty() ? 0 : std::ranges::max(weights), harmless_exponent);
@@ -88,7 +88,7 @@ class Binner {
         });
     }
 
-    /// Returns a function that adds point `i` to its cell. It captures copies, so that the compiler
+    /// Returns a function to add point `i` to its cell. It captures copies, so that the compiler
     /// knows that nothing overlaps the sums.
     auto adder() {
         return [points = x_, scale = scale_, cells = &sums_[0], weights = points_.weights.data(),
@@ -167,10 +167,10 @@ class Binner {
     double weight_scale_;
     Position scale_{};
     RunningSums<Sum, Running> sums_;
-    LocalIndex num_origins_ = 1;  ///< points of a cell that are its origin
+    LocalIndex num_origins_ = 1;  ///< points of a cell at its origin
 };
 
-/// Returns the moments of cells as cell_moments(), of points that are not checked. One pass, or two
+/// Returns the moments of cells as cell_moments(), of unchecked points. One pass, or two
 /// if the first point of a cell is far off.
 std::vector<CellMoments> moments_of_cells(const Points& points, const SupportMesh& mesh) {
     auto cells = visit_layout(points, [&]<class Layout>(const Layout& x) {

@@ -9,11 +9,11 @@ namespace rrcb {
 PointSummary summary_of_weights(const Points& points);
 
 /// Reads coordinates and weights, once. Throws Error as summary_of_weights(), or with the first
-/// coordinate that is NaN or infinite and their number.
+/// illegal coordinate, NaN or infinite, and their number.
 PointSummary summary_of(const Points& points);
 
 /// Returns the box of points in their arrays, as bounding_box() does: NaN along an axis with a
-/// coordinate that is not finite. May raise floating-point exceptions.
+/// non-finite coordinate. May raise floating-point exceptions.
 Box box_of(const Points& points);
 
 }  // namespace rrcb

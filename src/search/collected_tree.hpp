@@ -14,15 +14,15 @@ namespace rrcb {
 
 /// Collected points and their parts.
 struct OpenPoints : Collected {
-    std::vector<Part> parts{};  ///< of those that have arrived, no_part of the others
+    std::vector<Part> parts{};  ///< of the arrived ones, no_part of the others
 };
 
 /// The points exactly at a cut, which no cut separates. They form one row over all ranks, in the
 /// order of the ranks; the first of the row go below the cut.
 struct Lot {
-    double before = 0;   ///< weight of those on lower ranks
-    double below = 0;    ///< weight of the row that belongs below; 0: all of it stays above
-    double share = 0.5;  ///< share of the weight of the node that belongs below
+    double before = 0;   ///< weight on lower ranks
+    double below = 0;    ///< weight of the row to come below; 0: all of it stays above
+    double share = 0.5;  ///< share of the node's weight to come below
 
     /// Returns the side of a point of the row, the one that it makes less too heavy. `sum` is the
     /// weight of the points of its rank before it.
@@ -31,7 +31,7 @@ struct Lot {
     }
 };
 
-/// The points of one rank in a lot, except those of weight 0.
+/// The points of one rank in a lot, each with a weight above 0.
 struct PointsInLot {
     double weight = 0;       ///< of all
     double first = 0;        ///< weight of the first of the row
@@ -49,7 +49,7 @@ using Gap = std::array<double, std::size_t{2} * max_dimension>;
 /// Collected points of one rank on their way down a tree of cuts.
 ///
 /// A point waits at the first node whose cut may end on either side of it, until this cut is found.
-/// Points that have reached their part are settled. Without intervals a search holds the entries of
+/// Points in their part are settled. Without intervals a search holds the entries of
 /// its nodes itself. Not collective.
 class CollectedTree {
   public:
@@ -67,14 +67,14 @@ class CollectedTree {
     /// Returns the entries of all points.
     Entries all() const;
 
-    /// Returns what waits at a node, with those of the arrived entries that may end on either side
+    /// Returns what waits at a node, with the arrived entries that may end on either side
     /// of its cut; the others go on.
     Entries admit(const Descent& at, const Entries& arrived);
 
     /// Lets entries wait at their node again.
     void put_back(std::size_t node, Entries&& entries) { waiting_[node] = std::move(entries); }
 
-    /// Returns the total of the points below a node, except those that were taken from there.
+    /// Returns the total of the points below a node, without the entries taken from there.
     Total total_in(const Descent& at);
 
     /// Returns an interval in which the cut of a node may still end.
@@ -106,7 +106,7 @@ class CollectedTree {
     /// Appends the positions and weights of entries.
     void append(const Entries& entries, std::vector<double>& records) const;
 
-    /// Settles the entries that still wait, by the cuts.
+    /// Settles the waiting entries by the cuts.
     void settle_rest();
 
     /// Returns the points exactly at a cut, in the order in which divide() takes them below.

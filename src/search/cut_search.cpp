@@ -23,7 +23,7 @@ void finish(CutSearch& search, double value, double below) {
     search.below = below;
 }
 
-/// Points at one position, and those below them.
+/// Points at one position, and the points below.
 struct Ties {
     GlobalCount begin = 0;  ///< number of the points below
     GlobalCount count = 0;
@@ -31,7 +31,7 @@ struct Ties {
     double weight = 0;
 };
 
-/// Ends among points that no cut separates: divides them, or leaves all of them on the side with
+/// Ends among inseparable points: divides them, or leaves all of them on the side with
 /// the smaller excess.
 void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
                        const Ties& ties) {
@@ -97,7 +97,7 @@ void narrow(CutSearch& search, const CutTarget& target, const HistogramLayout& l
     if (!is_limited && is_few) search.stage = CutSearch::gathering;
 }
 
-/// Slot of the histogram that the cut falls into, with the points below it.
+/// Slot of the histogram with the cut, and the points below it.
 struct Chosen {
     int slot = 0;
     double below = 0;       ///< their weight
@@ -157,7 +157,7 @@ struct Candidate {
     double weight = 0;
 };
 
-/// Returns candidates in an order that does not depend on their routes to the owner.
+/// Returns candidates in an order independent of their routes to the owner.
 std::vector<Candidate> sorted_candidates(std::span<const double> records, int dimension,
                                          const PositionOrder& before) {
     const int length = dimension + 1;
@@ -173,7 +173,7 @@ std::vector<Candidate> sorted_candidates(std::span<const double> records, int di
     return candidates;
 }
 
-/// Candidates in two groups: those below the cut come first.
+/// Candidates in two groups, first the one below the cut.
 struct Division {
     GlobalCount count = 0;  ///< points of the node below the cut
     double below = 0;       ///< their weight

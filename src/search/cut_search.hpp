@@ -29,17 +29,17 @@ struct CutSearch {
     };
     Stage stage = over_points;
     std::int32_t tied = 0;
-    std::int32_t num_axes = 1;  ///< axes that may break ties, including that of the cut
+    std::int32_t num_axes = 1;  ///< axes to break ties by, including the cut's
     std::int32_t by_bits = 0;   ///< 1: bins of equal numbers of doubles, see Bins
     Cut cut;
     double lower = 0;
     double upper = 0;
     double quantum = 0;  ///< power of two; each rank's sums are multiples of it, so that adding
                          ///< them is exact in any order
-    std::int32_t chosen = 0;      ///< slot that the search goes on in
-    std::int32_t coincident = 0;  ///< 1: points that no cut separates hold the target, once done
+    std::int32_t chosen = 0;      ///< slot in which the search goes on
+    std::int32_t coincident = 0;  ///< 1: inseparable points hold the target, once done
     double below = 0;      ///< weight of the node below the cut and the points to divide, once done
-    double lot_below = 0;  ///< weight of points to be divided that belongs below, once done
+    double lot_below = 0;  ///< weight of points to be divided, to come below, once done
 };
 
 /// Numbers of points below a cut with which both sides have a point for each part.
@@ -48,7 +48,7 @@ struct CountLimits {
     GlobalCount most = std::numeric_limits<GlobalCount>::max();
     double penalty = 0;  ///< more than any excess
 
-    /// Returns the number of parts that stay empty with so many points below.
+    /// Returns the number of parts left empty with so many points below.
     GlobalCount num_missing(GlobalCount count) const {
         return std::max({least - count, count - most, GlobalCount{0}});
     }
@@ -56,15 +56,15 @@ struct CountLimits {
 
 /// State of a search at the owner only.
 struct CutTarget {
-    double target = 0;               ///< weight that belongs below the cut
+    double target = 0;               ///< weight to come below the cut
     double share = 0.5;              ///< ratio of the target to the weight of the node
-    double slack = 0;                ///< excess that a cut may leave
+    double slack = 0;                ///< excess allowed to a cut
     double base = 0;                 ///< weight of the node below all candidates
-    GlobalCount num_candidates = 0;  ///< points of all ranks that are left
+    GlobalCount num_candidates = 0;  ///< points left, of all ranks
     GlobalCount base_count = 0;      ///< points of the node below all candidates
     CountLimits counts{};            ///< of points below the cut
-    bool divides = false;  ///< points that no cut separates are divided, those of lower ranks below
-    Places places{};       ///< allowed for the cut; any place if cuts are not limited
+    bool divides = false;            ///< inseparable points are divided, those of lower ranks below
+    Places places{};                 ///< allowed for the cut; any place if cuts are not limited
 
     /// Returns the excess weight of one side, times twice the share of the other side: proportional
     /// to the factor by which the side exceeds its share. For halves it is the distance from the

@@ -23,7 +23,7 @@ double TargetRule::share_below(const Descent& at) const {
     return rrcb::share_below(sizes_of(at), at.lower_parts());
 }
 
-/// Returns the weight that the smallest of a node's parts should have.
+/// Returns the ideal weight of the smallest of a node's parts.
 double TargetRule::smallest_weight(const Descent& at) const {
     if (part_sizes.empty()) return weight_per_size;
     double smallest = infinity;
@@ -32,7 +32,7 @@ double TargetRule::smallest_weight(const Descent& at) const {
     return smallest;
 }
 
-/// Returns the tolerance that the smallest part of a node can use. It holds whole points if all
+/// Returns the tolerance of use to the smallest part of a node. It holds whole points if all
 /// weigh the same: at most 16 if 16.16 are allowed. With the whole tolerance, calls with few points
 /// in a part miss it and take up to 12 rounds more.
 double TargetRule::attainable_tolerance(const Descent& at) const {
@@ -76,7 +76,7 @@ double TargetRule::most_weight(const Descent& at) const {
     return weight_per_size * size_of(at) * (1 + excess);
 }
 
-/// Returns the allowed weight below a cut that is nearest to the present weight, with a margin in
+/// Returns the allowed weight below a cut nearest to the present weight, with a margin in
 /// which the search may end.
 CutTarget TargetRule::nearest_target(const Descent& at, double weight, double below) const {
     constexpr double share_of_gap = 16;
@@ -100,7 +100,7 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     CutTarget target;
     target.share = share_below(at);
     target.target = target.share * weight;
-    // The point that holds the target goes to one of the sides.
+    // The point at the target goes to one of the sides.
     const double of_both = 2 * target.share * (1 - target.share);
     target.slack = of_both * common_weight;
     // Slightly less: an odd point then always goes above the cut.

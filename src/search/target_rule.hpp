@@ -10,7 +10,7 @@ namespace rrcb {
 
 inline constexpr double not_counted = -1;
 
-/// Rule for the weight that belongs below each cut of the tree, and for its slack.
+/// Rule for the weight below each cut of the tree, and for its slack.
 ///
 /// If cuts are `earlier` ones, each moves as little as all parts within the tolerance allow, so
 /// that few points change parts. Otherwise each moves to the share of the parts below it.
@@ -19,15 +19,15 @@ struct TargetRule {
     double tolerance = 1;                  ///< of the imbalance of all parts
     double common_weight = 0;              ///< weight of each point if all weigh the same, else 0
     double heaviest = 0;                   ///< weight of the heaviest point
-    double weight_per_size = 0;            ///< weight that a part of size 1 is to have
+    double weight_per_size = 0;            ///< ideal weight of a part of size 1
     double counted_weight = 0;             ///< of all parts, if these were counted
     bool is_exact = false;                 ///< no slack but half a point
-    bool is_earlier = false;               ///< the cuts are those of an earlier call, not limited
+    bool is_earlier = false;               ///< the cuts come from an earlier call, not limited
 
     /// Returns the sum of the sizes of a node's parts.
     double size_of(const Descent& at) const;
 
-    /// Returns the share of a node's weight that belongs below its cut.
+    /// Returns the share of a node's weight to come below its cut.
     double share_below(const Descent& at) const;
 
     /// Returns whether the parts of a node weigh no more than the tolerance allows. `part_weights`
@@ -42,7 +42,7 @@ struct TargetRule {
     bool may_stay(const Descent& at, std::span<const double> part_weights) const;
 
     /// Returns the target of a node's cut, from the counted weight of the node, and the weight
-    /// below its present cut, if that was counted.
+    /// below its present cut, if counted.
     CutTarget target_of(const Descent& at, double weight, double below = not_counted) const;
 
     /// Returns the numbers of points below a node's cut that fill all parts, of `count` points that

@@ -1,5 +1,5 @@
-// A round of a search: the records that ranks send to the owners of nodes, the decisions of these,
-// and how ranks follow the answers.
+// A round of a search: ranks send records to the owners of nodes, which decide, and follow the
+// answers.
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
 #include "arithmetic/quantum.hpp"
@@ -123,14 +123,14 @@ std::vector<Record> records_in(std::span<const double> payload) {
 void TreeSearch::decide(Butterfly& butterfly) {
     GlobalCount num_gathered = 0;
     auto node = nodes_.begin();
-    // Both ascend, and an owner takes part in all nodes that it owns.
+    // Both ascend, and an owner takes part in all its nodes.
     butterfly.owned().for_each([&](const Record& record) {
         node = std::ranges::find(node, nodes_.end(), record.key,
                                  [](const Node& one) { return key_of(one.at); });
         if (node == nodes_.end()) return;
         CutSearch decided = node->at.is_part() ? node->search : decide_on(*node, record.payload);
         if (decided.stage == CutSearch::gathering) {
-            // Candidates that are too many for one rank are counted once more.
+            // Too many candidates for one rank are counted once more.
             const GlobalCount more = node->target.num_candidates;
             const bool fits = num_gathered + more <= most_gathered_at_once;
             num_gathered += fits ? more : 0;

@@ -84,7 +84,7 @@ bool TreeSearch::ends_at(Node& node) {
     return ends;
 }
 
-/// Returns the cut of a node that needs no counting. A side of size 0 gets nothing. Without weight
+/// Returns the cut of a node without counting. A side of size 0 gets nothing. Without weight
 /// all goes below, unless a guide's cut is kept.
 Cut TreeSearch::cut_unsearched(const Node& node, double share) const {
     const Descent& at = node.at;
@@ -155,7 +155,7 @@ void TreeSearch::note(std::size_t node, const Cut& cut) {
     }
 }
 
-/// Goes on below the cut that was found. The points of a lot form one row over all ranks.
+/// Goes on below a found cut. The points of a lot form one row over all ranks.
 void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     if (is_central() || owner_of(node.at) == rank_) num_coincident_ += node.search.coincident;
     Cut cut = node.search.cut;
@@ -171,7 +171,7 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     divide(std::move(node), cut, lot, node.search.below);
 }
 
-/// Returns the lot of a search that is done, as seen by the first rank.
+/// Returns the lot of a finished search, as seen by the first rank.
 Lot TreeSearch::lot_at(const Descent& at, const CutSearch& search) const {
     return {0, search.lot_below, tree_.rule.share_below(at)};
 }
@@ -194,7 +194,7 @@ void TreeSearch::finish() {
     points_.write_parts();
 }
 
-/// Returns the share of the weight that a part should have.
+/// Returns a part's ideal share of the weight.
 double TreeSearch::ideal_share(const Descent& at) const {
     return tree_.rule.size_of(at) / all_sizes_;
 }
@@ -287,7 +287,7 @@ Bracket TreeSearch::interval_of(const Descent& at, int depth, double& shifted) c
         const double open = stays ? 0 : shifted / 2 / in_half + least;
         const auto widths = [&](double there) {
             return std::min(open + caution * std::max(there, 0.0) / in_half,
-                            1 / expected_error(depth));  // that of all weight
+                            1 / expected_error(depth));  // holds all weight
         };
         const double value = std::clamp(cut.at[cut.axis], interval.lower, interval.upper);
         interval = {std::lerp(value, interval.lower, widths(-missing)),
@@ -300,7 +300,7 @@ Bracket TreeSearch::interval_of(const Descent& at, int depth, double& shifted) c
             std::max(interval.upper, std::nextafter(value, infinity))};
 }
 
-/// Returns the weight that is to come below a node's cut; 0 if the present weight is not known.
+/// Returns the weight missing below a node's cut; 0 if the present weight is not known.
 double TreeSearch::missing_below(const Descent& at, double weight, double below) const {
     const bool is_known = !tree_.rule.is_exact && below != not_counted && weight > 0;
     return is_known ? tree_.rule.target_of(at, weight, below).target - below : 0;

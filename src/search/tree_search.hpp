@@ -34,7 +34,7 @@ struct PartTree {
     TreeShape shape{};
     double weight = 0;                ///< of all points
     std::span<const int> cut_axes{};  ///< of all cuts in preorder; empty: free
-    std::span<const int> axes{};      ///< that cuts may cross if they are free
+    std::span<const int> axes{};      ///< of free cuts, which may cross any of them
     bool crosses_longest = false;     ///< of a spread search; else free cuts leave fewest ghosts
     TargetRule rule{};
     bool plain_cuts = false;
@@ -48,9 +48,9 @@ struct Guide {
     Cuts& cuts;  ///< the search moves them, but keeps their axes
     std::span<const Bracket> brackets;
     CutLimits* limits;       ///< null if cuts are not limited
-    std::span<double> sums;  ///< of the parts that the cuts make, if they were counted; moved too
+    std::span<double> sums;  ///< of the parts by the cuts, if they were counted; moved too
     std::span<double> here;  ///< receives the weights of this rank's points in the parts
-    bool is_counted;         ///< the sums are those of the cuts
+    bool is_counted;         ///< the sums belong to the cuts
     bool has_parts;          ///< the points have their parts by the cuts
     Box box;                 ///< of the points of this rank
 };
@@ -63,7 +63,7 @@ struct Guide {
 /// is false on all ranks. Not collective.
 ///
 /// Spread: a rank takes part in a node if it has points in it or owns one of its parts. The first
-/// rank of the first part owns the node, and only those that take part know the cut. Axes are free
+/// rank of the first part owns the node, and only ranks that take part know the cut. Axes are free
 /// or given. Memory and messages are in proportion to the nodes in which a rank takes part, about
 /// 1.2 kB a node, times the free axes in its first count. Owners also hold gathered positions and
 /// weights.
@@ -87,10 +87,10 @@ class TreeSearch {
 
     bool is_searching() const { return !nodes_.empty(); }
 
-    /// Adds the records of this rank for the nodes that are searched. Throws std::bad_alloc.
+    /// Adds the records of this rank for the searched nodes. Throws std::bad_alloc.
     void ask(Butterfly& butterfly);
 
-    /// Decides on the nodes that this rank owns. Throws std::bad_alloc.
+    /// Decides on this rank's own nodes. Throws std::bad_alloc.
     void decide(Butterfly& butterfly);
 
     /// Follows the decisions. A node whose answer a failure has lost is left unchanged. Throws
@@ -110,7 +110,7 @@ class TreeSearch {
     double imbalance() const { return imbalance_; }
 
     /// Returns the number of cuts with coincident points that the target divides: all in a central
-    /// search, those that this rank owns in a spread one.
+    /// search, this rank's own in a spread one.
     int num_coincident() const { return num_coincident_; }
 
     /// Writes the parts of all points; after a central search also their weights on this rank.
@@ -139,7 +139,7 @@ class TreeSearch {
         double before = 0;  ///< weight on the ranks before it
     };
 
-    /// Node that is searched, or a part that is weighed.
+    /// A node to search, or a part to weigh.
     struct Node {
         Descent at;
         Entries entries{};       ///< points of this rank
@@ -159,7 +159,7 @@ class TreeSearch {
         Box found{};                 ///< at the owner only: box of the points, once counted
         CutTarget target{};          ///< likewise
         LotAnswer lot{};             ///< likewise
-        double below = not_counted;  ///< weight below the current cut, if that was counted
+        double below = not_counted;  ///< weight below the current cut, if counted
         Places places{};             ///< allowed for the cut
     };
 
@@ -219,7 +219,7 @@ class TreeSearch {
     const Guide* guide_ = nullptr;  ///< of a central search
     int rank_;
     int dimension_;
-    Part first_own_ = 0;    ///< first of the parts that this rank holds
+    Part first_own_ = 0;    ///< first of the parts on this rank
     Part end_own_ = 0;      ///< the one behind the last
     double all_sizes_ = 0;  ///< sum of the sizes of all parts
     HistogramLayout layout_;

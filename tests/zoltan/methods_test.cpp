@@ -1,33 +1,11 @@
 #include "../support/held_memory.hpp"
+#include "communicators.hpp"
 #include "program.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
-
-// Counts the communicators that are alive in this process.
-static int num_communicators = 0;
-
-extern "C" int MPI_Comm_dup(MPI_Comm comm, MPI_Comm* copy) {
-    ++num_communicators;
-    return PMPI_Comm_dup(comm, copy);
-}
-
-extern "C" int MPI_Comm_idup(MPI_Comm comm, MPI_Comm* copy, MPI_Request* request) {
-    ++num_communicators;
-    return PMPI_Comm_idup(comm, copy, request);
-}
-
-extern "C" int MPI_Comm_split(MPI_Comm comm, int color, int key, MPI_Comm* part) {
-    ++num_communicators;
-    return PMPI_Comm_split(comm, color, key, part);
-}
-
-extern "C" int MPI_Comm_free(MPI_Comm* comm) {
-    --num_communicators;
-    return PMPI_Comm_free(comm);
-}
 
 namespace rrcb::zoltan_test {
 namespace {

@@ -31,6 +31,9 @@ void set_option(const char* name, const char* value, Options& options) {
         reject(std::string(name) + " takes " + texts_of(*option) + ", not \"" + value + '"');
 }
 
+// Both are an axis, a flag and three numbers.
+static_assert(sizeof(rrcb_cut) == sizeof(Cut) && offsetof(rrcb_cut, at) == offsetof(Cut, at));
+
 Cuts copy_of(const rrcb_cuts& given) {
     const auto size = static_cast<std::size_t>(std::max(given.num_parts, 1) - 1);
     if (size > 0) require(given.tree, "tree");
@@ -38,9 +41,7 @@ Cuts copy_of(const rrcb_cuts& given) {
         reject("larger_below must be 0 or 1, not " + std::to_string(given.larger_below));
     Cuts cuts{given.dimension, given.num_parts, std::vector<Cut>(size)};
     cuts.shape = {given.group_size, given.larger_below != 0, given.dealt};
-    std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
-        return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
-    });
+    std::ranges::copy(std::span(reinterpret_cast<const Cut*>(given.tree), size), cuts.tree.begin());
     cuts.near = {given.near_reach, given.near_share};
     check_tree(cuts);
     return cuts;
@@ -51,17 +52,10 @@ Cuts copy_of(const rrcb_cuts& given) {
 int code_of(const Failure& failure) noexcept {
     if (!failure.failed) return RRCB_OK;
     last_failure = failure;
-    switch (failure.code) {
-        case ErrorCode::invalid_argument:
-            return RRCB_INVALID_ARGUMENT;
-        case ErrorCode::out_of_memory:
-            return RRCB_OUT_OF_MEMORY;
-        case ErrorCode::mpi:
-            return RRCB_MPI_ERROR;
-        case ErrorCode::internal:
-            return RRCB_INTERNAL_ERROR;
-    }
-    return RRCB_INTERNAL_ERROR;
+    constexpr std::array codes = {RRCB_INVALID_ARGUMENT, RRCB_OUT_OF_MEMORY, RRCB_MPI_ERROR,
+                                  RRCB_INTERNAL_ERROR};
+    static_assert(codes.size() == static_cast<int>(ErrorCode::internal) + 1);
+    return codes[static_cast<std::size_t>(failure.code)];
 }
 
 void require(const void* pointer, const char* name) {
@@ -148,9 +142,6 @@ int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
 }
 
 int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
-    // Both are an axis, a flag and three numbers.
-    static_assert(sizeof(rrcb_cut) == sizeof(rrcb::Cut) &&
-                  offsetof(rrcb_cut, at) == offsetof(rrcb::Cut, at));
     return guarded(balancer, [&](const auto& own) {
         require(cuts, "cuts");
         require_cuts(own);

@@ -1,35 +1,10 @@
 #include "c/columns.hpp"
 
-#include "options/rejection.hpp"
-
 #include <string>
 
 namespace rrcb::c {
 
 namespace {
-
-using detail::ValueKind;
-
-struct ValueType {
-    ValueKind kind;
-    std::size_t bytes;
-};
-
-ValueType type_of(const rrcb_column& column) {
-    switch (column.type) {
-        case RRCB_BYTE:
-            return {ValueKind::other, 1};
-        case RRCB_INT32:
-            return {ValueKind::integer, sizeof(int32_t)};
-        case RRCB_INT64:
-            return {ValueKind::integer, sizeof(int64_t)};
-        case RRCB_FLOAT:
-            return {ValueKind::floating_point, sizeof(float)};
-        case RRCB_DOUBLE:
-            return {ValueKind::floating_point, sizeof(double)};
-    }
-    reject("the type of a column must be an rrcb_type, such as RRCB_DOUBLE");
-}
 
 /// Returns the caller's memory for a column.
 std::byte* room_at(void* to, std::size_t) {
@@ -58,12 +33,14 @@ std::vector<detail::ByteColumn> columns_of(std::span<const rrcb_column> columns,
     std::vector<detail::ByteColumn> result;
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const rrcb_column& column = columns[k];
-        const ValueType type = type_of(column);
-        for (const Side& side :
-             {Side{"from", column.from, num_from}, Side{"to", column.to, num_to}})
-            side.require_of(k, column.components);
-        result.push_back({static_cast<const std::byte*>(column.from), num_from * column.components,
-                          type.kind, type.bytes, column.components, column.to, room_at});
+        visit_type(column.type, [&]<class T>(T) {
+            for (const Side& side :
+                 {Side{"from", column.from, num_from}, Side{"to", column.to, num_to}})
+                side.require_of(k, column.components);
+            result.push_back({static_cast<const std::byte*>(column.from),
+                              num_from * column.components, detail::kind_of<T>, sizeof(T),
+                              column.components, column.to, room_at});
+        });
     }
     return result;
 }

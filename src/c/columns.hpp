@@ -2,6 +2,7 @@
 
 #include "c/balancer.hpp"
 #include "collective/participant.hpp"
+#include "options/rejection.hpp"
 
 #include <rrcb/transfer.hpp>
 
@@ -9,6 +10,25 @@
 #include <vector>
 
 namespace rrcb::c {
+
+/// Calls visit(value) with a value of the type, a byte for RRCB_BYTE. Throws Error for no
+/// rrcb_type.
+template <class Visit>
+void visit_type(rrcb_type type, Visit&& visit) {
+    switch (type) {
+        case RRCB_BYTE:
+            return visit(std::byte());
+        case RRCB_INT32:
+            return visit(int32_t());
+        case RRCB_INT64:
+            return visit(int64_t());
+        case RRCB_FLOAT:
+            return visit(float());
+        case RRCB_DOUBLE:
+            return visit(double());
+    }
+    reject("the type of a column must be an rrcb_type, such as RRCB_DOUBLE");
+}
 
 /// Returns columns as the library moves them, from `num_from` points to `num_to`. Throws Error for
 /// unknown types, and if `from` or `to` of a column is null.

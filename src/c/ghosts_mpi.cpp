@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 
 struct rrcb_ghosts {
     static constexpr const char* name = "ghosts";
@@ -100,28 +101,6 @@ void verify(rrcb_ghosts& own, const rrcb_points* given, const rrcb_verify_option
              twice.size(), faults_at(twice), strangers.size(), faults_at(strangers)};
 }
 
-template <class T>
-void add(std::span<const LocalIndex> points, const rrcb_column& column, const ByteResult& arrived) {
-    detail::add_each(points, column.components, reinterpret_cast<const T*>(arrived.bytes.data()),
-                     static_cast<T*>(column.to));
-}
-
-void add_values(std::span<const LocalIndex> points, const rrcb_column& column,
-                const ByteResult& arrived) {
-    switch (column.type) {
-        case RRCB_INT32:
-            return add<int32_t>(points, column, arrived);
-        case RRCB_INT64:
-            return add<int64_t>(points, column, arrived);
-        case RRCB_FLOAT:
-            return add<float>(points, column, arrived);
-        case RRCB_DOUBLE:
-            return add<double>(points, column, arrived);
-        case RRCB_BYTE:
-            return;
-    }
-}
-
 void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
                 const TransferLimits& limits, TransferReport& report, Participant& self) {
     std::vector<detail::ByteColumn> of_ghosts;
@@ -142,7 +121,12 @@ void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
     });
     move_back(own.plan, of_ghosts, of_points, limits, &report, self);
     for (std::size_t k = 0; k < columns.size(); ++k)
-        add_values(own.plan.send_indices, columns[k], arrived[k]);
+        visit_type(columns[k].type, [&]<class T>(T) {
+            if constexpr (!std::is_same_v<T, std::byte>)
+                detail::add_each(own.plan.send_indices, columns[k].components,
+                                 reinterpret_cast<const T*>(arrived[k].bytes.data()),
+                                 static_cast<T*>(columns[k].to));
+        });
 }
 
 }  // namespace

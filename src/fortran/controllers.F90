@@ -67,6 +67,9 @@ contains
   end subroutine
 
   !> Does the same with the type of `use mpi_f08`.
+  !> @param comm        may be freed before the model
+  !> @param controller  carries the sums with its steps: is destroyed later, has recorded none
+  !> @param num_columns the same on every rank
   subroutine cost_model_create_by_type(self, comm, controller, num_columns, error)
     class(rrcb_cost_model), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
@@ -77,6 +80,8 @@ contains
   end subroutine
 
   !> Does the same with the type of `use mpi_f08`.
+  !> @param comm        may be freed before the model
+  !> @param num_columns the same on every rank
   subroutine cost_model_create_alone_by_type(self, comm, num_columns, error)
     class(rrcb_cost_model), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm

@@ -55,7 +55,10 @@ typedef struct rrcb_report {
  * @param balancer belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
 
-/** Does the same from a communicator of Fortran. Collective. */
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm     must outlive the balancer
+ * @param balancer belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_create_fortran(int comm, rrcb_balancer** balancer);
 
 /** Frees a balancer, which may be null, and the cuts and the plan it has shown. Not collective. */

@@ -19,7 +19,10 @@ typedef struct rrcb_cost_model rrcb_cost_model;
  * @param controller belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller);
 
-/** Does the same from a communicator of Fortran. Collective. */
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm       may be freed before the controller
+ * @param controller belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_controller_create_fortran(int comm, rrcb_controller** controller);
 
 /** Frees a controller, which may be null. Collective. */
@@ -72,7 +75,12 @@ RRCB_API int rrcb_controller_save(rrcb_controller* controller, const void** byte
 RRCB_API int rrcb_controller_load(MPI_Comm comm, const void* bytes, size_t size,
                                   rrcb_controller** controller);
 
-/** Does the same from a communicator of Fortran. Collective. */
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm       may be freed before the controller
+ * @param bytes      the same on every rank
+ * @param size       number of them
+ * @param controller belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t size,
                                           rrcb_controller** controller);
 
@@ -86,8 +94,12 @@ RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t si
 RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                                     rrcb_cost_model** model);
 
-/** Does the same from a communicator of Fortran and the address of a controller, or null.
- * Collective. */
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm        may be freed before the model
+ * @param controller  address of a controller, or null
+ * @param num_columns the same on every rank
+ * @param model       belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* controller,
                                             int num_columns, rrcb_cost_model** model);
 
@@ -111,8 +123,13 @@ RRCB_API int rrcb_cost_model_save(rrcb_cost_model* model, const void** bytes, si
 RRCB_API int rrcb_cost_model_load(MPI_Comm comm, rrcb_controller* controller, const void* bytes,
                                   size_t size, rrcb_cost_model** model);
 
-/** Does the same from a communicator of Fortran and the address of a controller, or null.
- * Collective. */
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm       may be freed before the model
+ * @param controller address of a controller, or null
+ * @param bytes      the same on every rank
+ * @param size       number of them
+ * @param model      belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller,
                                           const void* bytes, size_t size, rrcb_cost_model** model);
 

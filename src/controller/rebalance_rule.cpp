@@ -20,12 +20,10 @@ constexpr double share_of_first = 1.0 / 3;
 
 constexpr std::size_t start_length = 2;  ///< 2^2 steps
 
-/// Returns the median; of two values the smaller.
-double median(const std::array<double, 3>& values, std::size_t count) {
-    const auto [a, b, c] = values;
-    if (count == 1) return a;
-    if (count == 2) return std::min(a, b);
-    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+/// Returns the median of the first values; of two the smaller.
+double median(std::array<double, 3> values, std::size_t count) {
+    std::sort(values.begin(), values.begin() + count);
+    return values[(count - 1) / 2];
 }
 
 }  // namespace
@@ -75,7 +73,7 @@ double RebalanceRule::slow_start() const {
 /// slow steps that follow.
 double RebalanceRule::cost() const {
     if (num_rebalances_ == 0) return cycle_.total().work / static_cast<double>(cycle_.count());
-    const double middle = median(costs_, num_rebalances_);
+    const double middle = median(costs_, std::min(num_rebalances_, costs_.size()));
     const double latest = costs_[(num_rebalances_ - 1) % costs_.size()];
     const double share = num_rebalances_ == 1 ? share_of_first : 1;
     return share * std::clamp(latest, middle / 2, 2 * middle) / unit_ + slow_start();

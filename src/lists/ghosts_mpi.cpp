@@ -206,26 +206,20 @@ std::vector<std::size_t> list_sent(const Cuts& cuts, const GhostRequest& request
 }
 
 /// Search for the cuts that a plan lacks.
-class GhostSearch : public TierSearch {
-  public:
-    GhostSearch(const Cuts& known, std::vector<std::size_t> lacking, const GhostRequest& request,
-                GhostPlan& plan)
-        : TierSearch(known), lacking_(std::move(lacking)), request_(request), plan_(plan) {}
+struct GhostSearch : TierSearch {
+    const GhostRequest& request;
+    GhostPlan& plan;
+    std::vector<std::size_t> lacking;  ///< nodes
 
     bool ask(Butterfly& asked) {
-        TierSearch::ask(lacking_, asked);
-        return !lacking_.empty();
+        TierSearch::ask(lacking, asked);
+        return !lacking.empty();
     }
 
     void learn(const Butterfly& asked) {
         TierSearch::learn(asked);
-        if (!lacking_.empty()) lacking_ = list_sent(cuts(), request_, plan_);
+        if (!lacking.empty()) lacking = list_sent(cuts(), request, plan);
     }
-
-  private:
-    std::vector<std::size_t> lacking_;
-    const GhostRequest& request_;
-    GhostPlan& plan_;
 };
 
 /// Sends the shifts of ghosts to the ranks that get these. Collective.
@@ -253,7 +247,8 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     const auto list = [&] {
         std::vector<std::size_t> lacking = list_sent(cuts, request, plan);
         if (!is_whole(cuts))
-            buffers.emplace(GhostSearch(cuts, std::move(lacking), request, plan), self.comm);
+            buffers.emplace(GhostSearch{TierSearch(cuts), request, plan, std::move(lacking)},
+                            self.comm);
     };
     self.attempt([&] {
         mpi::require_group(cuts.group, "the balance of the cuts", self);

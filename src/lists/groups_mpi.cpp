@@ -237,7 +237,7 @@ class LocalKeys {
         for (const std::uint64_t key : keys)
             if (key != no_group) keys_.push_back(key);
         std::ranges::sort(keys_);
-        keys_.erase(std::ranges::unique(keys_).begin(), keys_.end());
+        keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
         labels_ = keys_;
         parents_.resize(keys_.size());
         std::iota(parents_.begin(), parents_.end(), std::size_t{0});

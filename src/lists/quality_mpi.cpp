@@ -24,22 +24,12 @@ void check_arguments(const Points& points, std::span<const Part> parts, int num_
     check_parts(parts, num_parts);
 }
 
-std::vector<double> weights_here(const Points& points, std::span<const Part> parts, int num_parts) {
-    check_arguments(points, parts, num_parts);
-    std::vector<double> weights(num_parts);
-    for (LocalIndex i = 0; i < points.count; ++i) weights[parts[i]] += points.weight(i);
-    return weights;
-}
-
-/// Throws on all ranks if one has failed, or their arguments differ. Collective.
-void agree_on(const Points& points, int num_parts, Participant& self) {
+/// Adds up numbers over all ranks. Throws on all ranks if one has failed, or their arguments
+/// differ. Collective: an agreement and a reduction.
+void add_up(std::span<double> sums, const Points& points, int num_parts, Participant& self) {
     agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}, weights_given(points)});
-}
-
-/// Collective over `comm`: one reduction.
-void sum_over_ranks(std::span<double> sums, MPI_Comm comm) {
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE,
-                             MPI_SUM, comm),
+                             MPI_SUM, self.comm),
                "MPI_Allreduce");
 }
 
@@ -48,9 +38,12 @@ void sum_over_ranks(std::span<double> sums, MPI_Comm comm) {
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  Participant& self) {
     std::vector<double> weights;
-    self.attempt([&] { weights = weights_here(points, parts, num_parts); });
-    agree_on(points, num_parts, self);
-    sum_over_ranks(weights, self.comm);
+    self.attempt([&] {
+        check_arguments(points, parts, num_parts);
+        weights.resize(num_parts);
+        for (LocalIndex i = 0; i < points.count; ++i) weights[parts[i]] += points.weight(i);
+    });
+    add_up(weights, points, num_parts, self);
     return weights;
 }
 
@@ -79,8 +72,7 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
             sums[1] += points.weight(i);
         }
     });
-    agree_on(points, num_parts, self);
-    sum_over_ranks(sums, self.comm);
+    add_up(sums, points, num_parts, self);
     return sums[1] == 0 ? 0 : sums[0] / sums[1];
 }
 

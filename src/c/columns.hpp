@@ -44,7 +44,7 @@ TransferLimits limits_of(const rrcb_transfer_limits* limits);
 /// Writes a report, unless it is null.
 void store(const TransferReport& from, rrcb_transfer_report* report);
 
-/// Arguments of a function that moves columns.
+/// Arguments of a function for moving columns.
 struct ColumnCall {
     std::size_t num_columns;
     const rrcb_column* columns;

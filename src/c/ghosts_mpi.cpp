@@ -19,7 +19,7 @@ namespace rrcb::c {
 
 namespace {
 
-/// Options of a call, with the memory that they borrow.
+/// Options of a call, with the memory they borrow.
 struct KeptOptions {
     GhostOptions options{};
     std::vector<RankRange> ranks{};

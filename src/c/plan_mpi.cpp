@@ -11,7 +11,7 @@ namespace rrcb::c {
 
 namespace {
 
-/// Returns the ranks of all parts: the given ones, or those of ranks_of_part().
+/// Returns the ranks of all parts: the given ones, or ranks_of_part().
 std::vector<RankRange> ranks_of_parts(const rrcb_rank_range* given, int num_parts, int num_ranks) {
     std::vector<RankRange> ranks;
     for (Part part = 0; part < num_parts; ++part)

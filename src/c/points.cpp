@@ -21,7 +21,7 @@ std::size_t bytes_of(rrcb_type type) {
 // extent that does not.
 enum FortranFault { wrong_weights = 5, wrong_axis = 6, wrong_shape = 7 };
 
-/// Throws Error for points that the Fortran module could not make.
+/// Throws Error for points the Fortran module could not make.
 void check_fortran(const rrcb_points& from) {
     const std::string count = std::to_string(from.count);
     const std::string extent = std::to_string(from.stride);

@@ -15,7 +15,7 @@ namespace rrcb {
 
 namespace {
 
-/// Joins messages, each a record and the sums that it carries.
+/// Joins messages, each a record with its sums.
 void join_messages(void* in, void* inout, int* count, MPI_Datatype* type) {
     int bytes = 0;
     MPI_Type_size(*type, &bytes);

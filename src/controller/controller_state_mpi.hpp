@@ -25,7 +25,7 @@ struct RankLoad {
     double weight = 0;  ///< given by the caller; 0 if none was
 };
 
-/// Record of a rank's step, the sums that it carries, and the result of all ranks.
+/// Record of a rank's step, its sums, and the result of all ranks.
 struct StepMessage {
     static constexpr std::size_t num_doubles = sizeof(StepRecord) / sizeof(double);
 
@@ -85,7 +85,7 @@ struct Controller::State {
     bool has_started() const { return has_started_; }
     int rank() const { return rank_; }
     int num_ranks() const { return num_ranks_; }
-    /// Notes that points have other weights from now on: rebalances may leave less imbalance.
+    /// Notes other weights of points from now on: rebalances may leave less imbalance.
     void change_weights();
 
     /// Returns this rank's record of a step, and resets the costs for the next.
@@ -97,7 +97,7 @@ struct Controller::State {
 
     /// Returns once the reduction under way is done; its result is not taken.
     void wait(Participant& self);
-    /// Numbers that only this rank has, for save() and load().
+    /// Numbers of this rank only, for save() and load().
     std::array<double, 3> own_numbers();
     void set_own_numbers(std::span<const double> numbers);
     /// Writes or reads the rest. On the root, when it writes.

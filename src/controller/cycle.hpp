@@ -58,7 +58,7 @@ class Cycle {
     }
 
   private:
-    std::size_t num_first_ = 0;  ///< sums that are known
+    std::size_t num_first_ = 0;  ///< known sums
     std::size_t count_ = 0;
     Waste total_;  ///< of this cycle only
     std::array<Waste, num_lengths> first_{};

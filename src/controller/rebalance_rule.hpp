@@ -56,12 +56,12 @@ class RebalanceRule {
     LatestSteps latest_;
     Cycle cycle_;
     Cycle earlier_;                  ///< average of the cycles before this one
-    bool knows_rebalances_ = false;  ///< the cycle shows the excess that one leaves
+    bool knows_rebalances_ = false;  ///< the cycle shows the excess left by one
     double busiest_ = 0;             ///< most work of 4 steps in this cycle, after the first
     double slow_start_ = 0;  ///< work of the first steps of the last cycle, see slow_start()
     std::array<double, 3> costs_{};  ///< the last three, cyclic
     std::size_t num_rebalances_ = 0;
-    double least_ = 0;  ///< excess that no rebalance removes
+    double least_ = 0;  ///< excess left by every rebalance
 };
 
 }  // namespace rrcb

@@ -11,7 +11,7 @@ enum class BadInput { none, load, cost, columns };
 /// minimum is sent as the negative of a maximum.
 struct StepRecord {
     double work = 0;       ///< share of the mean load as measured
-    double mean_load = 0;  ///< share of the mean of the loads that are compared
+    double mean_load = 0;  ///< share of the mean of the compared loads
     double weight = 0;     ///< share of the mean weight of the points
     double heaviest_load = 0;
     double cost = 0;  ///< of the rebalances since the step before

@@ -10,7 +10,7 @@ namespace {
 /// Remembers about 200 steps: in 100, noise of 7 % would hide that costs predict seconds to 4 %.
 constexpr double guard_forgetting = 1 - 1.0 / 200;
 constexpr double fewest = 10;  ///< steps before learned costs are used
-/// Least gain of learned costs that are used, in standard deviations of noise.
+/// Least gain for learned costs to be used, in standard deviations of noise.
 constexpr double certainty = 3;
 /// Least gain as a share of the squared error of counting.
 constexpr double margin = 0.02;

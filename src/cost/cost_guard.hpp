@@ -24,7 +24,7 @@ class CostGuard {
     double learned_error() const { return rms(learned_error_); }
     double counted_error() const { return rms(counted_error_); }
 
-    /// Goes on with errors that were added up on another number of ranks.
+    /// Goes on with errors added up on another number of ranks.
     void change_ranks(int before);
 
     /// Writes or reads this.

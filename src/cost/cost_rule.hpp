@@ -22,10 +22,10 @@ class CostRule {
 
     std::size_t num_columns() const { return static_cast<std::size_t>(num_columns_); }
 
-    /// Returns the number of doubles that a rank contributes, to be joined by join_carried().
+    /// Returns the number of a rank's doubles, to be joined by join_carried().
     std::size_t num_sums() const { return sums_.size(); }
 
-    /// Returns the sums that this rank contributes for a step.
+    /// Returns this rank's sums for a step.
     std::span<const double> hand_in(double seconds, std::span<const double> columns);
 
     /// Takes the sums of all ranks for the last step.
@@ -42,12 +42,12 @@ class CostRule {
     /// Notes that the points are divided by the present weights.
     void divide() { is_learned_ = uses_costs(); }
 
-    /// Numbers that only this rank has, for save() and load().
+    /// Numbers of this rank only, for save() and load().
     std::array<double, 3> own_numbers() const { return {seconds_, columns_[0], learned_}; }
     void set_own_numbers(std::span<const double> numbers);
     /// Writes or reads the rest. On rank 0, when it writes.
     void store(SavedState& state);
-    /// Goes on with costs that were learned on another number of ranks.
+    /// Goes on with costs learned on another number of ranks.
     void change_ranks(int before);
 
   private:
@@ -76,7 +76,7 @@ class CostRule {
     NormalEquations all_;  ///< of all ranks; fed only on rank 0, as is the next
     CostGuard guard_;
     bool is_learned_ = false;   ///< the points are divided by learned costs
-    bool was_learned_ = false;  ///< in the step that was contributed
+    bool was_learned_ = false;  ///< in the contributed step
 
     CostVector costs_;
     CostState state_;

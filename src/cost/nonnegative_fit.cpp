@@ -9,7 +9,7 @@ namespace {
 
 using Active = Eigen::Array<bool, Eigen::Dynamic, 1, 0, most_cost_columns, 1>;
 
-/// Returns the minimum with the columns that are not free held at 0.
+/// Returns the minimum with all but the free columns held at 0.
 CostVector free_minimum(const CostMatrix& a, const CostVector& b, const Active& is_free) {
     CostMatrix equations = a;
     CostVector right = b;
@@ -40,7 +40,7 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
     const double least = 1e-14 * b.cwiseAbs().maxCoeff();
     // Each turn of the outer loop lowers the sum, so none repeats, except by round-off.
     for (Eigen::Index turn = 0; turn < 4 * b.size(); ++turn) {
-        // Frees the column that lowers the sum the fastest.
+        // Frees the column with the fastest fall of the sum.
         Eigen::Index next = 0;
         const CostVector descent = b - a * x;
         if (is_free.select(-1.0, descent.array()).maxCoeff(&next) <= least) break;

@@ -11,7 +11,7 @@
 
 namespace rrcb {
 
-/// Points that this rank keeps, sends and receives; borrows the lists.
+/// Points kept, sent and received by this rank; borrows the lists.
 struct Delivery {
     LocalIndex num_points = 0;              ///< that this rank holds
     LocalIndex num_kept = 0;                ///< of these, first in the result

@@ -27,13 +27,13 @@ LocalIndex check(const GhostPlan& plan, const Participant& self) {
     return num_ghosts;
 }
 
-/// Returns the number of a transfer that may have taken the points of ghosts, or 0.
+/// Returns the number of a transfer that may have taken points of ghosts, or 0.
 std::uint64_t overtaking(const GhostPlan& plan, MPI_Comm comm) {
     const TransferLog* log = mpi::Attribute<TransferLog>::find(comm);
     return log != nullptr && plan.stamp != 0 ? log->overtaking(plan) : 0;
 }
 
-/// Throws Error unless the groups are consistent; returns the number that other ranks own.
+/// Throws Error unless the groups are consistent; returns the number owned by other ranks.
 LocalIndex check(const Groups& groups, const Participant& self) {
     const LocalIndex num_elsewhere = check(groups.plan, self);
     const LocalIndex num_groups = groups.plan.num_points + num_elsewhere;

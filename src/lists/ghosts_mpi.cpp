@@ -47,7 +47,7 @@ struct Holders {
         return ranks.first_rank == rank && ranks.count == 1;
     }
 
-    /// Returns the ends of the parts that this rank holds.
+    /// Returns the ends of the parts on this rank.
     std::vector<Part> ends_here() const {
         std::vector<Part> ends;
         for (Part end = 0; end < num_parts; ++end)
@@ -69,7 +69,7 @@ struct GhostRequest {
     Radii radii;
     Holders holders;
     std::optional<PeriodicImages> images;
-    bool has_balanced;                     ///< whether the points are those of the balance
+    bool has_balanced;                     ///< whether the points are unchanged since the balance
     std::optional<PartReaches> reaches{};  ///< of the parts, if their radii count
 
     void check(const Cuts& cuts) const {
@@ -101,7 +101,7 @@ struct GhostRequest {
     }
 };
 
-/// Finds which of this rank's points other ranks need, by the cuts that are known.
+/// Finds which of this rank's points other ranks need, by the known cuts.
 class Neighbourhood {
   public:
     /// Both outlive it.
@@ -117,7 +117,7 @@ class Neighbourhood {
                 cuts, [](Part, const Box&) { return false; }, reaches());
     }
 
-    /// Notes the ranks that need a point or its images. Points come in ascending order.
+    /// Notes the ranks in need of a point or its images. Points come in ascending order.
     void add(LocalIndex point, const Ball& ball) {
         if (!request_.images) return add(point, ball, Shift{});
         request_.images->for_each(ball.widened(reach_),
@@ -143,7 +143,7 @@ class Neighbourhood {
   private:
     const PartReaches* reaches() const { return request_.reaches ? &*request_.reaches : nullptr; }
 
-    /// Leaves out the parts that only this rank holds, and notes the region of one of them.
+    /// Leaves out the parts on this rank only, and notes the region of one of them.
     bool leaves_out(Part end, const Box& region) {
         if (!request_.holders.are_only_here(end)) return false;
         if (!home_ && !is_region_empty(cuts_, end, region)) home_ = region;
@@ -184,7 +184,7 @@ class Neighbourhood {
     const Cuts& cuts_;
     const GhostRequest& request_;
     double reach_;             ///< greatest of all parts
-    std::optional<Box> home_;  ///< region of a part that only this rank holds
+    std::optional<Box> home_;  ///< region of a part on this rank only
     BallSearch search_;
     std::optional<BallSearch> search_of_images_{};  ///< of all parts
     std::vector<LocalIndex> points_{};
@@ -205,7 +205,7 @@ std::vector<std::size_t> list_sent(const Cuts& cuts, const GhostRequest& request
     return neighbourhood.lacking();
 }
 
-/// Search for the cuts that a plan lacks.
+/// Search for the cuts missing in a plan.
 struct GhostSearch : TierSearch {
     const GhostRequest& request;
     GhostPlan& plan;
@@ -222,7 +222,7 @@ struct GhostSearch : TierSearch {
     }
 };
 
-/// Sends the shifts of ghosts to the ranks that get these. Collective.
+/// Sends the shifts of ghosts to the ranks that get them. Collective.
 void exchange_shifts(GhostPlan& plan, Participant& self) {
     const std::vector<Shift> sent = std::exchange(plan.shifts, {});
     const std::array columns{detail::byte_column(column(sent), plan.shifts)};

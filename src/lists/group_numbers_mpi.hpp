@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// Memory of one renumbering that leaves the parts of a group in one group, see NumberRule.
+/// Memory of one renumbering, with the parts of a group in one group, see NumberRule.
 struct GroupBuffers {
     /// As RemapBuffers. Not collective. Throws std::bad_alloc.
     GroupBuffers(const NumberRule& rule, int rank, bool wants_all = true);

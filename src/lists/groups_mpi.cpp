@@ -30,7 +30,7 @@ namespace {
 struct LabelNotice {
     std::uint64_t key;
     std::uint64_t label;
-    std::uint64_t index;  ///< of the key on the rank that sends it
+    std::uint64_t index;  ///< of the key on the sending rank
 };
 
 /// The least label of a key.
@@ -78,7 +78,7 @@ struct GroupSum {
     std::uint64_t count = 0;
     Vector place{};
 
-    /// Adds a sum. If `moves`, the position becomes the weighted mean, or that of all points as
+    /// Adds a sum. If `moves`, the position becomes the weighted mean, or the mean of all points as
     /// long as none has weight. It stays between both positions and does not overflow.
     void add(const GroupSum& other, bool moves) {
         count += other.count;
@@ -136,7 +136,7 @@ LocalGroups groups_here(const Points& points, std::span<const std::uint64_t> key
     return local;
 }
 
-/// Numbers the groups that this rank owns, then the others; returns the sums for their owners.
+/// Numbers this rank's own groups, then the others; returns the sums for their owners.
 Outgoing<SumNotice> number_groups(const LocalGroups& local,
                                   std::span<const Arrived<LeastLabel>> owners, int num_ranks,
                                   Groups& result, std::vector<LocalIndex>& numbers) {

@@ -36,7 +36,7 @@ void exchange_records(std::span<const int> ranks, Make&& make, Reserve&& reserve
     });
 }
 
-/// A record and the rank that it comes from.
+/// A record and its rank.
 template <class Record>
 using Arrived = std::pair<int, Record>;
 
@@ -51,7 +51,7 @@ struct Outgoing {
         records.push_back(record);
     }
 
-    /// Sends each record to its rank; returns those received, by rank. Collective.
+    /// Sends each record to its rank; returns the received ones, by rank. Collective.
     std::vector<Arrived<Record>> send(Participant& self,
                                       std::initializer_list<Shared> arguments = {}) const {
         std::vector<Arrived<Record>> arrived;

@@ -37,12 +37,13 @@ struct NumberRule {
     std::int32_t home_of(Part number) const;
     PartRange numbers_of(std::int32_t origin) const;
 
-    /// Returns whether the numbers that keep the points of an origin are of the group of a part.
+    /// Returns whether the numbers for keeping the points of an origin are of the group of a part.
     bool is_in_group(Part part, std::int32_t origin) const {
         return shape.group_size == 1 || origin == no_origin ||
                group_of(origin) == group_of_part(part);
     }
-    /// Returns the group of the numbers that keep the points of an origin; -1 if there are several.
+    /// Returns the group of the numbers for keeping the points of an origin; -1 if there are
+    /// several.
     int group_of(std::int32_t origin) const;
     int group_of_part(Part part) const { return shape.end_of(part, num_parts) / shape.group_size; }
 

@@ -114,7 +114,7 @@ void apply_shifts_to(std::span<T> positions, const GhostPlan& plan) {
     }
 }
 
-/// Moves one axis of the positions that a view describes.
+/// Moves one axis of the positions in a view.
 template <class T>
 void apply_shifts_along(std::span<const T> axis, int number, std::size_t stride,
                         const GhostPlan& plan) {

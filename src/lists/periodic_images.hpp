@@ -9,14 +9,14 @@ namespace rrcb {
 /// Returns a coordinate shifted by some periods of a box.
 double image_of(double x, const Box& box, int axis, std::int32_t shift);
 
-/// Images of balls in a box that repeats along the axes on which it is finite.
+/// Images of balls in a box repeated along its finite axes.
 class PeriodicImages {
   public:
     PeriodicImages(const Box& box, int dimension);
 
     /// Throws Error unless the box is valid, and long enough for the greatest radius.
     void check(double radius) const;
-    /// Throws Error that names the first point outside the box.
+    /// Throws Error, naming the first point outside the box.
     void check(const Points& points) const;
 
     /// Calls visit(shift, centre) for the images of a ball in the box that reach it along each

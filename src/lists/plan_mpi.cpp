@@ -15,7 +15,7 @@ namespace rrcb {
 
 namespace {
 
-/// Notice of one point to the rank that imports it.
+/// Notice of one point to its importing rank.
 struct Notice {
     std::uint64_t index;
     std::int32_t part;

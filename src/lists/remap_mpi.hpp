@@ -13,7 +13,7 @@
 
 namespace rrcb {
 
-/// Returns a hash of lists that must be the same on every rank.
+/// Returns a hash of lists, which must be the same on every rank.
 std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts);
 
 /// Earlier parts of the points. If none are given, points are to be kept on their rank.

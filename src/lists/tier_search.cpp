@@ -18,7 +18,7 @@ namespace {
 constexpr int top_depth = 6;
 constexpr int tier_depth = 7;
 
-/// Returns the first level of the tier that a level belongs to.
+/// Returns the first level of a level's tier.
 constexpr int tier_begin(int depth) {
     return depth < top_depth ? 0 : depth - (depth - top_depth) % tier_depth;
 }
@@ -40,7 +40,7 @@ void TierSearch::join_cuts(std::span<const double> a, std::span<const double> b,
     joined.insert(joined.end(), b.begin(), b.end());
 }
 
-/// Returns the first node of the tier that contains a node.
+/// Returns the first node of a node's tier.
 Descent TierSearch::tier_of(std::size_t node) const {
     Descent first = root_of(cuts_);
     Descent at = first;

@@ -12,7 +12,7 @@
 
 namespace rrcb {
 
-/// Local part, without messages, of a search for cuts that are distributed over the ranks.
+/// Local part, without messages, of a search for cuts distributed over the ranks.
 ///
 /// The tree is divided into tiers, of 6 levels at the top and of 7 below. First each rank shares
 /// the cuts that it owns: the owner of the first node of a tier gets its cuts, at most 127. Then
@@ -24,7 +24,7 @@ class TierSearch {
   public:
     explicit TierSearch(const Cuts& known) : cuts_(known) {}
 
-    /// Adds the cuts that this rank owns. Throws Error if one is missing.
+    /// Adds this rank's own cuts. Throws Error if one is missing.
     void share(Butterfly& shared) const;
 
     /// Adds a record for the tier of each node whose cut is missing.
@@ -36,7 +36,7 @@ class TierSearch {
     /// Takes the cuts of the answers. Throws Error if some are missing.
     void learn(const Butterfly& asked);
 
-    /// Returns the cuts that were known, and those received.
+    /// Returns the known cuts, and the received ones.
     const Cuts& cuts() const { return cuts_; }
     Cuts take() { return std::move(cuts_); }
 
@@ -49,10 +49,10 @@ class TierSearch {
     Descent tier_of(std::size_t node) const;
 
     Cuts cuts_;
-    std::vector<Key> tiers_;  ///< that were asked for
+    std::vector<Key> tiers_;  ///< asked for
 };
 
-/// Finds the parts of points by cuts that are distributed over the ranks.
+/// Finds the parts of points by cuts distributed over the ranks.
 class PathSearch : public TierSearch {
   public:
     /// Takes points whose `parts` were found by `known`, or are unknown_below() a node. The points
@@ -70,7 +70,7 @@ class PathSearch : public TierSearch {
     const Points& points_;
     std::span<Part> parts_;
     std::vector<LocalIndex> searched_;
-    std::vector<LocalIndex> left_;  ///< of these, those whose parts are still unknown
+    std::vector<LocalIndex> left_;  ///< of these, the ones with parts still unknown
 };
 
 }  // namespace rrcb

@@ -12,7 +12,7 @@ namespace rrcb {
 /// missing cuts, and returns whether there are any.
 template <class Search>
 struct SearchBuffers {
-    /// Throws Error if the rank lacks a cut that it owns.
+    /// Throws Error if the rank lacks a cut of its own.
     SearchBuffers(Search made, MPI_Comm comm)
         : search(std::move(made)),
           shared(mpi::rank_of(comm), mpi::size_of(comm), Search::join_cuts),

@@ -10,13 +10,13 @@
 
 namespace rrcb {
 
-/// Returns a number greater than those before, in this process.
+/// Returns a number greater than any before, in this process.
 inline std::uint64_t next_stamp() {
     static std::atomic<std::uint64_t> stamp{0};
     return ++stamp;
 }
 
-/// The latest transfers with a communicator that moved points, as seen on this rank.
+/// The latest transfers of points with a communicator, as seen on this rank.
 ///
 /// They may be of any points. Ghosts are stale if one by a plan made since took as many points as
 /// they have on every rank, and no older plan brought as many back later.

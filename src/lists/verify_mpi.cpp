@@ -24,7 +24,7 @@ struct Sample {
 
 /// Point near one of the sample, on its way to the rank of that one.
 struct Neighbour {
-    std::uint64_t sample;  ///< number among those of that rank
+    std::uint64_t sample;  ///< number on its rank
     std::uint64_t index;
     std::uint64_t id;
     Shift shift;

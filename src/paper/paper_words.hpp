@@ -54,7 +54,7 @@ inline constexpr Option dump_when_parameter{"", "RRCB_DUMP_WHEN",
 inline constexpr Option plug_in_table[] = {domain_parameter, cut_rule_parameter, sigma_parameter,
                                            fraction_parameter, dump_when_parameter};
 
-/// A parameter that no Option describes: a number of 64 bits, or a path.
+/// A parameter beyond the Options: a number of 64 bits, or a path.
 struct OtherParameter {
     const char* parameter;
     const char* documentation;

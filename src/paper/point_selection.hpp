@@ -6,7 +6,7 @@
 
 namespace rrcb {
 
-/// Throws Error for options of the sampling that are out of range.
+/// Throws Error for options of the sampling out of range.
 void check_sampling(const PaperOptions& options);
 
 /// Throws Error for sizes that Options::part_sizes could not be.
@@ -14,7 +14,7 @@ void check_sizes(int num_parts, std::span<const double> part_sizes);
 
 double weight_of(std::span<const MassPoint> points);
 
-/// Divides points in place: those below the cut come first. Expected cost linear in their number.
+/// Divides points in place, the ones below the cut first. Expected cost linear in their number.
 ///
 /// The cut across `cut.axis` has the weight `target` below it, from 0 up to, not including, the
 /// weight of all points. Points that share a coordinate with it are divided along the other axes in

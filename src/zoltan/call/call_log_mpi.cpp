@@ -40,7 +40,7 @@ void print_tally() {
     std::printf("\n");
 }
 
-/// Returns the number of objects in a list that change their rank.
+/// Returns the number of objects in a list with a change of rank.
 std::int64_t count_moved(const List& list, int rank) {
     std::int64_t moved = 0;
     for (int i = 0; i < list.count; ++i) moved += list.ranks[i] != rank ? 1 : 0;

@@ -4,7 +4,7 @@
 
 namespace rrcb::zoltan {
 
-/// Logs a call that RRCB has answered, for users on stdout.
+/// Logs a call answered by RRCB, for users on stdout.
 ///
 /// Rank 0 prints one line for the first call of the process, if RRCB_VERBOSE is in the environment
 /// or DEBUG_LEVEL is at least 1. With RRCB_VERBOSE it prints the sum of all calls at exit.

@@ -22,7 +22,7 @@ int count_parts(const Outcome& outcome, const State& state, std::span<int> local
     return num_parts_of(local_parts, outcome.num_global_parts);
 }
 
-/// Collects the sizes that this rank asks for, of the parts from `first_part` on.
+/// Collects the sizes asked for by this rank, of the parts from `first_part` on.
 void ask_for_sizes(const State& state, int first_here, int first_part, std::span<double> sizes) {
     std::ranges::fill(sizes, not_set);
     for (const PartSize& entry : state.part_sizes) {

@@ -15,7 +15,7 @@ struct Layout {
     std::vector<double> part_sizes;  ///< relative; empty: equal
 };
 
-/// Returns the layout that the ranks ask for together.
+/// Returns the layout asked for by the ranks together.
 ///
 /// Collective only if NUM_LOCAL_PARTS or part sizes are set on any rank. Throws the same
 /// ZoltanError on all ranks for numbers of parts that do not add up. `self` holds other errors

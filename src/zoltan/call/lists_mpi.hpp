@@ -5,7 +5,7 @@
 
 namespace rrcb::zoltan {
 
-/// Makes the lists that RETURN_LISTS asks for, without imports if no object of any rank `changes`
+/// Makes the lists asked for by RETURN_LISTS, without imports if no object of any rank `changes`
 /// its rank or part. Imports answer the export lists of all ranks, by rank, in the order of that
 /// rank's list. Messages use `memory`, which grows.
 ///

@@ -67,7 +67,7 @@ struct Objects {
     IdWord* global_ids = nullptr;
     IdWord* local_ids = nullptr;   ///< null when ids have no local part
     int* initial_parts = nullptr;  ///< null without such a callback
-    int* moving = nullptr;         ///< room for the indices of those that move; null without lists
+    int* moving = nullptr;         ///< room for the indices of moving objects; null without lists
     Points points;
     List room;  ///< holds the ids if they are returned without another agreement of the ranks
 };

@@ -26,7 +26,7 @@ std::vector<int> axis_order(int set_directions, int dimension) {
     return axes;
 }
 
-/// Returns a setting that RRCB leaves to Zoltan's RCB; null if there is none.
+/// Returns a setting left to Zoltan's RCB; null if there is none.
 const char* forwarded_setting(const Parameters& parameters) {
     if (parameters.weight_dimension > 1) return "OBJ_WEIGHT_DIM is above 1";
     if (parameters.reduce_dimensions != 0) return "REDUCE_DIMENSIONS is set";

@@ -32,7 +32,7 @@ void check_parameters(const State& state, bool one_part_per_rank);
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const LastPartition* previous);
 
-/// Returns the options of the paper's method that RRCB_DOMAIN asks for.
+/// Returns the options of the paper's method asked for by RRCB_DOMAIN.
 PaperOptions make_paper_options(const Parameters& parameters, const Layout& layout);
 
 /// Returns whether the search starts from the cuts of the last call (RCB_REUSE). This needs a

@@ -12,7 +12,7 @@ namespace rrcb::zoltan {
 /// Result of a rank's local steps. It holds its text without allocating memory.
 struct LocalStatus {
     LocalStatus() = default;
-    /// Cuts a text short that is too long.
+    /// Cuts a long text short.
     LocalStatus(int its_code, std::string_view its_text) : code(its_code) {
         its_text.copy(text.data(), text.size() - 1);
     }
@@ -38,7 +38,7 @@ struct Votes {
 /// The result of a vote, the same on every rank.
 struct Outcome : Votes {
     int code = ZOLTAN_OK;                          ///< the worst of all ranks
-    int failing_rank = 0;                          ///< lowest rank that failed; prints the error
+    int failing_rank = 0;                          ///< lowest failed rank; prints the error
     int num_global_parts = -1;                     ///< largest of all ranks, -1: set on no rank
     ReturnLists return_lists = ReturnLists::none;  ///< largest of all ranks
     bool lists_differ = false;                     ///< some rank asks for others

@@ -54,7 +54,7 @@ void write_point(std::FILE* file, const State& state, const DumpInput& input, Lo
 
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent) {
     std::filesystem::create_directories(parent);
-    // Numbers to try first. A folder that exists is never taken.
+    // Numbers to try first. An existing folder is never taken.
     thread_local std::map<std::filesystem::path, int> numbers;
     while (true) {
         std::filesystem::path folder = parent / ("call-" + std::to_string(++numbers[parent]));

@@ -9,7 +9,7 @@ namespace rrcb::zoltan {
 // A dump is text, one entry a line; comparisons/run --replay reads it. Numbers are as C's %a writes
 // them, so nothing is lost; nan and inf may occur.
 //
-// call.txt, written by the rank that chose the folder:
+// call.txt, written by the rank choosing the folder:
 //
 //     rrcb-dump 1
 //     version 0.1.0

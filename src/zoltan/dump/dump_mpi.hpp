@@ -7,7 +7,7 @@ namespace rrcb::zoltan {
 /// Reason to write the inputs of a call.
 enum class DumpReason { asked, failure };
 
-/// Dumps that all ranks together ask for.
+/// Dumps, as all ranks together ask for.
 struct DumpWish {
     int rank = -1;        ///< lowest rank with RRCB_DUMP, -1: none
     bool always = false;  ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP

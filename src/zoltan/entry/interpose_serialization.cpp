@@ -55,7 +55,7 @@ int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     return code;
 }
 
-/// Gives a handle all parameters of the one that was packed.
+/// Gives a handle all parameters of the packed one.
 int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     reset_others(zz, state, parcel);
     const bool replace_rcb = state.parameters.replace_rcb;
@@ -81,7 +81,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     return ZOLTAN_OK;
 }
 
-/// Prints that a handle of the program is no longer replaced, although that was asked for.
+/// Prints that a handle of the program is no longer replaced, although it was asked for.
 void tell_if_left_to_zoltan(const State& state) {
     if (!state.parameters.replace_rcb || state.parameters.debug_level <= 0) return;
     if (state.communicator->rank() != 0) return;

@@ -8,7 +8,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Sets a parameter to the value of a variable, if that is set.
+/// Sets a parameter to the value of a variable, if set.
 void read_variable(const char* variable, const std::string& name, State& state) {
     const char* value = std::getenv(variable);
     if (value == nullptr || *value == '\0') return;

@@ -44,7 +44,7 @@ Place* place_of(const Zoltan_Struct* zz) {
     return find_place(first_place_for(zz), zz);
 }
 
-/// Takes a place for a handle that has none. Throws std::bad_alloc.
+/// Takes a place for a handle without one. Throws std::bad_alloc.
 Place& take_place(const Zoltan_Struct* zz) {
     std::atomic<Place*>& first = first_place_for(zz);
     const std::scoped_lock lock(adding);

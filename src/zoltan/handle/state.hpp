@@ -46,7 +46,7 @@ struct PartSize {
     int part = 0;
     bool global = true;  ///< false: the part is counted from the first one on this rank
     float size = 0;
-    int weight = 0;  ///< number of the weight that it is a share of
+    int weight = 0;  ///< number of its whole weight
 };
 
 /// Result of the last partition. It is valid while the objects are unchanged and in the parts they
@@ -56,7 +56,7 @@ struct KeptObjects {
     std::uint64_t checksum = 0;  ///< of the objects of all ranks and their parts
 };
 
-/// State of a handle that a copy of the handle shares.
+/// State of a handle, shared with its copies.
 struct Settings {
     Parameters parameters;
     std::vector<PartSize> part_sizes;
@@ -69,7 +69,7 @@ struct Settings {
     bool inside_hier = false;         ///< made by Zoltan, for one of HIER's levels
 };
 
-/// State of a Zoltan_Struct that the plug-in keeps.
+/// The plug-in's state of a Zoltan_Struct.
 struct State : Settings {
     std::unique_ptr<Communicator> communicator;
     std::optional<LastPartition> last;  ///< of the last partition

@@ -20,7 +20,7 @@ T* room_in(detail::Uninitialized<T>& memory, std::size_t size) {
     return memory.data();
 }
 
-/// Memory that one handle's calls share.
+/// Memory shared by one handle's calls.
 struct Workspace {
     detail::Uninitialized<double> coordinates;
     detail::Uninitialized<double> weights;
@@ -28,9 +28,9 @@ struct Workspace {
     detail::Uninitialized<std::uint32_t> global_ids;
     detail::Uninitialized<std::uint32_t> local_ids;
     detail::Uninitialized<int> initial_parts;
-    detail::Uninitialized<int> moving;  ///< indices of objects that move
+    detail::Uninitialized<int> moving;  ///< indices of moving objects
     std::vector<Part> parts;
-    ExchangeBuffers records;  ///< of objects that move
+    ExchangeBuffers records;  ///< of moving objects
 };
 
 }  // namespace rrcb::zoltan

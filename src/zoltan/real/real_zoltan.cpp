@@ -22,7 +22,7 @@ class Finder {
         require(found);
     }
 
-    /// Requires a function that the plug-in calls by name.
+    /// Requires a function called by name.
     void find(const char* name) { require(Found(name)); }
 
     /// Finds a function in the library of those found so far; null if it has none. One in another

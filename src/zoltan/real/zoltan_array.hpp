@@ -30,7 +30,7 @@ ZoltanArray<T> make_array(std::size_t size) {
     return ZoltanArray<T>(static_cast<T*>(made));
 }
 
-/// Frees the memory behind the first `size` entries of an array that has more.
+/// Frees the memory behind the first `size` entries of a longer array.
 template <typename T>
 void shrink(ZoltanArray<T>& array, std::size_t size) {
     if (size == 0) array.reset();

@@ -1,4 +1,5 @@
 #include "../support/ranks.hpp"
+#include "../support/same_error.hpp"
 #include "checks_mpi.hpp"
 #include "methods.hpp"
 
@@ -8,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <limits>
 
@@ -22,19 +22,6 @@ using test::rank;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Expects that `divide` gives every rank the same error, which contains `expected`.
-void expect_same_error(const std::string& expected, const std::function<void()>& divide) {
-    std::array<char, 512> text{};
-    try {
-        divide();
-    } catch (const Error& error) {
-        std::string(error.what()).copy(text.data(), text.size() - 1);
-    }
-    EXPECT_NE(std::string(text.data()).find(expected), std::string::npos)
-        << "instead of " << expected << ": " << text.data();
-    expect_same_on_all_ranks(std::as_bytes(std::span(text)));
-}
-
 /// Every method gives every rank the same error, which holds `expected`, and then works again.
 void expect_error(const std::string& expected,
                   const std::function<void(Share& share, Options& options)>& break_it,
@@ -47,8 +34,8 @@ void expect_error(const std::string& expected,
         Share broken = fine;
         Options options;
         break_it(broken, options);
-        expect_same_error(expected,
-                          [&] { balance(broken.points(), method, options, MPI_COMM_WORLD); });
+        test::expect_same_error([&] { balance(broken.points(), method, options, MPI_COMM_WORLD); },
+                                expected);
         const Balance next = balance(fine.points(), method, {}, MPI_COMM_WORLD);
         EXPECT_EQ(next.report.details.num_points, 200);
     }
@@ -131,9 +118,9 @@ TEST(Errors, a_domain_that_differs_on_any_rank) {
     for (const int faulty : {0, 1, num_ranks() / 2}) {
         PaperOptions options;
         if (rank() == faulty) options.domain = PaperDomain::points;
-        expect_same_error(
-            "domain differs between rank 0 and rank " + std::to_string(std::max(1, faulty)),
-            [&] { balance_as_in_paper(share.points(), options, MPI_COMM_WORLD); });
+        test::expect_same_error(
+            [&] { balance_as_in_paper(share.points(), options, MPI_COMM_WORLD); },
+            "domain differs between rank 0 and rank " + std::to_string(std::max(1, faulty)));
         const Balance next = balance_as_in_paper(share.points(), {}, MPI_COMM_WORLD);
         EXPECT_EQ(next.report.details.num_points, 200);
     }

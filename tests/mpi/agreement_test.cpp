@@ -52,16 +52,6 @@ TEST_F(Agreement, on_a_coordinate_that_is_no_number) {
     }
 }
 
-TEST_F(Agreement, on_an_impossible_weight) {
-    const std::vector<double> x{0, 1, 2};
-    for (const double bad : {-1.0, nan, infinity}) {
-        std::vector<double> weights(3, 1.0);
-        if (last()) weights[2] = bad;
-        expect_error(interleaved_points(x, 1, weights), {},
-                     last_rank() + "weight of point 2 is negative, NaN or infinite (1 such value");
-    }
-}
-
 TEST_F(Agreement, on_weights_whose_sum_overflows) {
     const std::vector<double> x{0, 1};
     const std::vector<double> weights(2, last() ? 1e308 : 1.0);

@@ -138,16 +138,6 @@ TEST(PaperRcb, gives_the_parts_of_a_bisection_by_sorting) {
     }
 }
 
-TEST(PaperRcb, is_within_one_point_of_ideal_at_every_cut) {
-    const Share mine = crowded_share(rank());
-    PaperOptions options;
-    options.domain = PaperDomain::points;
-    options.num_parts = 8;
-    const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
-    const auto weights = part_weights(mine.points(), result.parts, 8, MPI_COMM_WORLD);
-    for (const double weight : weights) EXPECT_NEAR(weight, 300.0 / 8 * num_ranks(), 1);
-}
-
 bool same_bits(const Cuts& a, const Cuts& b) {
     return std::ranges::equal(a.tree, b.tree, [](const Cut& one, const Cut& other) {
         return one.axis == other.axis && std::memcmp(&one.at, &other.at, sizeof one.at) == 0;
@@ -283,24 +273,6 @@ TEST(Paper, makes_one_part_per_rank_unless_asked_for_others) {
     EXPECT_EQ(result.cuts.num_parts, num_ranks());
 }
 
-TEST(Paper, leaves_parts_empty_if_there_are_fewer_points) {
-    const std::vector<double> x =
-        rank() == 0 ? std::vector<double>{1, 2, 3} : std::vector<double>();
-    for (const PaperDomain domain : domains) {
-        PaperOptions options;
-        options.domain = domain;
-        options.num_parts = 5;
-        const Balance some = balance_as_in_paper(interleaved_points(x, 1), options, MPI_COMM_WORLD);
-        EXPECT_EQ(some.report.details.surplus_parts, 2);
-        EXPECT_EQ(some.parts.size(), x.size());
-        const Balance none =
-            balance_as_in_paper(interleaved_points({}, 3), options, MPI_COMM_WORLD);
-        EXPECT_EQ(none.report.details.num_points, 0);
-        EXPECT_EQ(none.report.details.surplus_parts, 5);
-        EXPECT_EQ(none.cuts.tree.size(), 4u);
-    }
-}
-
 TEST(Paper, keeps_parts_of_size_zero_empty) {
     const Share mine = weighted_share(rank());
     for (const PaperDomain domain : domains) {
@@ -314,16 +286,6 @@ TEST(Paper, keeps_parts_of_size_zero_empty) {
             for (const Part part : result.parts) EXPECT_TRUE(part == 1 || part == 4) << part;
         }
     }
-}
-
-TEST(Paper, works_on_some_of_the_ranks) {
-    MPI_Comm half = MPI_COMM_NULL;
-    MPI_Comm_split(MPI_COMM_WORLD, rank() % 2, rank(), &half);
-    const Share mine = crowded_share(rank());
-    int size = 0;
-    MPI_Comm_size(half, &size);
-    EXPECT_EQ(balance_as_in_paper(mine.points(), {}, half).cuts.num_parts, size);
-    MPI_Comm_free(&half);
 }
 
 /// Writes "+moments -moments +gather ...".

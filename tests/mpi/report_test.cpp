@@ -78,22 +78,6 @@ TEST(Tolerance, that_nothing_reaches_is_reported_and_comes_as_near_as_exact) {
     }
 }
 
-TEST(Report, holds_the_weight_that_each_part_got) {
-    for (const Refine refine : {Refine::tolerance, Refine::exact}) {
-        for (unsigned seed = 1; seed <= 20; ++seed) {
-            const WeightedCloud cloud(seed);
-            Options options = cloud.options;
-            options.refine = refine;
-            const Balance result = balance(cloud.points(), options, {}, MPI_COMM_WORLD);
-            const auto weights =
-                part_weights(cloud.points(), result.parts, options.num_parts, MPI_COMM_WORLD);
-            ASSERT_EQ(result.report.part_weights.size(), weights.size());
-            for (std::size_t p = 0; p < weights.size(); ++p)
-                EXPECT_NEAR(result.report.part_weights[p], weights[p], 1e-12 * weights[p]);
-        }
-    }
-}
-
 TEST(Report, measures_parts_of_tiny_sizes_as_they_are) {
     // The part of a tiny size gets a point or none: its imbalance is beyond all bounds, or it is
     // empty; 0.1 told 1 from what the cuts should have left.

@@ -177,6 +177,19 @@ TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ra
         }
 }
 
+TEST(SpreadBalance, there_may_be_fewer_points_than_parts_and_none_at_all) {
+    for (const std::size_t count : {0U, 1U, 3U}) {
+        const auto mine = share_of_cloud(count, 2, uniform);
+        const Points points = interleaved_points(mine, 2);
+        const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
+        const auto weights = expect_consistent(points, result);
+        EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), 0.0), count);
+        EXPECT_LE(*std::ranges::max_element(weights), count == 3 && num_ranks() == 3 ? 2 : 1);
+        EXPECT_EQ(result.report.details.surplus_parts,
+                  std::max(0, num_ranks() - static_cast<int>(count)));
+    }
+}
+
 TEST(SpreadBalance, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
     const auto mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);

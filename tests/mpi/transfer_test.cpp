@@ -1,4 +1,5 @@
 #include "../support/ranks.hpp"
+#include "../support/same_error.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/transfer.hpp>
@@ -209,14 +210,6 @@ std::string text_of(const std::function<void()>& call) {
     }
 }
 
-void expect_on_all_ranks(const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text << " | " << part;
-    std::array<char, 512> of_root{};
-    text.copy(of_root.data(), of_root.size() - 1);
-    MPI_Bcast(of_root.data(), static_cast<int>(of_root.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
-    EXPECT_EQ(text, of_root.data());
-}
-
 TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
     if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks, so that rank 0 sends the last nothing";
     // The last rank sends to rank 1 and gets from the one before it.
@@ -231,10 +224,10 @@ TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
         TransferLimits limits;
         if (test::is_last_rank()) fault.make(wrong, column, limits);
         const std::vector<double> before = column;
-        expect_on_all_ranks(text_of([&] { transfer(wrong, column, MPI_COMM_WORLD, limits); }),
-                            "rank " + std::to_string(num_ranks() - 1) + ": ");
-        expect_on_all_ranks(text_of([&] { transfer(wrong, column, MPI_COMM_WORLD, limits); }),
-                            fault.text);
+        test::expect_same_error([&] { transfer(wrong, column, MPI_COMM_WORLD, limits); },
+                                "rank " + std::to_string(num_ranks() - 1) + ": ");
+        test::expect_same_error([&] { transfer(wrong, column, MPI_COMM_WORLD, limits); },
+                                fault.text);
         EXPECT_EQ(column, before);
         EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected);
     }
@@ -244,21 +237,22 @@ TEST(Transfer, refuses_limits_that_differ_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> values(4);
     const TransferLimits limits{test::is_last_rank() ? std::size_t{2000} : std::size_t{1000}};
-    expect_on_all_ranks(text_of([&] { transfer(shift(4), values, MPI_COMM_WORLD, limits); }),
-                        "TransferLimits::bytes differs between rank 0 and rank");
+    test::expect_same_error([&] { transfer(shift(4), values, MPI_COMM_WORLD, limits); },
+                            "TransferLimits::bytes differs between rank 0 and rank");
 }
 
 /// Fails unless columns of as many bytes are refused on all ranks if the last rank has other ones.
 void expect_refusal(const auto& columns, const auto& of_last_rank, const std::string& text) {
     const Plan lists = shift(4);
     const std::string expected = "rank " + std::to_string(num_ranks() - 1) + ": " + text;
-    expect_on_all_ranks(text_of([&] {
-                            if (test::is_last_rank())
-                                transfer(lists, of_last_rank, MPI_COMM_WORLD);
-                            else
-                                transfer(lists, columns, MPI_COMM_WORLD);
-                        }),
-                        expected);
+    test::expect_same_error(
+        [&] {
+            if (test::is_last_rank())
+                transfer(lists, of_last_rank, MPI_COMM_WORLD);
+            else
+                transfer(lists, columns, MPI_COMM_WORLD);
+        },
+        expected);
 }
 
 struct Pair {
@@ -290,9 +284,8 @@ TEST(Transfer, refuses_more_components_than_a_size_can_count) {
     for (const std::size_t components :
          {std::size_t{1} << 30, std::numeric_limits<std::size_t>::max() / 8 + 1,
           std::numeric_limits<std::size_t>::max()})
-        expect_on_all_ranks(
-            text_of([&] { transfer(none, column(empty, components), MPI_COMM_WORLD); }),
-            "a point has more bytes in these columns than a message holds");
+        test::expect_same_error([&] { transfer(none, column(empty, components), MPI_COMM_WORLD); },
+                                "a point has more bytes in these columns than a message holds");
 }
 
 TEST(Transfer, refuses_columns_without_components) {
@@ -300,8 +293,8 @@ TEST(Transfer, refuses_columns_without_components) {
     one.num_points = 1;
     for (const std::size_t num_values : {0, 1}) {
         const std::vector<double> x(num_values);
-        expect_on_all_ranks(text_of([&] { transfer(one, column(x, 0), MPI_COMM_WORLD); }),
-                            "components of a column must be 1 or more");
+        test::expect_same_error([&] { transfer(one, column(x, 0), MPI_COMM_WORLD); },
+                                "components of a column must be 1 or more");
     }
 }
 
@@ -325,8 +318,8 @@ TEST(Transfer, refuses_a_plan_of_another_communicator) {
     const Plan lists = plan(parts, num_ranks(), reversed);
     const std::vector<double> values(parts.size());
     EXPECT_FALSE(transfer(lists, values, reversed).empty());
-    expect_on_all_ranks(text_of([&] { transfer(lists, values, MPI_COMM_WORLD); }),
-                        "the plan belongs to other ranks than this communicator");
+    test::expect_same_error([&] { transfer(lists, values, MPI_COMM_WORLD); },
+                            "the plan belongs to other ranks than this communicator");
     MPI_Comm_free(&reversed);
 }
 

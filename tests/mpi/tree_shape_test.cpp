@@ -194,5 +194,38 @@ TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
     }
 }
 
+TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
+    constexpr double radius = 0.05;
+    for_each_shape([](const Machines& all, bool larger_below) {
+        const Options options = options_for(all, larger_below);
+        const std::vector<double> coordinates = cloud_here(2);
+        const Points points = interleaved_points(coordinates, 2);
+        Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
+        cuts.points = 0;  // the points stay where they are
+        const GhostPlan found = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);
+        std::vector<std::size_t> expected;
+        for (int to = 0; to < num_ranks(); ++to) {
+            for (LocalIndex i = 0; i < points.count && to != rank(); ++i) {
+                bool is_near = false;
+                for (Part part = 0; part < options.num_parts && !is_near; ++part) {
+                    const RankRange ranks = ranks_of_part(part, options.num_parts, num_ranks());
+                    if (to < ranks.first_rank || to >= ranks.first_rank + ranks.count) continue;
+                    const Box box = box_of(cuts, part);
+                    const Vector x = points.position(i);
+                    double square = 0;
+                    for (std::size_t a = 0; a < 2; ++a) {
+                        const double gap =
+                            std::max({0.0, box.lower[a] - x[a], x[a] - box.upper[a]});
+                        square += gap * gap;
+                    }
+                    is_near = square <= radius * radius;
+                }
+                if (is_near) expected.push_back(i);
+            }
+        }
+        EXPECT_EQ(found.send_indices, expected);
+    });
+}
+
 }  // namespace
 }  // namespace rrcb

@@ -362,21 +362,6 @@ def test_finds_ghosts_within_the_radii_of_receivers():
     same_error(lambda: balance.ghosts(here, radii, needs="all"), "needs must be one of sender")
 
 
-def test_images_are_outside_the_box():
-    for dtype in (np.float64, np.float32):
-        wrapped = dtype(-1e-9) + dtype(1)
-        x = np.array([0, np.nextafter(dtype(1), dtype(0)), 1, wrapped, *np.arange(1, 30) / 30], dtype)
-        balance = rrcb.balance(x[ME::RANKS, None], comm=comm)
-        here = balance.distribute(x[ME::RANKS, None])
-        ghosts = balance.ghosts(here, 0.05, period=1.0)
-        images = ghosts.fetch_positions(here)
-        assert not ((images >= 0) & (images < 1))[ghosts.shifts != 0].any()
-        every = np.concatenate([here, images])
-        apart = np.abs(x[None].astype(float) - here)
-        expected = (np.minimum(apart, 1 - apart) <= 0.05).sum(axis=1)
-        assert np.array_equal((np.abs(every.T.astype(float) - here) <= 0.05).sum(axis=1), expected)
-
-
 def test_finds_all_pairs_in_a_tilted_box():
     tilt, radius = 0.3, 0.1
     stretch = (tilt + np.sqrt(tilt**2 + 4)) / 2

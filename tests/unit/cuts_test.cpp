@@ -1,8 +1,5 @@
-#include "../support/clouds.hpp"
-
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/paper.hpp>
 
 #include <gtest/gtest.h>
 
@@ -78,58 +75,6 @@ TEST(Cuts, a_box_touches_the_parts_it_reaches_into) {
     EXPECT_EQ(parts_touching(cuts, box_2d(3, 0, 4, 2)), (std::vector<Part>{0, 1, 2}));
     EXPECT_EQ(parts_touching(cuts, box_2d(-9, -9, 9, 9)), (std::vector<Part>{0, 1, 2, 3}));
     EXPECT_TRUE(parts_touching(cuts, Box{}).empty());
-}
-
-TEST(Cuts, all_look_ups_agree_on_points_on_and_off_the_cuts) {
-    std::vector<double> cloud = test::uniform_cloud(400, 3, 31);
-    for (double& x : cloud) x = std::floor(x * 6);  // many ties
-    for (const auto dimension : {1, 2, 3}) {
-        const Points points = interleaved_points(cloud, dimension);
-        const Cuts cuts = bisect_points(mass_points(points), dimension, 7).cuts;
-        std::vector<Part> parts(points.count);
-        assign(cuts, points, parts);
-        for (LocalIndex i = 0; i < points.count; ++i) {
-            const Vector x = points.position(i);
-            EXPECT_EQ(parts[i], part_of(cuts, x));
-            const std::vector<Part> touched = parts_touching(cuts, {x, x});
-            EXPECT_EQ(touched, std::vector<Part>{parts[i]});
-            const Box box = box_of(cuts, parts[i]);
-            for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-                EXPECT_GE(x[a], box.lower[a]);
-                EXPECT_LE(x[a], box.upper[a]);
-            }
-        }
-    }
-}
-
-TEST(Cuts, columns_and_interleaved_points_are_assigned_alike) {
-    const std::vector<double> cloud = test::uniform_cloud(100, 2, 37);
-    std::vector<double> x;
-    std::vector<double> y;
-    for (std::size_t i = 0; i < cloud.size(); i += 2) {
-        x.push_back(cloud[i]);
-        y.push_back(cloud[i + 1]);
-    }
-    const std::array<std::span<const double>, 2> columns{x, y};
-    const Points points = interleaved_points(cloud, 2);
-    const Cuts cuts = bisect_points(mass_points(points), 2, 5).cuts;
-    std::vector<Part> a(100);
-    std::vector<Part> b(100);
-    assign(cuts, points, a);
-    assign(cuts, column_points(columns), b);
-    EXPECT_EQ(a, b);
-}
-
-TEST(Cuts, a_part_of_size_zero_has_no_points_and_an_empty_box) {
-    const std::vector<double> cloud = test::uniform_cloud(100, 2, 41);
-    const Points points = interleaved_points(cloud, 2);
-    const std::vector<double> sizes{0, 1, 1};
-    const Cuts cuts = bisect_points(mass_points(points), 2, 3, sizes).cuts;
-    std::vector<Part> parts(100);
-    assign(cuts, points, parts);
-    for (const Part part : parts) EXPECT_NE(part, 0);
-    const Box box = box_of(cuts, 0);
-    EXPECT_FALSE(box.lower[0] < box.upper[0] && box.lower[1] < box.upper[1]);
 }
 
 TEST(Cuts, one_part_takes_everything) {

@@ -68,24 +68,6 @@ TEST(Parts, fewer_than_ranks_are_shared_evenly_by_their_ranks) {
     }
 }
 
-TEST(Parts, of_equal_weights_are_those_of_no_weights) {
-    for (const char* refine : {"NONE", "TOLERANCE", "EXACT"})
-        for (const char* num_parts : {"5", "13"}) {
-            std::vector<int> expected;
-            for (const float weight : {0.F, 3.F, 0.1F, 0x1p-20F}) {
-                Program program;
-                scatter_points(program, 1001 / program.num_ranks);
-                std::ranges::fill(program.weights, weight);
-                if (weight > 0) program.set("OBJ_WEIGHT_DIM", "1");
-                program.set("NUM_GLOBAL_PARTS", num_parts);
-                program.set("RRCB_REFINE", refine);
-                const std::vector<int> parts = parts_by_object(partition_with(program, "RRCB"));
-                if (weight == 0) expected = parts;
-                EXPECT_EQ(parts, expected) << refine << ", weight " << weight;
-            }
-        }
-}
-
 TEST(Parts, have_RRCB_MIN_POINTS_objects_or_none) {
     for (const int count : {0, 1, 2, 39, 40})
         for (const int least : {1, 10, 64}) {
@@ -271,20 +253,6 @@ TEST(Parts, of_zero_size_hold_all_objects_where_there_is_one_part) {
         const Outcome outcome = partition_with(program, method);
         EXPECT_EQ(outcome.code, ZOLTAN_OK) << method;
         EXPECT_EQ(outcome.exports.parts, std::vector<int>(50, 0)) << method;
-    }
-}
-
-TEST(Parts, more_than_objects_stay_empty) {
-    Program program;
-    if (program.rank == 0) {
-        program.add({0, 0});
-        program.add({1, 1});
-    }
-    program.set("NUM_GLOBAL_PARTS", "5");
-    const Outcome outcome = partition_with(program, "RRCB");
-    EXPECT_EQ(outcome.code, ZOLTAN_OK);
-    if (program.rank == 0) {
-        EXPECT_NE(outcome.exports.parts[0], outcome.exports.parts[1]);
     }
 }
 

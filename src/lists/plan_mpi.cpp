@@ -113,7 +113,7 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
     agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
     exchange.run(self);
     list_imports(exchange, result);
-    result.group = mpi::group_of(self.comm);
+    result.group = self.group();
     result.stamp = next_stamp();
     return result;
 }

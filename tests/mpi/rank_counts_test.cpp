@@ -41,7 +41,7 @@ std::vector<RankCount> sparse(const std::vector<std::uint64_t>& counts) {
 }
 
 TEST(RankCounts, are_those_of_each_pair_call_after_call) {
-    Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+    Participant self{mpi::enter(MPI_COMM_WORLD, CallName::none).comm};
     for (int round = 0; round < 60; ++round) {
         const std::vector<std::uint64_t> to = counts_in(round);
         std::vector<std::uint64_t> from(to.size());
@@ -59,7 +59,7 @@ TEST(RankCounts, are_those_of_each_pair_call_after_call) {
 
 TEST(RankCounts, of_a_rank_that_failed_before_are_not_awaited) {
     for (int failing = 0; failing < num_ranks(); ++failing) {
-        Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+        Participant self{mpi::enter(MPI_COMM_WORLD, CallName::none).comm};
         if (rank() == failing) self.failure = failure_of(ErrorCode::internal, "broken");
         try {
             exchange_counts({}, self);
@@ -81,7 +81,7 @@ TEST(RankCounts, that_contradict_a_plan_are_told_of_where_nothing_else_failed) {
     };
     const std::string last = std::to_string(num_ranks() - 1);
     for (const bool only : {true, false}) {
-        Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+        Participant self{mpi::enter(MPI_COMM_WORLD, CallName::none).comm};
         if (!only && test::is_last_rank())
             self.attempt([] { throw Error(ErrorCode::internal, "broken"); });
         self.compare([] { throw Error(ErrorCode::invalid_argument, "other counts"); });

@@ -3,7 +3,6 @@
 #include "collective/butterfly_mpi.hpp"
 #include "collective/communicator.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -37,12 +36,8 @@ std::vector<RankCount> exchange_counts(std::span<const RankCount> to, Participan
                                        Flags* flags) {
     Butterfly butterfly(mpi::rank_of(self.comm), mpi::size_of(self.comm), nullptr);
     self.attempt([&] { add_counts(to, butterfly); });
-    // On the stack, to receive even if no memory is left.
-    std::array<double, 1024> buffer;
-    const auto piece =
-        std::span(buffer).first(std::min(buffer.size(), mpi::longest_message / sizeof(double)));
-    ButterflyMessages(piece).run(butterfly, Butterfly::to_owners,
-                                 flags != nullptr ? *flags : Flags{}, self);
+    ButterflyMessages messages;
+    messages.run(butterfly, Butterfly::to_owners, flags != nullptr ? *flags : Flags{}, self);
     if (flags != nullptr) *flags = butterfly.flags();
     std::vector<RankCount> from;
     self.attempt([&] { from = counts_in(butterfly); });

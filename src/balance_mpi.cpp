@@ -92,7 +92,7 @@ Balance balance_once(PointPasses& points, const Options& options, const Cuts* pr
                      bool may_keep, Participant& self) {
     Balance result = previous ? balance_from_earlier(points, options, *previous, may_keep, self)
                               : balance_from_scratch(points, options, may_keep, self);
-    result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;
+    result.cuts.group = mpi::size_of(self.comm) > 1 ? self.group() : 0;
     return result;
 }
 

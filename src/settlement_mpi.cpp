@@ -282,8 +282,8 @@ void assign(Call& call, bool counts, Participant& self) {
 
 void prepare_to_settle(Call& call, bool counts, const Participant& self) {
     const bool is_searched = is_refined(call.options);
-    if (!call.is_spread && (is_searched || counts))
-        call.sums = PartSums(call.options.part_sizes.size());
+    if (is_searched || counts)
+        call.sums = PartSums(call.is_spread ? 0 : call.options.part_sizes.size());
     if (is_searched) call.refinement.emplace(call, self);
 }
 

@@ -18,8 +18,11 @@ struct Call;
 /// Weights of the parts: of this rank's points, and their sums over all ranks.
 class PartSums {
   public:
-    /// Makes the buffers of add_up(). Not collective. Throws std::bad_alloc.
-    explicit PartSums(std::size_t num_parts = 0) : here_(num_parts + 1), sums_(num_parts + 2) {}
+    PartSums() = default;
+
+    /// Makes the buffers of add_up(), which other functions need too. Not collective. Throws
+    /// std::bad_alloc.
+    explicit PartSums(std::size_t num_parts) : here_(num_parts + 1), sums_(num_parts + 2) {}
 
     /// Returns the weights of this rank's points in each part, to be written before each add_up().
     std::span<double> here() { return std::span(here_).first(here_.size() - 1); }

@@ -72,10 +72,6 @@ std::string difference(std::string_view name, std::string_view fix, int rank, in
            " and rank " + std::to_string(std::max(rank, other)) + "; " + std::string(fix);
 }
 
-void agree(Participant& self) {
-    agree(self, {});
-}
-
 void agree(Participant& self, std::initializer_list<Shared> arguments) {
     std::array<Shared, most_shared> compared;
     std::ranges::copy(arguments, compared.begin());

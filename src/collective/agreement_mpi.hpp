@@ -17,13 +17,6 @@ namespace rrcb {
 
 inline constexpr int root = 0;
 
-/// Throws the same Error on every rank if any rank has failed since the last agreement.
-///
-/// The Error is that of the lowest rank whose failure no other one caused, or else of the lowest
-/// failing rank. Collective: one reduction; if it is the meeting of the call, up the MergeTree and
-/// by a broadcast, R - 1 messages each.
-void agree(Participant& self);
-
 /// Argument that must be the same on every rank, except on those that need none.
 struct Shared {
     std::string_view name;
@@ -38,11 +31,14 @@ Shared weights_given(const Points& points);
 /// Returns the text of the Error for an argument that differs between two ranks.
 std::string difference(std::string_view name, std::string_view fix, int rank, int other);
 
-/// Agrees, and throws also if one of `arguments` differs between the ranks.
+/// Throws the same Error on every rank if any rank has failed since the last agreement, or if one
+/// of `arguments` differs between the ranks.
 ///
-/// Collective as agree(). All ranks name the same arguments, twelve at most. The messages that
-/// follow may depend on them.
-void agree(Participant& self, std::initializer_list<Shared> arguments);
+/// The Error is that of the lowest rank whose failure no other one caused, or else of the lowest
+/// failing rank. Collective: one reduction; if it is the meeting of the call, up the MergeTree and
+/// by a broadcast, R - 1 messages each. All ranks name the same arguments, twelve at most. The
+/// messages that follow may depend on them.
+void agree(Participant& self, std::initializer_list<Shared> arguments = {});
 
 /// As above. Gives ranks that need no argument the value of the others, or 0.
 void agree(Participant& self, std::span<Shared> arguments);

@@ -5,27 +5,26 @@
 namespace rrcb {
 
 Butterfly::Butterfly(int rank, int num_ranks, Join join, Way way)
-    : rank_(rank), num_ranks_(num_ranks), join_(join), way_(way), halves_(halves_of(0, num_ranks)) {
-    const auto goes_on = [&] { return way == Way::spread || halves_.begin == 0; };
-    while (halves_.end - halves_.begin > 1 && goes_on()) halves_at(++num_steps_);
+    : rank_(rank), num_ranks_(num_ranks), join_(join), way_(way) {
+    const auto goes_on = [way](const Halves& halves) {
+        return halves.end - halves.begin > 1 && (way == Way::spread || halves.begin == 0);
+    };
+    while (goes_on(halves_at(num_steps_))) ++num_steps_;
 }
 
-const Butterfly::Halves& Butterfly::halves_at(int step) {
-    if (step < step_of_halves_) {
-        step_of_halves_ = 0;
-        halves_ = halves_of(0, num_ranks_);
+Butterfly::Halves Butterfly::halves_at(int step) const {
+    Halves halves = halves_of(0, num_ranks_);
+    // This rank is always in `halves`. Without branches, because the half is unpredictable.
+    for (; step > 0; --step) {
+        const bool is_below = rank_ < halves.middle;
+        halves = halves_of(is_below ? halves.begin : halves.middle,
+                           is_below ? halves.middle : halves.end);
     }
-    // This rank is always in `halves_`. Without branches, because the half is unpredictable.
-    for (; step_of_halves_ < step; ++step_of_halves_) {
-        const bool is_below = rank_ < halves_.middle;
-        halves_ = halves_of(is_below ? halves_.begin : halves_.middle,
-                            is_below ? halves_.middle : halves_.end);
-    }
-    return halves_;
+    return halves;
 }
 
-Butterfly::Links Butterfly::links(int step, Direction direction) {
-    const Halves& halves = halves_at(step);
+Butterfly::Links Butterfly::links(int step, Direction direction) const {
+    const Halves halves = halves_at(step);
     const int mirror = halves.begin + (halves.end - 1 - rank_);
     const bool to = direction == to_owners;
     if (is_central()) {
@@ -70,19 +69,15 @@ void Butterfly::append_to_message(const Record& record) {
 
 /// Moves the records whose owner is in the other half into the message.
 void Butterfly::hand_over(int step) {
-    const Halves& halves = halves_at(step);
-    const bool is_below = rank_ < halves.middle;
-    const int begin = is_below ? halves.begin : halves.middle;
-    const int end = is_below ? halves.middle : halves.end;
-    // Mostly true if points are near the ranks of their parts.
-    if (held_.are_owned_between(begin, end)) return;
+    const Halves own = halves_at(step + 1);
     const auto stays_here = [&](const Record& record) {
-        return begin <= record.owner && record.owner < end;
+        return own.begin <= record.owner && record.owner < own.end;
     };
     held_.for_each([&](const Record& record) {
         if (!stays_here(record)) append_to_message(record);
     });
-    held_.keep(stays_here);
+    // Mostly empty if points are near the ranks of their parts.
+    if (!message_.empty()) held_.keep(stays_here);
 }
 
 /// Adds the answers to the records that a rank sent in a step to the message.
@@ -90,12 +85,10 @@ void Butterfly::reply(int step, int rank) {
     const auto asked = std::ranges::find_if(
         asked_, [&](const Asked& one) { return one.step == step && one.rank == rank; });
     if (asked == asked_.end()) return;
-    std::size_t next = asked->begin;
-    for (RecordReader reader = answers_.read(); !reader.at_end() && next < asked->end;) {
-        const Record answer = reader.next();
-        while (next < asked->end && keys_asked_[next] < answer.key) ++next;
-        if (next < asked->end && keys_asked_[next] == answer.key) append_to_message(answer);
-    }
+    const std::span keys(keys_asked_.begin() + asked->begin, keys_asked_.begin() + asked->end);
+    answers_.for_each([&](const Record& answer) {
+        if (std::ranges::binary_search(keys, answer.key)) append_to_message(answer);
+    });
 }
 
 void Butterfly::hear(std::span<const double> message) {
@@ -123,24 +116,17 @@ Records Butterfly::merged(RecordReader mine, RecordReader others) const {
     Records result;
     // Records that add up leave the rest of this memory untouched.
     result.reserve_bytes(mine.words().size_bytes() + others.words().size_bytes());
-    Record a{};
-    Record b{};
-    bool has_a = !mine.at_end();
-    bool has_b = !others.at_end();
-    if (has_a) a = mine.next();
-    if (has_b) b = others.next();
-    // The result has all records before `a` and before `b`.
-    while (has_a || has_b) {
-        const bool takes_a = has_a && (!has_b || a.key <= b.key);
-        const bool takes_b = !takes_a || (has_b && b.key == a.key && join_ != nullptr);
-        if (takes_a && takes_b) {
-            result.append_joined(a, b, join_);
+    // The result has all records before the next ones.
+    while (!mine.at_end() && !others.at_end()) {
+        if (join_ != nullptr && mine.key() == others.key()) {
+            const Record a = mine.next();
+            result.append_joined(a, others.next(), join_);
         } else {
-            result.append(takes_a ? a : b);
+            result.append(mine.key() <= others.key() ? mine.next() : others.next());
         }
-        if (takes_a && (has_a = !mine.at_end())) a = mine.next();
-        if (takes_b && (has_b = !others.at_end())) b = others.next();
     }
+    for (RecordReader* rest : {&mine, &others})
+        while (!rest->at_end()) result.append(rest->next());
     return result;
 }
 

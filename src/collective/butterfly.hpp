@@ -3,6 +3,7 @@
 #include "collective/failure.hpp"
 #include "collective/records.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -18,7 +19,7 @@ namespace rrcb {
 using Flags = std::array<double, 4>;
 
 inline void mark_failed(Flags& flags, int rank, int num_ranks, bool may_follow = false) {
-    flags[0] = (may_follow ? 1.0 : 2.0) * num_ranks - rank;
+    flags[0] = std::max(flags[0], (may_follow ? 1.0 : 2.0) * num_ranks - rank);
 }
 
 /// Returns the rank whose failure is reported, or no_rank.
@@ -82,7 +83,7 @@ class Butterfly {
     int num_steps() const { return num_steps_; }
 
     /// The same step means the same halving on all ranks in it.
-    Links links(int step, Direction direction);
+    Links links(int step, Direction direction) const;
 
     /// Forgets all records and answers.
     void clear();
@@ -148,8 +149,7 @@ class Butterfly {
         std::size_t end;
     };
 
-    /// Starts from the halves of the last call, if these are not of a later step.
-    const Halves& halves_at(int step);
+    Halves halves_at(int step) const;
     void hand_over(int step);
     void reply(int step, int rank);
     void append_to_message(const Record& record);
@@ -161,8 +161,6 @@ class Butterfly {
     Join join_;
     Way way_;
     int num_steps_ = 0;
-    Halves halves_;
-    int step_of_halves_ = 0;
     Flags flags_{};
     Records held_;
     Records answers_;

@@ -9,9 +9,6 @@ namespace rrcb {
 
 namespace {
 
-/// Doubles in one MPI message, unless the caller gives another buffer.
-constexpr std::size_t usual_length = 8192;
-
 std::size_t num_pieces(std::size_t length, std::size_t most_in_piece) {
     return (length + most_in_piece - 1) / most_in_piece;
 }
@@ -22,15 +19,9 @@ std::span<const double> piece_of(std::span<const double> message, std::size_t nu
     return message.subspan(first, std::min(most_in_piece, message.size() - first));
 }
 
-Flags joined(Flags flags, const Flags& others) {
-    for (std::size_t k = 0; k < flags.size(); ++k) flags[k] = std::max(flags[k], others[k]);
-    return flags;
-}
-
-Flags failed_flags(const Butterfly& butterfly, const Participant& self) {
-    Flags flags{};
-    mark_failed(flags, butterfly.rank(), butterfly.num_ranks(), self.failure.may_follow);
-    return flags;
+void add_failure(Flags& flags, const Butterfly& butterfly, const Participant& self) {
+    if (self.failed())
+        mark_failed(flags, butterfly.rank(), butterfly.num_ranks(), self.failure.may_follow);
 }
 
 void begin_to_send(std::span<const double> piece, int to, MPI_Request& request, Participant& self) {
@@ -41,15 +32,20 @@ void begin_to_send(std::span<const double> piece, int to, MPI_Request& request, 
 
 }  // namespace
 
-ButterflyMessages::ButterflyMessages()
-    : own_buffer_(std::make_unique_for_overwrite<double[]>(usual_length)),
-      piece_(own_buffer_.get(), usual_length) {}
+std::span<double> ButterflyMessages::piece() {
+    return std::span(piece_).first(std::min(piece_.size(), mpi::longest_message / sizeof(double)));
+}
 
 void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags,
                             Participant& self) {
-    if (self.failed()) flags = joined(flags, failed_flags(butterfly, self));
-    if (butterfly.is_central() && direction == Butterfly::back)
-        flags = butterfly.rank() == root ? joined(flags, {butterfly.flags()[0]}) : Flags{};
+    add_failure(flags, butterfly, self);
+    if (butterfly.is_central() && direction == Butterfly::back) {
+        if (butterfly.rank() == root) {
+            flags[0] = std::max(flags[0], butterfly.flags()[0]);
+        } else {
+            flags = {};
+        }
+    }
     butterfly.start(flags);
     const int num_steps = butterfly.num_steps();
     for (int k = 0; k < num_steps; ++k) {
@@ -73,16 +69,20 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
     if (self.failed()) {
         // On the way to rank 0 a rank sends after it has received everything, so that failures
         // reach rank 0.
-        if (butterfly.is_central() && direction == Butterfly::to_owners)
-            butterfly.start(joined(failed_flags(butterfly, self), butterfly.flags()));
+        if (butterfly.is_central() && direction == Butterfly::to_owners) {
+            Flags flags = butterfly.flags();
+            add_failure(flags, butterfly, self);
+            butterfly.start(flags);
+        }
         butterfly.pack_nothing();
     }
     const std::span<const double> sent = butterfly.message();
-    const std::size_t num_sent = link.sends ? num_pieces(sent.size(), piece_.size()) : 0;
+    const std::size_t longest = piece().size();
+    const std::size_t num_sent = link.sends ? num_pieces(sent.size(), longest) : 0;
     std::size_t num_received = link.receives ? 1 : 0;
     for (std::size_t k = 0; k < num_sent || k < num_received; ++k) {
         MPI_Request request = MPI_REQUEST_NULL;
-        if (k < num_sent) begin_to_send(piece_of(sent, k, piece_.size()), link.rank, request, self);
+        if (k < num_sent) begin_to_send(piece_of(sent, k, longest), link.rank, request, self);
         if (k < num_received) num_received = receive(k, link.rank, self);
         wait(request, "MPI_Wait", self);
     }
@@ -93,19 +93,20 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
 
 /// Receives a piece of a message, even without memory to keep it; returns the number of pieces.
 std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant& self) {
-    std::fill_n(piece_.begin(), head_.size(), 0.0);
-    rrcb::receive(std::as_writable_bytes(piece_), from, mpi::butterfly_tag, self);
+    const std::span<double> piece = this->piece();
+    std::fill_n(piece.begin(), head_.size(), 0.0);
+    rrcb::receive(std::as_writable_bytes(piece), from, mpi::butterfly_tag, self);
     if (number == 0) {
-        std::copy_n(piece_.begin(), head_.size(), head_.begin());
+        std::copy_n(piece.begin(), head_.size(), head_.begin());
         arrived_.clear();
     }
     const auto length = std::max(static_cast<std::size_t>(head_[0]), head_.size());
     self.attempt([&] {
         if (number == 0) arrived_.reserve(length);
-        const std::size_t size = std::min(piece_.size(), length - number * piece_.size());
-        arrived_.insert(arrived_.end(), piece_.begin(), piece_.begin() + size);
+        const std::size_t size = std::min(piece.size(), length - number * piece.size());
+        arrived_.insert(arrived_.end(), piece.begin(), piece.begin() + size);
     });
-    return num_pieces(length, piece_.size());
+    return num_pieces(length, piece.size());
 }
 
 }  // namespace rrcb

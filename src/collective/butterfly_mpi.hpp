@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,18 +13,6 @@ namespace rrcb {
 /// Sends and receives the messages of butterflies.
 class ButterflyMessages {
   public:
-    /// Sends pieces of 64 kB at most. Not collective. Throws std::bad_alloc.
-    ButterflyMessages();
-
-    /// Sends pieces as long as the buffer: the same on all ranks, and at least a head. Not
-    /// collective. Never throws. The buffer outlives it.
-    explicit ButterflyMessages(std::span<double> buffer) : piece_(buffer) {}
-
-    ButterflyMessages(const ButterflyMessages&) = delete;
-    ButterflyMessages& operator=(const ButterflyMessages&) = delete;
-    ButterflyMessages(ButterflyMessages&&) = default;
-    ButterflyMessages& operator=(ButterflyMessages&&) = default;
-
     /// Runs a pass of records to their owners, or of answers back; `flags` of this rank are joined
     /// to those of all ranks in `butterfly`.
     ///
@@ -46,8 +33,10 @@ class ButterflyMessages {
 
     std::size_t receive(std::size_t number, int from, Participant& self);
 
-    std::unique_ptr<double[]> own_buffer_;
-    std::span<double> piece_;                            ///< the latest piece
+    /// Returns the memory of a piece: no longer than tests allow, and at least a head.
+    std::span<double> piece();
+
+    std::array<double, 8192> piece_;                     ///< the latest piece
     std::vector<double> arrived_;                        ///< the message of the latest piece
     std::array<double, Butterfly::head_length> head_{};  ///< of `arrived_`
 };

@@ -88,6 +88,9 @@ struct CallLog {
     };
 
     MPI_Comm comm = MPI_COMM_NULL;  ///< the duplicate; null once it is freed
+    /// Number of the processes of `comm` and their order, never 0 in a call: the same for congruent
+    /// communicators, otherwise another one.
+    std::uint64_t group = 0;
     CallRecord mine{};
     bool is_meeting = false;  ///< the latest call has not met the other ranks yet
     End end = End::none;

@@ -12,10 +12,7 @@ namespace rrcb::mpi {
 /// Kind of a message between two ranks, on the duplicate of a communicator.
 ///
 /// Ranks may run ahead into the next call, so a tag distinguishes kinds. Within a kind, a call
-/// receives every message sent to it and names the sender, so that MPI keeps the order. Only an
-/// Exchange receives from any rank. A butterfly announces its records, and no rank leaves the
-/// butterfly before all have entered it. So no rank sends in an Exchange before all have entered
-/// it, and have received all messages of the one before.
+/// receives every message sent to it and names the sender, so that MPI keeps the order.
 ///
 /// In the meeting at the beginning of a call, the tags also contain the call: see CallLog::tag().
 enum Tag : int {

@@ -1,7 +1,6 @@
 #include "collective/deadline_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "collective/failure.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -14,6 +13,14 @@
 namespace rrcb {
 
 using namespace std::chrono_literals;
+
+namespace {
+
+/// Tests of a request in which ranks that run at the same time complete it. Each yield to a busy
+/// thread may take milliseconds.
+constexpr int tests_without_yield = 100;
+
+}  // namespace
 
 std::optional<double> agree_seconds() {
     const char* text = std::getenv("RRCB_AGREE_SECONDS");
@@ -36,6 +43,17 @@ void pause(std::chrono::duration<double> waited) {
 
 Deadline::Deadline(MPI_Comm comm, int tag, std::chrono::duration<double> limit, bool answers)
     : comm_(comm), tag_(tag), limit_(limit), answers_(answers), end_(limit) {}
+
+bool Deadline::complete(MPI_Request& request, Participant& self) {
+    for (int tests = 1;; ++tests) {
+        int is_done = 0;
+        const int code = MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+        self.check(code, "MPI_Test");
+        if (is_done != 0 || code != MPI_SUCCESS) return true;
+        if (is_missed()) return false;
+        if (tests >= tests_without_yield) pause(waited());
+    }
+}
 
 bool Deadline::is_missed() {
     if (limit_.count() == 0) return false;

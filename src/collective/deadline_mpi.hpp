@@ -1,5 +1,7 @@
 #pragma once
 
+#include "collective/participant.hpp"
+
 #include <mpi.h>
 
 #include <chrono>
@@ -29,6 +31,11 @@ class Deadline {
     /// `limit` 0 means none. If it `answers`, it calls the roll as soon as another rank does, so
     /// that a late rank is not missed; then the tag is the library's own.
     Deadline(MPI_Comm comm, int tag, std::chrono::duration<double> limit, bool answers);
+
+    /// Completes a nonblocking collective call. Returns false if some ranks take no part in it;
+    /// then the call is left pending, and its buffers must stay. Holds back errors of MPI in
+    /// `self`.
+    bool complete(MPI_Request& request, Participant& self);
 
     /// Returns true if some ranks take no part. If all do, some only being slow, there is no limit
     /// any more. Not collective. Never throws; without memory there is no limit.

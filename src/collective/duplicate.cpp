@@ -20,18 +20,12 @@ namespace {
 
 /// Freed with the communicator that it is kept with, unless messages on it are left pending.
 struct Duplicate {
-    MPI_Comm comm = MPI_COMM_NULL;
     std::shared_ptr<CallLog> log = std::make_shared<CallLog>();
 
     ~Duplicate() {
-        log->comm = MPI_COMM_NULL;
+        MPI_Comm comm = std::exchange(log->comm, MPI_COMM_NULL);
         if (comm != MPI_COMM_NULL && log->end == CallLog::End::none) MPI_Comm_free(&comm);
     }
-};
-
-/// Number of the processes of a communicator, in their order.
-struct Group {
-    std::uint64_t number = 0;
 };
 
 /// Returns a random number of this process.
@@ -81,11 +75,7 @@ void duplicate(MPI_Comm user, CallName call, MPI_Comm& comm, Participant& self) 
     MPI_Request request = MPI_REQUEST_NULL;
     self.check(MPI_Comm_idup(user, made.get(), &request), "MPI_Comm_idup");
     Deadline deadline(user, roll_call_tag_of_user, agree_limit(), false);
-    for (int is_done = 0; is_done == 0; pause(deadline.waited())) {
-        const int code = MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
-        self.check(code, "MPI_Test");
-        if (code != MPI_SUCCESS) break;
-        if (is_done != 0 || !deadline.is_missed()) continue;
+    if (!deadline.complete(request, self)) {
         made.release();
         auto kept = std::make_unique<Duplicate>();
         CallLog& log = *kept->log;
@@ -107,9 +97,9 @@ Duplicate& make(MPI_Comm user, CallName call) {
     const std::uint64_t group = make_group(self);
     self.attempt([&] {
         check(MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-        Attribute<Group>::keep(std::make_unique<Group>(group), comm);
         kept = Attribute<Duplicate>::keep(std::make_unique<Duplicate>(), user);
-        kept->comm = kept->log->comm = comm;
+        kept->log->comm = comm;
+        kept->log->group = group;
     });
     try {
         agree(self);
@@ -122,15 +112,6 @@ Duplicate& make(MPI_Comm user, CallName call) {
         throw;
     }
     return *kept;
-}
-
-Duplicate& find_or_make(MPI_Comm user, CallName call) {
-    check_is_running();
-    if (user == MPI_COMM_NULL)
-        throw Error(ErrorCode::invalid_argument,
-                    "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
-    Duplicate* found = kept_with(user);
-    return found != nullptr ? *found : make(user, call);
 }
 
 }  // namespace
@@ -151,26 +132,22 @@ void check_is_running() {
 
 const MPI_Comm* find_duplicate(MPI_Comm user) {
     const Duplicate* found = Attribute<Duplicate>::find(user);
-    return found != nullptr && found->log->end == CallLog::End::none ? &found->comm : nullptr;
-}
-
-MPI_Comm duplicate_of(MPI_Comm user) {
-    return find_or_make(user, CallName::none).comm;
+    return found != nullptr && found->log->end == CallLog::End::none ? &found->log->comm : nullptr;
 }
 
 Participant enter(MPI_Comm user, CallName call) {
-    const Duplicate& kept = find_or_make(user, call);
+    check_is_running();
+    if (user == MPI_COMM_NULL)
+        throw Error(ErrorCode::invalid_argument,
+                    "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
+    Duplicate* found = kept_with(user);
+    const Duplicate& kept = found != nullptr ? *found : make(user, call);
     kept.log->begin(call);
-    return {kept.comm, kept.log};
-}
-
-std::uint64_t group_of(MPI_Comm duplicate) {
-    const Group* found = Attribute<Group>::find(duplicate);
-    return found != nullptr ? found->number : 0;
+    return {kept.log->comm, kept.log};
 }
 
 void require_group(std::uint64_t group, const char* made, const Participant& self) {
-    const std::uint64_t here = group_of(self.comm);
+    const std::uint64_t here = self.group();
     if (group == 0 || here == 0 || group == here) return;
     throw Error(ErrorCode::invalid_argument,
                 std::string(made) +

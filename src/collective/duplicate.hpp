@@ -8,21 +8,16 @@
 
 namespace rrcb::mpi {
 
-/// Begins a collective call with a communicator of the caller's, on its duplicate.
+/// Begins a collective call with a communicator of the caller's, on a duplicate that is only for
+/// the library's messages; errors on it return. It is kept with `user`, and freed with it.
 ///
-/// Collective as duplicate_of(). If ranks begin different calls, the meeting of the call throws
-/// Error. After RRCB_AGREE_SECONDS without some ranks, this call throws Error, or the meeting does,
-/// and so does each later call.
-Participant enter(MPI_Comm user, CallName call);
-
-/// Returns the duplicate kept with `user`, only for the library's messages; errors on it return.
-/// Freed with `user`.
-///
-/// Collective over `user` in the first call with it: a reduction for group_of(), and one more, so
+/// Collective over `user` in the first call with it: a reduction for the group, and one more, so
 /// that all ranks throw the same Error if one of them fails; then nothing is kept. Throws Error on
 /// every rank, without a message, for MPI_COMM_NULL, intercommunicators, and outside of MPI_Init
-/// and MPI_Finalize.
-MPI_Comm duplicate_of(MPI_Comm user);
+/// and MPI_Finalize. If ranks begin different calls, the meeting of the call throws Error. After
+/// RRCB_AGREE_SECONDS without some ranks, this call throws Error, or the meeting does, and so does
+/// each later call.
+Participant enter(MPI_Comm user, CallName call);
 
 /// Returns false before MPI_Init and after MPI_Finalize.
 bool is_running();
@@ -32,11 +27,6 @@ void check_is_running();
 
 /// Returns the duplicate kept with `user`, or null. Not collective.
 const MPI_Comm* find_duplicate(MPI_Comm user);
-
-/// Returns a number of the processes of a duplicate and their order, never 0: the same for
-/// congruent communicators, otherwise another one. Not collective. Returns 0 for a communicator
-/// that duplicate_of() has not made.
-std::uint64_t group_of(MPI_Comm duplicate);
 
 /// Throws Error if `group` is known, and not that of this communicator. Not collective.
 void require_group(std::uint64_t group, const char* made, const Participant& self);

@@ -15,7 +15,7 @@ namespace rrcb {
 /// Memory for records.
 struct ExchangeBuffers {
     detail::Uninitialized<std::byte> outbox{};  ///< sorted by rank
-    detail::Uninitialized<std::byte> inbox{};   ///< in the order of arrival
+    detail::Uninitialized<std::byte> inbox{};   ///< likewise
 };
 
 /// Sends records of one size from any rank to any rank.
@@ -34,7 +34,8 @@ class Exchange {
     template <class Write>
     void fill(std::span<const int> destinations, Write&& write) {
         RankOrder order(destinations, num_ranks_);
-        make_outbox(order.counts(), destinations.size());
+        buffers_.outbox.resize(record_bytes_ * destinations.size());
+        to_ = order.counts();
         order.for_each([write, bytes = record_bytes_, outbox = buffers_.outbox.data()](
                            std::size_t k, std::size_t place) { write(k, outbox + bytes * place); });
     }
@@ -42,8 +43,7 @@ class Exchange {
     /// Announces the records to their ranks. Allocates memory for those to this rank, and returns
     /// their number.
     ///
-    /// Collective: one reduction, which no rank leaves before all have entered it; see mpi::Tag.
-    /// A rank that failed before sends nothing.
+    /// Collective as exchange_counts().
     std::size_t announce(Participant& self);
 
     /// Sends and receives, after the ranks agreed that all have memory.
@@ -55,34 +55,25 @@ class Exchange {
     /// Calls read(source, place) for every record received: by rank, in the order written there.
     template <class Read>
     void for_each(Read&& read) const {
-        for (const auto& [source, first, count] : arrived_) {
-            const std::byte* place = buffers_.inbox.data() + record_bytes_ * first;
-            for (std::size_t left = count; left > 0; --left, place += record_bytes_)
+        const std::byte* place = buffers_.inbox.data();
+        for (const auto& [source, count] : from_)
+            for (LocalIndex left = count; left > 0; --left, place += record_bytes_)
                 read(source, place);
-        }
     }
 
     /// Returns the memory, for another exchange; this one is over.
     ExchangeBuffers take_memory() { return std::move(buffers_); }
 
   private:
-    /// Records of one rank in the inbox.
-    struct Message {
-        int source;
-        std::size_t first;
-        std::size_t count;
-    };
-
-    void make_outbox(std::vector<RankCount> counts, std::size_t num_records);
-    std::size_t most_records() const;
-    void send_all(Participant& self);
-    void receive_all(Participant& self);
+    std::size_t longest_message() const;
+    template <class Begin>
+    void begin_all(std::span<const RankCount> counts, Begin&& begin);
 
     std::size_t record_bytes_;
     int num_ranks_;
-    std::vector<RankCount> counts_;  ///< records for each rank that gets some
+    std::vector<RankCount> to_;    ///< records for each rank that gets some
+    std::vector<RankCount> from_;  ///< records of each rank that has some for this one
     ExchangeBuffers buffers_;
-    std::vector<Message> arrived_;
     std::vector<MPI_Request> requests_;
 };
 

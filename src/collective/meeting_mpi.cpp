@@ -27,12 +27,6 @@ void wait(MPI_Request& request, const char* call, Participant& self) {
 
 void receive(std::span<std::byte> bytes, int from, mpi::Tag kind, Participant& self) {
     const auto count = static_cast<int>(bytes.size());
-    if (!self.is_meeting()) {
-        self.check(
-            MPI_Recv(bytes.data(), count, MPI_BYTE, from, kind, self.comm, MPI_STATUS_IGNORE),
-            "MPI_Recv");
-        return;
-    }
     MPI_Request request = MPI_REQUEST_NULL;
     self.check(MPI_Irecv(bytes.data(), count, MPI_BYTE, from, self.tag(kind), self.comm, &request),
                "MPI_Irecv");

@@ -37,6 +37,9 @@ struct Participant {
     /// Returns the tag of messages between two ranks, which during the meeting contains the call.
     int tag(mpi::Tag kind) const { return is_meeting() ? log->tag(kind) : kind; }
 
+    /// Returns CallLog::group, 0 if it is not known.
+    std::uint64_t group() const { return log ? log->group : 0; }
+
     bool failed() const { return failure.failed; }
     bool can_go_on() const { return !failed() && failing_there == no_rank; }
 

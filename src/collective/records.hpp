@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,10 +29,12 @@ class RecordReader {
     /// Returns the doubles of all records that were not read.
     std::span<const double> words() const { return words_; }
 
+    /// Returns the key of the next record.
+    Key key() const { return std::bit_cast<Key>(words_[0]); }
+
     Record next() {
         const auto [owner, length] = std::bit_cast<Head>(words_[1]);
-        const Record record{std::bit_cast<Key>(words_[0]), owner,
-                            words_.subspan(head_length, length)};
+        const Record record{key(), owner, words_.subspan(head_length, length)};
         words_ = words_.subspan(head_length + length);
         return record;
     }
@@ -62,28 +63,17 @@ inline void append_record(std::vector<double>& words, const Record& record) {
     words.insert(words.end(), record.payload.begin(), record.payload.end());
 }
 
-/// Records, one after the other, and the range of ranks of their owners.
+/// Records, one after the other.
 class Records {
   public:
-    void clear() {
-        words_.clear();
-        forget_notes();
-    }
+    void clear() { words_.clear(); }
     bool empty() const { return words_.empty(); }
-
-    /// Returns true if the owners of all records are ranks from `begin` to before `end`.
-    bool are_owned_between(int begin, int end) const {
-        return begin <= lowest_owner_ && highest_owner_ < end;
-    }
 
     /// Allocates memory for so many bytes of records. Throws std::bad_alloc.
     void reserve_bytes(std::size_t size) { words_.reserve(size / sizeof(double)); }
 
     /// Throws std::bad_alloc; then the record is not there.
-    void append(const Record& record) {
-        append_record(words_, record);
-        note(record);
-    }
+    void append(const Record& record) { append_record(words_, record); }
 
     /// Appends a record with the key of two others, and the payload that join(a, b, joined) appends
     /// to `joined`. Throws std::bad_alloc; then all records here are void.
@@ -99,16 +89,11 @@ class Records {
     /// Removes the records for which stay(record) is false.
     template <class Stay>
     void keep(Stay&& stay) {
-        RecordReader reader = read();
-        forget_notes();
         auto end = words_.begin();
         // Before `end` are the records that stay, of those that were read.
-        while (!reader.at_end()) {
+        for (RecordReader reader = read(); !reader.at_end();) {
             const double* begin = reader.words().data();
-            const Record record = reader.next();
-            if (!stay(record)) continue;
-            note(record);
-            end = std::copy(begin, reader.words().data(), end);
+            if (stay(reader.next())) end = std::copy(begin, reader.words().data(), end);
         }
         words_.erase(end, words_.end());
     }
@@ -121,22 +106,8 @@ class Records {
         for (RecordReader reader = read(); !reader.at_end();) visit(reader.next());
     }
 
-    std::size_t size_bytes() const { return words_.size() * sizeof(double); }
-
   private:
-    void note(const Record& record) {
-        lowest_owner_ = std::min(lowest_owner_, record.owner);
-        highest_owner_ = std::max(highest_owner_, record.owner);
-    }
-
-    void forget_notes() {
-        lowest_owner_ = std::numeric_limits<int>::max();
-        highest_owner_ = -1;
-    }
-
     std::vector<double> words_;
-    int lowest_owner_ = std::numeric_limits<int>::max();
-    int highest_owner_ = -1;
 };
 
 }  // namespace rrcb

@@ -29,9 +29,9 @@ Stream::Stream(std::size_t record_bytes, std::size_t limit)
     most_records_ = std::max(std::size_t{1}, bytes / record_bytes_);
 }
 
-/// Makes the pieces of a lane, in the order of step(rank).
-template <class Step>
-void Stream::lay_out(std::span<const RankCount> counts, Step&& step, Lane& lane) const {
+/// Makes the pieces of a lane, in the order of the steps from this rank to the others in the
+/// direction of the messages.
+void Stream::lay_out(std::span<const RankCount> counts, int rank, int num_ranks, Lane& lane) const {
     std::size_t first = 0;
     for (const RankCount& share : counts) {
         const std::size_t end = first + share.count;
@@ -41,8 +41,10 @@ void Stream::lay_out(std::span<const RankCount> counts, Step&& step, Lane& lane)
             first += count;
         }
     }
-    std::ranges::sort(lane.pieces, {},
-                      [&](const Piece& piece) { return std::pair(step(piece.rank), piece.first); });
+    std::ranges::sort(lane.pieces, {}, [&](const Piece& piece) {
+        const int step = &lane == &sends_ ? piece.rank - rank : rank - piece.rank;
+        return std::pair(step < 0 ? step + num_ranks : step, piece.first);
+    });
 }
 
 /// Allocates memory for each piece, or for as many of the longest as fit in the limit.
@@ -69,12 +71,8 @@ void Stream::make_buffer(Lane& lane) const {
 void Stream::allocate(std::span<const RankCount> to, std::span<const RankCount> from, int rank,
                       int num_ranks) {
     if (record_bytes_ == 0) return;
-    lay_out(
-        to, [&](int there) { return there >= rank ? there - rank : there - rank + num_ranks; },
-        sends_);
-    lay_out(
-        from, [&](int there) { return rank >= there ? rank - there : rank - there + num_ranks; },
-        receives_);
+    lay_out(to, rank, num_ranks, sends_);
+    lay_out(from, rank, num_ranks, receives_);
     make_buffer(sends_);
     make_buffer(receives_);
 }

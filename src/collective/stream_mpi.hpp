@@ -83,8 +83,7 @@ class Stream {
         }
     };
 
-    template <class Step>
-    void lay_out(std::span<const RankCount> counts, Step&& step, Lane& lane) const;
+    void lay_out(std::span<const RankCount> counts, int rank, int num_ranks, Lane& lane) const;
     void make_buffer(Lane& lane) const;
     void send(const Piece& piece, Participant& self);
     void receive(const Piece& piece, Participant& self);

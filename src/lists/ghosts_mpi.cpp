@@ -292,7 +292,7 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
     if (points.count == 0 && std::isnan(options.radius)) request.radii.each.emplace();
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);
-    plan.group = mpi::group_of(self.comm);
+    plan.group = self.group();
     plan.stamp = next_stamp();
     plan.radius = options.radius;
     plan.needs = options.needs;

@@ -191,7 +191,7 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
     const int num_ranks = mpi::size_of(self.comm);
     Groups result;
     result.dimension = points.dimension;
-    result.plan.group = mpi::group_of(self.comm);
+    result.plan.group = self.group();
     LocalGroups local;
     Labels ranks;
     self.attempt([&] {

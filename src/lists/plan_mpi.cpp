@@ -97,7 +97,7 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
             result.import_parts.push_back(notice.part);
         },
         {{"num_parts", static_cast<std::uint64_t>(num_parts)}}, self);
-    result.group = mpi::group_of(self.comm);
+    result.group = self.group();
     result.stamp = next_stamp();
     return result;
 }

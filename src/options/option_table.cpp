@@ -105,10 +105,6 @@ bool read_rows(const Rows& rows, std::string_view text, Options& options) {
     return numbers && !numbers->empty() && rows.set(options, *numbers);
 }
 
-const Word& word_of(const Choice& choice, const Options& options) {
-    return *std::ranges::find(choice, choice.get(options), &Word::value);
-}
-
 /// Returns the limits of a range in words: ", 1 or more", " from 1 to 4096".
 template <class Number>
 std::string bounds_of(const Range<Number>& range) {
@@ -189,12 +185,6 @@ std::string requirement(const Option& option, int dimension) {
     });
 }
 
-std::string words_of(const Choice& choice) {
-    std::vector<std::string> words;
-    for (const Word& word : choice) words.emplace_back(word.word);
-    return choice_between(words);
-}
-
 std::string texts_of(const Option& option) {
     return visit_kind(option, [&]<class Kind>(const Kind& kind) {
         std::string text = legal_values(option);
@@ -208,7 +198,9 @@ std::string texts_of(const Option& option) {
 std::string legal_values(const Option& option) {
     return visit_kind(option, []<class Kind>(const Kind& kind) -> std::string {
         if constexpr (std::is_same_v<Kind, Choice>) {
-            return words_of(kind);
+            std::vector<std::string> words;
+            for (const Word& word : kind) words.emplace_back(word.word);
+            return choice_between(words);
         } else if constexpr (is_range<Kind>) {
             const bool is_real = std::is_same_v<Kind, Range<double>>;
             return (is_real ? "a number" : "a whole number") + bounds_of(kind);
@@ -259,7 +251,7 @@ bool read_option(const Option& option, std::string_view text, Options& options) 
 std::string write_option(const Option& option, const Options& options) {
     return visit_kind(option, [&]<class Kind>(const Kind& kind) -> std::string {
         if constexpr (std::is_same_v<Kind, Choice>) {
-            return word_of(kind, options).word;
+            return std::ranges::find(kind, kind.get(options), &Word::value)->word;
         } else if constexpr (is_range<Kind>) {
             const bool is_automatic = kind.zero != nullptr && kind.field.get(options) == 0;
             return is_automatic ? std::string(automatic) : text_of(kind.field.get(options));
@@ -267,18 +259,6 @@ std::string write_option(const Option& option, const Options& options) {
             return text_of(kind, options);
         } else {
             return "";
-        }
-    });
-}
-
-void copy_option(const Option& option, const Options& from, Options& to) {
-    visit_kind(option, [&]<class Kind>(const Kind& kind) {
-        if constexpr (std::is_same_v<Kind, Choice>) {
-            kind.set(to, kind.get(from));
-        } else if constexpr (is_range<Kind>) {
-            kind.field.set(to, kind.field.get(from));
-        } else if constexpr (std::is_same_v<Kind, Rows>) {
-            kind.set(to, kind.get(from));
         }
     });
 }

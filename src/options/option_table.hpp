@@ -244,9 +244,6 @@ bool is_legal(const Option& option, const Options& options, int dimension);
 /// Returns the condition on a number for the text of an error: "at least 1".
 std::string requirement(const Option& option, int dimension);
 
-/// Returns the words of a choice: "WEIGHTED or MIDPOINT".
-std::string words_of(const Choice& choice);
-
 /// Returns the legal texts of the option: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
 std::string legal_values(const Option& option);
 
@@ -263,7 +260,5 @@ bool read_option(const Option& option, std::string_view text, Options& options);
 
 /// Returns the value in the form of read_option().
 std::string write_option(const Option& option, const Options& options);
-
-void copy_option(const Option& option, const Options& from, Options& to);
 
 }  // namespace rrcb

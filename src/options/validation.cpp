@@ -88,26 +88,25 @@ bool has_legal_cuts(const Cuts& cuts) {
     });
 }
 
-void check_grouped(std::span<const int> axes, int dimension) {
+/// Returns true if axes are different ones from 0 to before `end`.
+bool are_distinct(std::span<const int> axes, int end) {
     std::array<bool, max_dimension> named{};
-    for (const int axis : axes) {
-        require(axis >= 0 && axis < max_dimension && !named[axis],
-                "axes.order must name each axis that it groups once, 0 ... 2");
-        named[axis] = true;
-    }
-    for (int axis = 0; axis < dimension; ++axis)
-        require(named[axis], "axes.order must name every axis of the points if it groups them");
+    return std::ranges::all_of(axes, [&](int axis) {
+        return axis >= 0 && axis < end && !std::exchange(named[axis], true);
+    });
+}
+
+void check_grouped(std::span<const int> axes, int dimension) {
+    require(are_distinct(axes, max_dimension),
+            "axes.order must name each axis that it groups once, 0 ... 2");
+    require(std::ranges::count_if(axes, [&](int axis) { return axis < dimension; }) == dimension,
+            "axes.order must name every axis of the points if it groups them");
 }
 
 void check_among(std::span<const int> axes, int dimension) {
-    std::array<bool, max_dimension> named{};
     require(!axes.empty(), "axes.order must name an axis if cuts may cross some axes only");
-    for (const int axis : axes) {
-        require(axis >= 0 && axis < dimension && !named[axis],
-                "axes.order must name axes of the points, each once, if cuts may cross some axes "
-                "only");
-        named[axis] = true;
-    }
+    require(are_distinct(axes, dimension),
+            "axes.order must name axes of the points, each once, if cuts may cross some axes only");
 }
 
 void check_given(std::span<const int> axes, int num_parts, int dimension) {
@@ -249,18 +248,12 @@ void check_options(const Options& options, int dimension) {
 
 void reject_coordinates(const Points& points) {
     std::size_t bad = 0;
-    LocalIndex first = points.count;
-    int first_axis = 0;
-    for (LocalIndex i = 0; i < points.count; ++i) {
-        for (int axis = 0; axis < points.dimension; ++axis) {
-            if (std::isfinite(points.coordinate(i, axis))) continue;
-            if (bad++ > 0) continue;
-            first = i;
-            first_axis = axis;
-        }
-    }
-    reject("coordinate of point " + std::to_string(first) + " on axis " +
-           std::to_string(first_axis) + " is NaN or infinite" + tally(bad));
+    std::string first;
+    for (LocalIndex i = 0; i < points.count; ++i)
+        for (int axis = 0; axis < points.dimension; ++axis)
+            if (!std::isfinite(points.coordinate(i, axis)) && bad++ == 0)
+                first = "point " + std::to_string(i) + " on axis " + std::to_string(axis);
+    reject("coordinate of " + first + " is NaN or infinite" + tally(bad));
 }
 
 bool is_interleaved(const Points& points) {

@@ -153,7 +153,7 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
                     [&] { bisect_domain(mine, options, plain.part_sizes, decision); });
     result.report = report_of(decision.verdict, options.num_parts, plain.part_sizes);
     result.cuts = std::move(decision.cuts);
-    result.cuts.group = mpi::size_of(self.comm) > 1 ? mpi::group_of(self.comm) : 0;
+    result.cuts.group = mpi::size_of(self.comm) > 1 ? self.group() : 0;
     result.cuts.points = hash_of(points);
     const StageScope stage(options.observer, Stage::assignment, self.arithmetic);
     self.attempt([&] { assign(result.cuts, points, result.parts); });

@@ -74,7 +74,7 @@ class ButterflyMessagesTest : public testing::Test {
     }
 
     static constexpr Key num_keys = 40;
-    Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+    Participant self{mpi::enter(MPI_COMM_WORLD, CallName::none).comm};
     ButterflyMessages messages;
 };
 

@@ -23,7 +23,7 @@ using test::ranks_of_parts;
 /// Lets all ranks search, or rank 0 alone.
 Remap found(bool together, std::span<const Part> parts, const PreviousParts& previous,
             int num_parts) {
-    Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+    Participant self{mpi::enter(MPI_COMM_WORLD, CallName::none).comm};
     const auto ranks = ranks_of_parts(num_parts);
     return remap(parts, previous, ranks, {}, self, together ? 0 : num_parts);
 }

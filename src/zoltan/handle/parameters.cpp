@@ -122,7 +122,8 @@ Setting set_own(Parameters& parameters, std::string_view name, const char* value
                                                : row->read(parameters, text);
         return is_read ? Setting::accepted : Setting::refused;
     }
-    if (option != nullptr) copy_option(*option, default_options(), parameters.options);
+    if (option != nullptr)
+        read_option(*option, write_option(*option, default_options()), parameters.options);
     if (row != nullptr) row->reset(parameters);
     return Setting::accepted;
 }

@@ -12,10 +12,6 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Tests of a request in which ranks that run at the same time complete it. Each yield to a busy
-/// thread may take milliseconds.
-constexpr int tests_without_yield = 100;
-
 double read_limit() {
     constexpr double default_seconds = 20;
     const double seconds = agree_seconds().value_or(default_seconds);
@@ -58,14 +54,7 @@ void RollCall::report() {
 }
 
 bool RollCall::complete(MPI_Request request, Participant& self) {
-    for (int tests = 1;; ++tests) {
-        int is_done = 0;
-        const int code = MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
-        self.check(code, "MPI_Test");
-        if (is_done != 0 || code != MPI_SUCCESS) return true;
-        if (deadline_.is_missed()) break;
-        if (tests >= tests_without_yield) pause(deadline_.waited());
-    }
+    if (deadline_.complete(request, self)) return true;
     report();
     MPI_Comm_call_errhandler(comm_, MPI_ERR_OTHER);
     return false;

@@ -12,7 +12,12 @@
 namespace rrcb {
 
 /// Contents of a saved state.
-enum class StateKind : std::uint64_t { cuts = 1, controller = 2, cost_model = 3, zoltan_handle = 4 };
+enum class StateKind : std::uint64_t {
+    cuts = 1,
+    controller = 2,
+    cost_model = 3,
+    zoltan_handle = 4
+};
 
 /// State as words of 8 bytes, which are written or read by the same calls.
 ///

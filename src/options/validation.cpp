@@ -252,8 +252,8 @@ void reject_coordinates(const Points& points) {
     for (LocalIndex i = 0; i < points.count; ++i)
         for (int axis = 0; axis < points.dimension; ++axis)
             if (!std::isfinite(points.coordinate(i, axis)) && bad++ == 0)
-                first = "point " + std::to_string(i) + " on axis " + std::to_string(axis);
-    reject("coordinate of " + first + " is NaN or infinite" + tally(bad));
+                first = std::to_string(i) + " on axis " + std::to_string(axis);
+    reject("coordinate of point " + first + " is NaN or infinite" + tally(bad));
 }
 
 bool is_interleaved(const Points& points) {

@@ -82,7 +82,7 @@ class Refinement {
     bool has_parts_ = false;           ///< the points have the parts of the cuts
     std::optional<CutLimits> limits_;  ///< empty if cuts are not limited
     Butterfly butterfly_;
-    ButterflyMessages messages_{};
+    ButterflyMessages messages_;
     bool fills_parts_ = false;  ///< points suffice for all parts, which are to be equal
     double imbalance_ = 1;      ///< of the latest cuts
 };

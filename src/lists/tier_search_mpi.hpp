@@ -23,7 +23,7 @@ struct SearchBuffers {
     Search search;
     Butterfly shared;
     Butterfly asked;
-    ButterflyMessages messages{};
+    ButterflyMessages messages;
 };
 
 /// Asks until no rank lacks cuts. Returns whether any rank did.

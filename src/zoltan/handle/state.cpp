@@ -13,43 +13,50 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// A place for a handle. It is never freed, so look-ups need no lock, for which creating a handle
-/// could wait without end.
 struct Place {
-    std::atomic<const Zoltan_Struct*> zz;  ///< null: free for another handle
-    State* state;                          ///< touched by the thread of the handle only
-    Place* next;
+    std::atomic<const Zoltan_Struct*> zz = nullptr;  ///< null: free for another handle
+    State* state = nullptr;                          ///< touched by the thread of the handle only
+};
+
+/// Places for handles. They are never freed, so look-ups need no lock, for which creating a handle
+/// could wait without end.
+struct Block {
+    std::array<Place, 4> places{};
+    std::atomic<Block*> next = nullptr;
 };
 
 constexpr int num_bits = 9;
 
 /// Lists of places, by a hash of the handle. At exit they stay: handles that outlive MPI must not
 /// free their communicators.
-constinit std::array<std::atomic<Place*>, 1 << num_bits> first_places{};
+constinit std::array<Block, 1 << num_bits> first_blocks{};
 constinit std::mutex adding;
 constinit std::atomic<bool> any_made = false;
 
-std::atomic<Place*>& first_place_for(const Zoltan_Struct* zz) {
+Block& first_block_for(const Zoltan_Struct* zz) {
     const std::uint64_t mixed = std::bit_cast<std::uintptr_t>(zz) * 0x9e3779b97f4a7c15U;
-    return first_places[mixed >> (64 - num_bits)];
+    return first_blocks[mixed >> (64 - num_bits)];
 }
 
 /// Returns the place of a handle, or a free one for null; null if there is none.
-Place* find_place(Place* place, const Zoltan_Struct* zz) {
-    while (place != nullptr && place->zz.load() != zz) place = place->next;
-    return place;
-}
-
-Place* place_of(const Zoltan_Struct* zz) {
-    return find_place(first_place_for(zz), zz);
+Place* find_place(Block& first, const Zoltan_Struct* zz) {
+    for (Block* block = &first; block != nullptr; block = block->next.load())
+        for (Place& place : block->places)
+            if (place.zz.load() == zz) return &place;
+    return nullptr;
 }
 
 /// Takes a place for a handle without one. Throws std::bad_alloc.
 Place& take_place(const Zoltan_Struct* zz) {
-    std::atomic<Place*>& first = first_place_for(zz);
+    Block& first = first_block_for(zz);
     const std::scoped_lock lock(adding);
     Place* place = find_place(first, nullptr);
-    if (place == nullptr) first = place = new Place{nullptr, nullptr, first};
+    if (place == nullptr) {
+        auto* const added = new Block;
+        added->next = first.next.load();
+        first.next = added;
+        place = added->places.data();
+    }
     place->zz = zz;
     return *place;
 }
@@ -69,7 +76,7 @@ Communicator::~Communicator() {
 }
 
 State* find_state(const Zoltan_Struct* zz) {
-    const Place* place = place_of(zz);
+    const Place* place = find_place(first_block_for(zz), zz);
     return place == nullptr ? nullptr : place->state;
 }
 
@@ -88,7 +95,7 @@ void copy_contents(State& to, const State& from) {
 }
 
 void remove_state(const Zoltan_Struct* zz) {
-    Place* place = place_of(zz);
+    Place* place = find_place(first_block_for(zz), zz);
     if (place == nullptr) return;
     const std::unique_ptr<State> removed(std::exchange(place->state, nullptr));
     place->zz = nullptr;

@@ -40,8 +40,10 @@ Moves::Moves(Objects& objects, std::span<const Part> parts, const PartMap& map, 
     if (objects.moving == nullptr) return;
     const int* const named = objects.initial_parts;
     count_ = visit_ranks([&](const auto& rank_of) {
+        // No branch, which unordered objects would mispredict.
         const auto is_moving = [=](std::size_t i) {
-            return rank_of(i) != my_rank || parts[i] != (named == nullptr ? my_rank : named[i]);
+            const int before = named == nullptr ? my_rank : named[i];
+            return ((rank_of(i) != my_rank ? 1 : 0) | (parts[i] != before ? 1 : 0)) != 0;
         };
         return select(objects.count, is_moving, objects.moving);
     });

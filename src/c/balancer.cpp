@@ -41,7 +41,9 @@ Cuts copy_of(const rrcb_cuts& given) {
         reject("larger_below must be 0 or 1, not " + std::to_string(given.larger_below));
     Cuts cuts{given.dimension, given.num_parts, std::vector<Cut>(size)};
     cuts.shape = {given.group_size, given.larger_below != 0, given.dealt};
-    std::ranges::copy(std::span(reinterpret_cast<const Cut*>(given.tree), size), cuts.tree.begin());
+    std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
+        return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
+    });
     cuts.near = {given.near_reach, given.near_share};
     check_tree(cuts);
     return cuts;

@@ -33,7 +33,7 @@ class ButterflyMessages {
 
     std::size_t receive(std::size_t number, int from, Participant& self);
 
-    /// Returns the memory of a piece: no longer than tests allow, and at least a head.
+    /// Returns the memory of a piece, for at least a head and at most mpi::longest_message.
     std::span<double> piece();
 
     std::array<double, 8192> piece_;                     ///< the latest piece

@@ -33,14 +33,14 @@ def has_multijagged(program: Path = COMPARE) -> bool:
 
 
 @cache
-def _launcher() -> list[str]:
+def launcher() -> list[str]:
     version = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
     flags = ["--mca", "orte_execute_quiet", "1", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none"]
     return ["mpirun", *(flags if "Open MPI" in version else [])]
 
 
 def on_ranks(ranks: int, program: Path, *arguments: str, **how) -> subprocess.CompletedProcess:
-    command = [*_launcher(), "-n", str(ranks), str(program), *arguments]
+    command = [*launcher(), "-n", str(ranks), str(program), *arguments]
     return subprocess.run(command, stdin=subprocess.DEVNULL, **how)
 
 

@@ -13,6 +13,7 @@ namespace {
 thread_local long failing_allocation = 0;
 thread_local Shortage failing = Shortage::once;
 thread_local long num_counted = 0;
+thread_local long bytes_counted = 0;
 thread_local long num_live = 0;
 thread_local long bytes_live = 0;
 thread_local long bytes_before = 0;
@@ -21,9 +22,10 @@ thread_local bool has_ended = false;
 
 }  // namespace
 
-bool next_fails() {
+bool next_fails(std::size_t bytes) {
     if (has_ended) return false;
     ++num_counted;
+    bytes_counted += static_cast<long>(bytes);
     if (failing_allocation == 0) return false;
     return num_counted == failing_allocation ||
            (failing == Shortage::lasting && num_counted > failing_allocation);
@@ -33,6 +35,7 @@ void fail_allocation(long number, Shortage shortage) {
     failing_allocation = number;
     failing = shortage;
     num_counted = 0;
+    bytes_counted = 0;
     has_ended = false;
 }
 
@@ -42,6 +45,10 @@ void end_shortage() {
 
 long counted_allocations() {
     return num_counted;
+}
+
+long counted_bytes() {
+    return bytes_counted;
 }
 
 long live_blocks() {
@@ -69,7 +76,7 @@ void note(void* block, int sign) {
 }  // namespace memory_layer
 
 void* operator new(std::size_t size) {
-    void* block = memory_layer::next_fails() ? nullptr : std::malloc(size == 0 ? 1 : size);
+    void* block = memory_layer::next_fails(size) ? nullptr : std::malloc(size == 0 ? 1 : size);
     if (block == nullptr) throw std::bad_alloc();
     memory_layer::note(block, 1);
     return block;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 /// The program's allocations, which are counted, and of which chosen ones fail; linked in tests
 /// only. The counts are those of the thread that asks.
 namespace memory_layer {
@@ -17,10 +19,11 @@ void fail_allocation(long number, Shortage shortage = Shortage::once);
 void end_shortage();
 
 /// Counts an allocation by other means; true when it is to fail.
-bool next_fails();
+bool next_fails(std::size_t bytes = 0);
 
-/// How many allocations were counted since fail_allocation.
+/// How many allocations were counted since fail_allocation, and the bytes that were asked for.
 long counted_allocations();
+long counted_bytes();
 
 /// How many blocks of operator new are in use, and their bytes.
 long live_blocks();

@@ -1,0 +1,71 @@
+#include "arms_mpi.hpp"
+
+#include "failure.hpp"
+
+#include <rrcb/rrcb.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+namespace comparisons {
+
+namespace {
+
+constexpr std::pair<std::string_view, Arm (*)(const Flow&)> arms[] = {{"loop", loop},
+                                                                      {"by-hand", by_hand}};
+
+}  // namespace
+
+std::vector<std::string> arm_names() {
+    std::vector<std::string> names;
+    for (const auto& arm : arms) names.emplace_back(arm.first);
+    return names;
+}
+
+Arm make_arm(std::string_view name, const Flow& flow) {
+    for (const auto& [known, make] : arms)
+        if (known == name) return make(flow);
+    throw Failure("there is no arm " + std::string(name));
+}
+
+Arm loop(const Flow& flow) {
+    struct State {
+        rrcb::Balance balance{};
+        rrcb::Plan plan{};
+        rrcb::GhostPlan near{};
+    };
+    const auto state = std::make_shared<State>();
+    state->balance.cuts = flow.cuts();
+    const MPI_Comm comm = flow.comm();
+    const double radius = flow.radius();
+    return {
+        {"assign_all",
+         [=](const Particles& p) {
+             state->balance.parts = rrcb::assign_all(state->balance.cuts, p.points(), comm);
+         }},
+        {"plan", [=](const Particles&) { state->plan = rrcb::plan(state->balance, comm); }},
+        {"transfer",
+         [=](Particles& p) {
+             std::tie(p.x, p.v, p.ids) = rrcb::transfer(
+                 state->plan, rrcb::columns(p.column(p.x), p.column(p.v), p.ids), comm);
+         }},
+        {"ghosts",
+         [=](const Particles& p) {
+             state->near = rrcb::ghosts(state->balance.cuts, p.points(), {.radius = radius}, comm);
+         }},
+        {"fetch",
+         [=](Particles& p) {
+             std::tie(p.ghost_x, p.ghost_v, p.ghost_ids) =
+                 rrcb::fetch(state->near, rrcb::columns(p.column(p.x), p.column(p.v), p.ids), comm);
+         }},
+        {"accumulate",
+         [=](Particles& p) {
+             p.forces =
+                 rrcb::accumulate(state->near, p.column(p.ghost_forces), p.column(p.forces), comm);
+         }},
+    };
+}
+
+}  // namespace comparisons

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "particles.hpp"
+
+#include <rrcb/rrcb.hpp>
+
+#include <mpi.h>
+
+#include <array>
+#include <cstdint>
+
+namespace comparisons {
+
+/// Random points in a box of unit cubes, as many cubes as ranks, that jump at random: 1 % of them
+/// leave their rank in each step. Ghosts are needed within two spacings.
+///
+/// A jump depends on the number of the point and of the step only, so the points are the same
+/// whatever holds them.
+class Flow {
+  public:
+    /// Balances the points. Collective. `comm` must outlive it.
+    Flow(int dimension, std::int64_t points_per_rank, MPI_Comm comm);
+
+    const rrcb::Cuts& cuts() const { return cuts_; }
+    MPI_Comm comm() const { return comm_; }
+    int dimension() const { return start_.dimension; }
+    double radius() const { return radius_; }
+    /// Returns the greatest length of a jump along an axis.
+    double travel() const { return travel_; }
+    /// Returns the points of this rank after the balance.
+    const Particles& start() const { return start_; }
+
+    /// Moves the points of this rank, which reflect at the sides of the box. Not collective.
+    void move(Particles& particles, int step) const;
+
+    /// Writes forces on points and ghosts that depend on these and on this rank. Not collective.
+    void push(Particles& particles) const;
+
+  private:
+    rrcb::Cuts cuts_{};
+    MPI_Comm comm_;
+    int rank_ = 0;
+    std::array<int, 3> cubes_{};
+    double radius_;
+    double travel_ = 0;
+    Particles start_{};
+};
+
+}  // namespace comparisons

@@ -1,0 +1,162 @@
+// Services of a step by several arms, as CSV on standard output.
+//
+//   mpirun -n 4 rrcb_step counts DIMENSION POINTS STEPS ARM ...
+//       traffic and memory of each stage, mean over ranks and steps; all arms must give the same
+//   ... rrcb_step instructions DIMENSION POINTS STEPS ARM ...
+//       the stages in the order of their calls; Callgrind counts within rrcb_step_stage()
+//   ... rrcb_step clock DIMENSION POINTS STEPS ROUND ARM ...
+//       seconds of a step, the arms in an order drawn for the round, then backwards
+//
+// POINTS are those of a rank. An arm may be named twice. comparisons/studies/run step makes tables.
+#include "arms_mpi.hpp"
+#include "counter_random.hpp"
+#include "counts_mpi.hpp"
+#include "failure.hpp"
+#include "flow_mpi.hpp"
+#include "text.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+/// Marks what Callgrind counts.
+extern "C" [[gnu::noinline]] void rrcb_step_stage(const std::function<void()>& call) {
+    call();
+    // Not a jump to the call, which would leave this function before.
+    asm volatile("" ::: "memory");
+}
+
+namespace {
+
+using namespace comparisons;
+using Words = std::vector<std::string>;
+
+void print(const Flow& flow, const std::string& line) {
+    int rank = 0;
+    MPI_Comm_rank(flow.comm(), &rank);
+    if (rank == 0) std::cout << line << std::endl;
+}
+
+/// Means over the ranks of a step: the points that leave a rank, and the ghosts.
+struct Size {
+    double leavers = 0;
+    double ghosts = 0;
+};
+
+Size size_of(const Flow& flow) {
+    Particles particles = flow.start();
+    flow.move(particles, 0);
+    std::vector<rrcb::Part> parts(particles.size());
+    rrcb::assign(flow.cuts(), particles.points(), parts);
+    int rank = 0;
+    int num_ranks = 1;
+    MPI_Comm_rank(flow.comm(), &rank);
+    MPI_Comm_size(flow.comm(), &num_ranks);
+    const rrcb::Plan plan = rrcb::plan(parts, num_ranks, flow.comm());
+    const auto x = rrcb::transfer(plan, particles.column(particles.x), flow.comm());
+    const rrcb::GhostPlan near =
+        rrcb::ghosts(flow.cuts(), rrcb::interleaved_points(x, flow.dimension()),
+                     {.radius = flow.radius()}, flow.comm());
+    Size size{static_cast<double>(plan.export_ranks.size()),
+              static_cast<double>(near.send_indices.size())};
+    for (double* number : {&size.leavers, &size.ghosts}) {
+        MPI_Allreduce(MPI_IN_PLACE, number, 1, MPI_DOUBLE, MPI_SUM, flow.comm());
+        *number /= num_ranks;
+    }
+    return size;
+}
+
+void print_counts(const Flow& flow, int steps, const Words& arms) {
+    print(flow, "arm,stage,leavers,ghosts,collectives,messages,bytes,allocations,bytes_allocated");
+    const Size size = size_of(flow);
+    SameResults results;
+    for (const std::string& name : arms) {
+        const Arm arm = make_arm(name, flow);
+        run(arm, flow, steps,
+            {[](std::size_t, const std::function<void()>& call) { call(); },
+             [&](int step, const Particles& p) { results.check(name, step, p); }});
+        const std::vector<std::string> names = stage_names(arm);
+        const std::vector<StageCounts> counts = count(name, flow, steps);
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            std::string line = name + ',' + names[k];
+            for (const double number :
+                 {size.leavers, size.ghosts, counts[k].collectives, counts[k].messages,
+                  counts[k].bytes, counts[k].allocations, counts[k].bytes_allocated})
+                line += ',' + write_number(number);
+            print(flow, line);
+        }
+    }
+}
+
+void print_stages(const Flow& flow, int steps, const Words& arms) {
+    print(flow, "arm,stage");
+    for (const std::string& name : arms) {
+        const Arm arm = make_arm(name, flow);
+        const std::vector<std::string> names = stage_names(arm);
+        run(arm, flow, steps, {[&](std::size_t stage, const std::function<void()>& call) {
+                rrcb_step_stage(call);
+                print(flow, name + ',' + names[stage]);
+            }});
+    }
+}
+
+/// Returns the seconds of the services in a step, without those in which nothing moves: of the
+/// rank that took longest.
+double seconds_of(const std::string& name, const Flow& flow, int steps) {
+    double seconds = 0;
+    const Arm arm = make_arm(name, flow);
+    run(arm, flow, steps, {[&](std::size_t stage, const std::function<void()>& call) {
+            // Ranks wait for one another after the work of a step, which is not measured.
+            if (stage == 0 || stage + 1 == arm.size()) MPI_Barrier(flow.comm());
+            const double start = MPI_Wtime();
+            call();
+            if (stage < arm.size()) seconds += MPI_Wtime() - start;
+        }});
+    MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, flow.comm());
+    return seconds / steps;
+}
+
+void print_times(const Flow& flow, int steps, int round, const Words& arms) {
+    print(flow, "turn,place,arm,seconds");
+    for (const int turn : {2 * round, 2 * round + 1})
+        for (const std::size_t k : drawn_order(arms.size(), 1, static_cast<std::uint64_t>(turn)))
+            print(flow, std::to_string(turn) + ',' + std::to_string(k) + ',' + arms[k] + ',' +
+                            write_number(seconds_of(arms[k], flow, steps)));
+}
+
+void measure(const Words& words) {
+    const std::size_t num_numbers = !words.empty() && words[0] == "clock" ? 5 : 4;
+    if (words.size() <= num_numbers) throw Failure("more arguments are needed; see the source");
+    const int dimension = std::stoi(words[1]);
+    const int steps = std::stoi(words[3]);
+    if (dimension < 2 || dimension > 3 || steps < 1)
+        throw Failure("the dimension must be 2 or 3, and steps 1 or more");
+    const Flow flow(dimension, std::stoll(words[2]), MPI_COMM_WORLD);
+    const Words arms(words.begin() + static_cast<std::ptrdiff_t>(num_numbers), words.end());
+    if (words[0] == "counts")
+        print_counts(flow, steps, arms);
+    else if (words[0] == "instructions")
+        print_stages(flow, steps, arms);
+    else if (words[0] == "clock")
+        print_times(flow, steps, std::stoi(words[4]), arms);
+    else
+        throw Failure("'" + words[0] + "' is none of counts, instructions and clock");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    try {
+        measure(Words(argv + 1, argv + argc));
+    } catch (const std::exception& error) {
+        std::cerr << "rrcb_step: " << error.what() << '\n';
+        MPI_Abort(MPI_COMM_WORLD, 1);
+    }
+    MPI_Finalize();
+    return 0;
+}

@@ -1,0 +1,87 @@
+"""Counts a program's own instructions with Callgrind, each call of a function by itself."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+
+from driver import launcher
+
+# What waits for messages spins: the instructions of MPI depend on the machine. Those of libraries count for the
+# program's functions that call them.
+OURS = re.compile(r"^rrcb_")
+HELPERS = re.compile(r"^(libc|libm|libstdc\+\+|libgcc_s|ld-linux.*)[.-]")
+BELOW = "(below main)"  # calls main, and so what is counted in it
+# Callgrind counts an instruction for each byte that `rep movsb` moves. Symbols are bound before the first call.
+EVEN = {
+    "GLIBC_TUNABLES": "glibc.cpu.x86_rep_movsb_threshold=1000000000:glibc.cpu.x86_rep_stosb_threshold=1000000000",
+    "LD_BIND_NOW": "1",
+}
+
+
+def is_here() -> bool:
+    return shutil.which("valgrind") is not None
+
+
+def run(command: list[str], ranks: int, function: str, folder: Path) -> tuple[str, list[list[Path]]]:
+    """Returns what the command printed, and for each rank a file of every call of the function."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("calls.*"):
+        old.unlink()
+    tool = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/calls.%p", "--collect-atstart=no",
+            f"--toggle-collect={function}", f"--dump-after={function}"]  # fmt: skip
+    done = subprocess.run([*launcher(), "-n", str(ranks), *tool, *command], capture_output=True, text=True,
+                          stdin=subprocess.DEVNULL, env={**os.environ, **EVEN})  # fmt: skip
+    if done.returncode:
+        sys.exit(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
+    files: dict[str, list[tuple[int, Path]]] = {}
+    for path in folder.glob("calls.*.*"):
+        _, process, part = path.name.split(".")
+        files.setdefault(process, []).append((int(part), path))
+    return done.stdout, [[path for _, path in sorted(parts)] for parts in files.values()]
+
+
+def own_instructions(path: Path) -> Counter[str]:
+    """Instructions in a file, by the program's function or the function of a library that it called."""
+    names: dict[tuple[str, str], str] = {}
+    found: Counter[str] = Counter()
+    now = {"ob": "", "fn": "", "cob": "", "cfn": ""}
+    is_call = False
+    for line in path.read_text().splitlines():
+        if named := re.match(r"(ob|fn|cob|cfn)=(\(\d+\))(?: (.*))?$", line):
+            field, number, name = named.groups()
+            kind = field.lstrip("c")
+            now[field] = names.setdefault((kind, number), name or "")
+            if field == "ob":
+                now["cob"] = now["ob"]
+        elif line.startswith("calls="):
+            is_call = True
+        elif re.match(r"[-+*\d]", line):
+            cost = int(line.split()[1])
+            if _is_own(now["ob"], now["fn"]):
+                if not is_call:
+                    found[now["fn"]] += cost
+                elif HELPERS.match(Path(now["cob"]).name) and now["fn"] != BELOW:
+                    found[now["cfn"]] += cost
+            if is_call:
+                now["cob"] = now["ob"]
+            is_call = False
+    return found
+
+
+def short(function: str) -> str:
+    """The name without templates, parameters and namespaces without a name."""
+    name = function.replace("(anonymous namespace)::", "").replace("operator()", "call")
+    while (shorter := re.sub(r"<[^<>]*>", "", name)) != name:
+        name = shorter
+    return name.split("(")[0].split(" ")[-1]
+
+
+def _is_own(binary: str, function: str) -> bool:
+    """The layer that counts messages shadows functions of MPI."""
+    return bool(OURS.match(Path(binary).name)) and not function.startswith("MPI_")

@@ -1,0 +1,213 @@
+"""Services of a step, by the library and by hand: instructions, traffic and memory of each call.
+
+Random points, 1 % of which leave their rank in each step, with positions, velocities and numbers; ghosts within two
+spacings, on which forces act that are added to those on their points. Every arm must give the same ghosts and the same
+sums. Instructions are Callgrind's, without MPI's own. --clock measures seconds instead: on 2 ranks that need a core
+each, the arms in an order drawn anew for each round, one of them twice.
+"""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+from collections import Counter
+from io import StringIO
+from pathlib import Path
+
+import callgrind
+import pandas as pd
+import plot
+from document import CORES, markdown_table
+from driver import OUT, PROGRAMS, build, on_ranks
+from intervals import median_of
+
+ARMS = ("loop", "by-hand")
+CASES = ((2, 4), (2, 8), (3, 4), (3, 8))  # dimension, ranks
+BY_CAUSE = ("loop", "ghosts")
+CASE = ["dim", "ranks"]
+# Most instructions a point and step, of stages or whole arms, which --hold checks.
+BOUNDS = {
+    (2, 4): {"loop ghosts": 196, "loop": 245, "by-hand": 44},
+    (3, 8): {"loop ghosts": 388, "loop": 468, "by-hand": 132},
+}
+TIMED_RANKS = 2
+TIMED = ("loop", "by-hand", "by-hand")  # one arm against itself
+STYLES = {"assign_all": "#CC79A7", "plan": "#E69F00", "transfer, migrate": "#D55E00",
+          "ghosts, find_ghosts": "#0072B2", "fetch": "#009E73", "accumulate": "#000000"}  # fmt: skip
+COLOURS = {stage: colour for stages, colour in STYLES.items() for stage in stages.split(", ")}
+
+
+def counts(program: Path, dimension: int, ranks: int, points: int, steps: int) -> pd.DataFrame:
+    words = ["counts", str(dimension), str(points), str(steps), *ARMS]
+    rows = on_ranks(ranks, program, *words, stdout=subprocess.PIPE, text=True, check=True).stdout
+    return pd.read_csv(StringIO(rows)).assign(dim=dimension, ranks=ranks)
+
+
+def instructions(program: Path, dimension: int, ranks: int, points: int, steps: int, out: Path
+                 ) -> dict[tuple[str, str], Counter[str]]:  # fmt: skip
+    """Those of a point and step in each function, for each arm and stage."""
+    words = [str(program), "instructions", str(dimension), str(points), str(steps), *ARMS]
+    printed, processes = callgrind.run(words, ranks, "rrcb_step_stage", out / "callgrind")
+    stages = [tuple(line.split(",")) for line in printed.splitlines()[1:]]
+    found: dict[tuple[str, str], Counter[str]] = {}
+    for files in processes:
+        for stage, file in zip(stages, files, strict=True):
+            for name, cost in callgrind.own_instructions(file).items():
+                found.setdefault(stage, Counter())[name] += cost / (ranks * steps * points)
+    return found
+
+
+def case_name(dimension: int, ranks: int) -> str:
+    return f"{dimension}-D, {ranks} ranks"
+
+
+def is_moving(rows: pd.DataFrame) -> pd.Series:
+    return ~rows["stage"].str.startswith("kept ")
+
+
+def stage_table(rows: pd.DataFrame) -> list[list[str]]:
+    """Instructions a point and step of each stage, then of all."""
+    cases = list(dict.fromkeys(zip(rows["dim"], rows["ranks"])))
+    lines = [["instructions a point and step", *(case_name(*case) for case in cases)]]
+    for arm, own in rows.groupby("arm", sort=False):
+        by_stage = own.pivot(index="stage", columns=CASE, values="instructions").loc[own["stage"].unique()]
+        for stage, row in by_stage.iterrows():
+            lines.append([f"{arm}: {stage}", *(f"{row[case]:.1f}" for case in cases)])
+        total = own[is_moving(own)].groupby(CASE)["instructions"].sum()
+        lines.append([f"**{arm}, all**", *(f"**{total[case]:.1f}**" for case in cases)])
+    return lines
+
+
+def cost_table(rows: pd.DataFrame) -> list[list[str]]:
+    """Of a step and rank: those of steps that move points, and of steps that keep points and ghosts."""
+    lines = [["case", "arm", "step", "collectives", "messages", "kB sent", "allocations", "kB allocated"]]
+    for (dimension, ranks, arm), own in rows.groupby([*CASE, "arm"], sort=False):
+        for name, part in (("moves", own[is_moving(own)]), ("keeps", own[~is_moving(own)])):
+            total = part.sum(numeric_only=True)
+            lines.append([case_name(dimension, ranks), arm, name, f"{total['collectives']:.0f}",
+                          f"{total['messages']:.1f}", f"{total['bytes'] / 1000:.1f}", f"{total['allocations']:.0f}",
+                          f"{total['bytes_allocated'] / 1000:.0f}"])  # fmt: skip
+    return lines
+
+
+def cause_table(causes: dict[tuple[int, int], Counter[str]]) -> list[list[str]]:
+    """Functions of `ghosts` with at least 1 % of its instructions in a case."""
+    lines = [["function", *(case_name(*case) for case in causes)]]
+    everything = sum(causes.values(), Counter())
+    for name, _ in everything.most_common():
+        if any(of[name] >= 0.01 * of.total() for of in causes.values()):
+            lines.append([f"`{callgrind.short(name)}`", *(f"{of[name]:.1f}" for of in causes.values())])
+    return lines
+
+
+def draw(rows: pd.DataFrame, path: Path) -> None:
+    """Instructions of each stage side by side, a bar for each arm and case."""
+    plot.use_style()
+    cases = list(dict.fromkeys(zip(rows["dim"], rows["ranks"])))
+    figure, grid = plot.panels(1, len(cases), 2.1 * len(cases), 2.6, sharey=True)
+    for axes, case in zip(grid[0], cases):
+        of_case = rows[is_moving(rows) & (rows[CASE] == case).all(axis=1)]
+        bottoms = dict.fromkeys(of_case["arm"], 0.0)
+        for row in of_case.itertuples():
+            axes.bar(row.arm, row.instructions, bottom=bottoms[row.arm], color=COLOURS[row.stage])
+            bottoms[row.arm] += row.instructions
+        axes.set_title(case_name(*case))
+    grid[0][0].set_ylabel("instructions a point")
+    for stages, colour in STYLES.items():
+        grid[0][0].bar(rows["arm"][0], 0, color=colour, label=stages)
+    plot.legend_above(figure, grid[0][0])
+    plot.save(figure, path)
+
+
+def excesses(rows: pd.DataFrame) -> list[str]:
+    """What takes more than its bound."""
+    found = []
+    for case, bounds in BOUNDS.items():
+        of_case = rows[is_moving(rows) & (rows[CASE] == case).all(axis=1)]
+        numbers = of_case.groupby("arm")["instructions"].sum().to_dict()
+        numbers |= {f"{row.arm} {row.stage}": row.instructions for row in of_case.itertuples()}
+        found += [f"{case_name(*case)}: {name} takes {numbers[name]:.1f} instructions a point, not {bound}"
+                  for name, bound in bounds.items() if numbers[name] > bound]  # fmt: skip
+    return found
+
+
+def count_all(program: Path, out: Path, points: int, steps: int, cases=CASES) -> pd.DataFrame:
+    rows, causes = pd.DataFrame(), {}
+    for case in cases:
+        print(case_name(*case), file=sys.stderr, flush=True)
+        found = counts(program, *case, points, steps)
+        if callgrind.is_here():
+            of = instructions(program, *case, points, steps, out)
+            found["instructions"] = [of[key].total() for key in zip(found["arm"], found["stage"])]
+            causes[case] = of[BY_CAUSE]
+        rows = pd.concat([rows, found], ignore_index=True)
+    rows.to_csv(out / "step.csv", index=False)
+    tables = [cost_table(rows)]
+    if causes:
+        tables = [stage_table(rows), *tables, cause_table(causes)]
+        draw(rows, out / "step.png")
+    write(out, tables)
+    return rows
+
+
+def write(out: Path, tables: list[list[list[str]]]) -> None:
+    text = "\n\n".join(map(markdown_table, tables))
+    (out / "table.md").write_text(text + "\n")
+    print(text)
+
+
+def time_all(program: Path, out: Path, points: int, steps: int, rounds: int) -> None:
+    if CORES < TIMED_RANKS:
+        print("The ranks share a core: times mean nothing", file=sys.stderr)
+    times = pd.DataFrame()
+    for number in range(rounds):
+        for dimension in (2, 3):
+            print(f"Round {number + 1} of {rounds}: {dimension}-D", file=sys.stderr, flush=True)
+            words = ["clock", str(dimension), str(points), str(steps), str(number), *TIMED]
+            rows = on_ranks(TIMED_RANKS, program, *words, stdout=subprocess.PIPE, text=True, check=True).stdout
+            times = pd.concat([times, pd.read_csv(StringIO(rows)).assign(dim=dimension)], ignore_index=True)
+            times.to_csv(out / "clock.csv", index=False)
+    write(out, [time_table(times)])
+
+
+def time_table(times: pd.DataFrame) -> list[list[str]]:
+    """Least time of a step, and medians of ratios of one turn; the last arm is the second of two equal ones."""
+    lines = [["dimension", *(f"{arm}, least, ms" for arm in TIMED[:-1]),
+              *(f"{arm} / {TIMED[-2]} [95 %]" for arm in TIMED[:-2]), "A/A [95 %]"]]  # fmt: skip
+    for dimension, of_one in times.groupby("dim"):
+        by_place = of_one.pivot(index="turn", columns="place", values="seconds")
+        base = by_place[len(TIMED) - 2]
+        ratios = [median_of(by_place[k] / base).text(2) for k in (*range(len(TIMED) - 2), len(TIMED) - 1)]
+        lines.append([f"{dimension}-D", *(f"{1000 * by_place[k].min():.3f}" for k in range(len(TIMED) - 1)), *ratios])
+    return lines
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="comparisons/studies/run step", description=__doc__,
+                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
+    parser.add_argument("--out", type=Path, default=OUT / "step", help="folder of step.csv and table.md")
+    parser.add_argument("--points", type=int, default=20_000, help="of a rank")
+    parser.add_argument("--steps", type=int, help="default: 3, by the clock 500")
+    parser.add_argument("--clock", action="store_true", help="measure seconds")
+    parser.add_argument("--rounds", type=int, default=10, help="of --clock, two turns each")
+    parser.add_argument("--hold", action="store_true", help="fail if an arm takes more instructions than it may")
+    parser.add_argument("--quick", action="store_true", help="few points, two cases")
+    parser.add_argument("--driver", type=Path, help="a program beside rrcb_step, which is not built then")
+    given = parser.parse_args()
+    given.out.mkdir(parents=True, exist_ok=True)
+    if not given.driver:
+        build("rrcb_step")
+    program = (given.driver.parent if given.driver else PROGRAMS) / "rrcb_step"
+    points = 500 if given.quick else given.points
+    if given.clock:
+        rounds, steps = (1, 20) if given.quick else (given.rounds, given.steps or 500)
+        time_all(program, given.out, points, steps, rounds)
+        return
+    rows = count_all(program, given.out, points, given.steps or 3, BOUNDS if given.quick or given.hold else CASES)
+    if given.hold and (found := excesses(rows)):
+        sys.exit("\n".join(found))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+#include "../../tests/support/ranks.hpp"
+#include "counts_mpi.hpp"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace comparisons {
+namespace {
+
+/// Sum over the stages of a step that moves points, or of one that keeps points and ghosts.
+StageCounts total(std::string_view arm, const Flow& flow, bool keeps) {
+    const std::vector<std::string> names = stage_names(make_arm(arm, flow));
+    const std::vector<StageCounts> counts = count(arm, flow, 4);
+    StageCounts sum;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (names[k].starts_with("kept ") != keeps) continue;
+        sum.collectives += counts[k].collectives;
+        sum.messages += counts[k].messages;
+        sum.allocations += counts[k].allocations;
+    }
+    return sum;
+}
+
+/// Neighbours of a rank in a box of cubes, on average.
+double mean_neighbours(int dimension) {
+    if (rrcb::test::num_ranks() == 4) return 3;
+    return dimension == 2 ? 4 : 7;
+}
+
+class Step : public testing::TestWithParam<int> {
+  protected:
+    Flow flow_{GetParam(), 1000, MPI_COMM_WORLD};
+};
+
+INSTANTIATE_TEST_SUITE_P(dimensions, Step, testing::Values(2, 3));
+
+TEST_P(Step, moves_the_same_points_and_ghosts_and_adds_the_same_forces_in_each_arm) {
+    SameResults results;
+    std::size_t ghosts = 0;
+    for (const std::string& name : arm_names())
+        run(make_arm(name, flow_), flow_, 4,
+            {[](std::size_t, const std::function<void()>& call) { call(); },
+             [&](int step, const Particles& particles) {
+                 EXPECT_NO_THROW(results.check(name, step, particles));
+                 ghosts += particles.ghost_ids.size();
+             }});
+    EXPECT_GT(ghosts, 0U);
+}
+
+TEST_P(Step, by_hand_sends_three_messages_to_each_neighbour_and_two_if_nothing_moves) {
+    const StageCounts moves = total("by-hand", flow_, false);
+    EXPECT_EQ(moves.collectives, 0);
+    EXPECT_EQ(moves.messages, 3 * mean_neighbours(GetParam()));
+    EXPECT_LE(moves.allocations, 2);
+    const StageCounts keeps = total("by-hand", flow_, true);
+    EXPECT_EQ(keeps.collectives, 0);
+    EXPECT_EQ(keeps.messages, 2 * mean_neighbours(GetParam()));
+    EXPECT_EQ(keeps.allocations, 0);
+}
+
+TEST_P(Step, of_calls_for_points_that_go_anywhere_takes_six_collectives) {
+    const StageCounts moves = total("loop", flow_, false);
+    EXPECT_LE(moves.collectives, 6);
+    EXPECT_LE(moves.messages, 37);
+    EXPECT_LE(moves.allocations, 220);
+    const StageCounts keeps = total("loop", flow_, true);
+    EXPECT_LE(keeps.collectives, 2);
+    EXPECT_LE(keeps.messages, 20);
+    EXPECT_LE(keeps.allocations, 70);
+}
+
+}  // namespace
+}  // namespace comparisons

@@ -2,11 +2,14 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/rank_counts_mpi.hpp"
-#include "collective/rank_order.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/near_boxes.hpp"
+#include "lists/part_reaches.hpp"
 #include "lists/periodic_images.hpp"
+#include "lists/quiet_boxes.hpp"
 #include "lists/radii.hpp"
+#include "lists/rank_lists.hpp"
 #include "lists/remap_mpi.hpp"
 #include "lists/tier_search_mpi.hpp"
 #include "lists/transfer_log.hpp"
@@ -41,12 +44,6 @@ struct Holders {
 
     RankRange operator()(Part end) const { return of_part(shape.part_at(end, num_parts)); }
 
-    /// Returns true if only this rank holds the part at an end.
-    bool are_only_here(Part end) const {
-        const RankRange ranks = (*this)(end);
-        return ranks.first_rank == rank && ranks.count == 1;
-    }
-
     /// Returns the ends of the parts on this rank.
     std::vector<Part> ends_here() const {
         std::vector<Part> ends;
@@ -70,17 +67,18 @@ struct GhostRequest {
     Holders holders;
     std::optional<PeriodicImages> images;
     bool has_balanced;                     ///< whether the points are unchanged since the balance
+    Box box{};                             ///< of the points
     std::optional<PartReaches> reaches{};  ///< of the parts, if their radii count
 
-    void check(const Cuts& cuts) const {
+    void check(const Cuts& cuts) {
         radii.check(points.count);
-        check_points(points);
+        box = check_points(points);
         check_tree(cuts);
         require(cuts.dimension == points.dimension, "cuts must have the dimension of the points");
         holders.check();
         if (!images) return;
         images->check(radii.greatest());
-        images->check(points);
+        images->check(points, box);
     }
 
     /// Notes the reaches of the points of this rank. A point outside its parts counts for each.
@@ -109,32 +107,18 @@ class Neighbourhood {
         : cuts_(cuts),
           request_(request),
           reach_(request.reaches ? request.reaches->greatest() : -infinity),
-          search_(
-              cuts, [&](Part end, const Box& region) { return leaves_out(end, region); },
-              reaches()) {
-        if (request.images)
-            search_of_images_.emplace(
-                cuts, [](Part, const Box&) { return false; }, reaches());
-    }
+          near_(cuts, {request.holders, request.holders.rank, request.box, greatest_of_senders(),
+                       images(), reaches()}),
+          lists_(near_.ranks(), images() != nullptr) {}
 
-    /// Notes the ranks in need of a point or its images. Points come in ascending order.
-    void add(LocalIndex point, const Ball& ball) {
-        if (!request_.images) return add(point, ball, Shift{});
-        request_.images->for_each(ball.widened(reach_),
-                                  [&](const Shift& shift, const Vector& centre) {
-                                      add(point, ball.moved_to(centre), shift);
-                                  });
-    }
-
-    void write(GhostPlan& plan) const {
-        RankOrder order(ranks_, request_.holders.num_ranks);
-        plan.send = order.counts();
-        plan.send_indices.resize(points_.size());
-        plan.shifts.resize(shifts_.size());
-        order.for_each([&](std::size_t k, std::size_t place) {
-            plan.send_indices[place] = points_[k];
-            if (request_.images) plan.shifts[place] = shifts_[k];
+    /// Lists the points that this rank sends, with their shifts.
+    void list(GhostPlan& plan) {
+        const double greatest = std::max(greatest_of_senders(), reach_);
+        const QuietBoxes quiet(near_.homes(), greatest, cuts_.dimension, images());
+        with_dimension([&](auto dimension) {
+            quiet.for_each_outside(request_.points, [&](LocalIndex i) { add<dimension>(i); });
         });
+        lists_.write(plan);
     }
 
     /// Returns the nodes near points whose cuts are not known.
@@ -142,29 +126,50 @@ class Neighbourhood {
 
   private:
     const PartReaches* reaches() const { return request_.reaches ? &*request_.reaches : nullptr; }
-
-    /// Leaves out the parts on this rank only, and notes the region of one of them.
-    bool leaves_out(Part end, const Box& region) {
-        if (!request_.holders.are_only_here(end)) return false;
-        if (!home_ && !is_region_empty(cuts_, end, region)) home_ = region;
-        return true;
+    const PeriodicImages* images() const { return request_.images ? &*request_.images : nullptr; }
+    double greatest_of_senders() const {
+        return request_.radii.needs == Needs::receiver ? -infinity : request_.radii.greatest();
     }
 
+    /// Calls visit with a constant, so that loops over the axes have no end to test.
+    template <class Visit>
+    void with_dimension(Visit&& visit) const {
+        if (cuts_.dimension == 1) return visit(std::integral_constant<int, 1>{});
+        if (cuts_.dimension == 2) return visit(std::integral_constant<int, 2>{});
+        visit(std::integral_constant<int, 3>{});
+    }
+
+    /// Notes the ranks in need of a point or its images.
+    template <int dimension>
+    void add(LocalIndex point) {
+        const Ball ball(request_.points.position(point), request_.radii.of_sender(point));
+        if (!request_.images) return add<dimension>(point, ball, Shift{});
+        request_.images->for_each(ball.widened(reach_),
+                                  [&](const Shift& shift, const Vector& centre) {
+                                      add<dimension>(point, ball.moved_to(centre), shift);
+                                  });
+    }
+
+    template <int dimension>
     void add(LocalIndex point, const Ball& ball, const Shift& shift) {
         const bool is_image = shift != Shift{};
-        if (!is_image && home_ && ball.widened(reach_).is_inside(*home_, cuts_.dimension)) return;
+        if (!is_image && is_home_alone(ball)) return;
         if (!is_image && request_.has_balanced) require_here(point, ball.centre());
-        const auto first = std::ssize(ranks_);
-        (is_image ? *search_of_images_ : search_)
-            .for_each_part(
-                ball, [&](Part end) { note(request_.holders(end), is_image); },
-                [&](std::size_t node) { lacking_.insert(node); },
-                is_image ? request_.images->apart(ball.centre()) : Vector{});
-        // A rank may hold several of the parts.
-        std::ranges::sort(ranks_.begin() + first, ranks_.end());
-        ranks_.erase(std::unique(ranks_.begin() + first, ranks_.end()), ranks_.end());
-        points_.resize(ranks_.size(), point);
-        if (request_.images) shifts_.resize(ranks_.size(), shift);
+        lists_.begin(point, shift);
+        near_.for_each_touched<dimension>(ball, [&](const NearBoxes::Row& row) {
+            if (is_unknown(row.entry)) return void(lacking_.insert(unknown_node(row.entry)));
+            if (request_.reaches && !request_.reaches->reaches(row.entry, ball)) return;
+            for (std::int32_t slot = row.first_slot; slot < row.first_slot + row.num_slots; ++slot)
+                if (is_image || lists_.rank_of(slot) != request_.holders.rank) lists_.add(slot);
+        });
+    }
+
+    /// Returns true if a ball smaller than the greatest is inside a box of this rank.
+    bool is_home_alone(const Ball& ball) const {
+        if (!request_.radii.each) return false;
+        const Ball wide = ball.widened(reach_);
+        return std::ranges::any_of(
+            near_.homes(), [&](const Box& home) { return wide.is_inside(home, cuts_.dimension); });
     }
 
     void require_here(LocalIndex point, const Vector& position) const {
@@ -176,32 +181,20 @@ class Neighbourhood {
                "; give the points that the transfer returned");
     }
 
-    void note(const RankRange& ranks, bool also_here) {
-        for (int rank = ranks.first_rank; rank < ranks.first_rank + ranks.count; ++rank)
-            if (also_here || rank != request_.holders.rank) ranks_.push_back(rank);
-    }
-
     const Cuts& cuts_;
     const GhostRequest& request_;
-    double reach_;             ///< greatest of all parts
-    std::optional<Box> home_;  ///< region of a part on this rank only
-    BallSearch search_;
-    std::optional<BallSearch> search_of_images_{};  ///< of all parts
-    std::vector<LocalIndex> points_{};
-    std::vector<int> ranks_{};     ///< each to get one of the points
-    std::vector<Shift> shifts_{};  ///< of these, if there are images
+    double reach_;  ///< greatest of all parts
+    NearBoxes near_;
+    RankLists lists_;
     std::set<std::size_t> lacking_{};
 };
 
 /// Lists the points that this rank sends, with their shifts; returns the nodes whose cuts it lacks
 /// for the rest.
 std::vector<std::size_t> list_sent(const Cuts& cuts, const GhostRequest& request, GhostPlan& plan) {
-    const Points& points = request.points;
     Neighbourhood neighbourhood(cuts, request);
-    for (LocalIndex i = 0; i < points.count; ++i)
-        neighbourhood.add(i, Ball(points.position(i), request.radii.of_sender(i)));
-    plan.num_points = points.count;
-    neighbourhood.write(plan);
+    plan.num_points = request.points.count;
+    neighbourhood.list(plan);
     return neighbourhood.lacking();
 }
 

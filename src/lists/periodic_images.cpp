@@ -46,7 +46,11 @@ void PeriodicImages::check(double radius) const {
     }
 }
 
-void PeriodicImages::check(const Points& points) const {
+void PeriodicImages::check(const Points& points, const Box& all) const {
+    bool are_inside = true;
+    for (int a = 0; a < dimension_ && points.count > 0; ++a)
+        are_inside = are_inside && all.lower[a] >= box_.lower[a] && all.upper[a] <= box_.upper[a];
+    if (are_inside) return;
     for (LocalIndex i = 0; i < points.count; ++i)
         for (int a = 0; a < dimension_; ++a) {
             const double x = points.coordinate(i, a);
@@ -55,13 +59,6 @@ void PeriodicImages::check(const Points& points) const {
                    std::to_string(a) + " is outside the periodic box, " + text_of(box_.lower[a]) +
                    " to " + text_of(box_.upper[a]));
         }
-}
-
-Vector PeriodicImages::apart(const Vector& x) const {
-    Vector apart{};
-    for (int a = 0; a < dimension_; ++a)
-        apart[a] = std::max({0.0, box_.lower[a] - x[a], x[a] - box_.upper[a]});
-    return apart;
 }
 
 Vector PeriodicImages::image(const Vector& x, const Shift& shift) const {

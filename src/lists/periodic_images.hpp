@@ -1,8 +1,12 @@
 #pragma once
 
-#include "lists/ball_search.hpp"
+#include "lists/ball.hpp"
 
 #include <rrcb/ghosts.hpp>
+
+#include <array>
+#include <tuple>
+#include <utility>
 
 namespace rrcb {
 
@@ -16,8 +20,20 @@ class PeriodicImages {
 
     /// Throws Error unless the box is valid, and long enough for the greatest radius.
     void check(double radius) const;
-    /// Throws Error, naming the first point outside the box.
-    void check(const Points& points) const;
+    /// Throws Error, naming the first point outside the box. `all` is the box of the points.
+    void check(const Points& points, const Box& all) const;
+
+    const Box& box() const { return box_; }
+
+    /// Calls visit(lower, upper) for an interval along an axis and for its images within reach of
+    /// the box.
+    template <class Visit>
+    void for_each_along(int axis, const std::array<double, 2>& ends, double reach,
+                        Visit&& visit) const {
+        const auto [first, last] = shifts_along(axis, ends[0], ends[1], reach);
+        for (std::int32_t shift = first; shift <= last; ++shift)
+            visit(image_of(ends[0], box_, axis, shift), image_of(ends[1], box_, axis, shift));
+    }
 
     /// Calls visit(shift, centre) for the images of a ball in the box that reach it along each
     /// axis.
@@ -26,10 +42,8 @@ class PeriodicImages {
         Shift first{};
         Shift last{};
         for (int a = 0; a < dimension_; ++a) {
-            if (!is_periodic(a)) continue;
             const double x = ball.centre()[a];
-            while (ball.reaches(box_.lower[a] - image_of(x, box_, a, first[a] - 1))) --first[a];
-            while (ball.reaches(image_of(x, box_, a, last[a] + 1) - box_.upper[a])) ++last[a];
+            std::tie(first[a], last[a]) = shifts_along(a, x, x, ball.reach());
         }
         Shift shift{};
         for (shift[0] = first[0]; shift[0] <= last[0]; ++shift[0])
@@ -40,13 +54,21 @@ class PeriodicImages {
 
     Vector image(const Vector& x, const Shift& shift) const;
 
-    /// Returns the distances from a position to the box along the axes.
-    Vector apart(const Vector& x) const;
-
     std::uint64_t hash() const;
 
   private:
     bool is_periodic(int axis) const;
+
+    /// Returns the first and the last shift of an interval along an axis within reach of the box.
+    std::pair<std::int32_t, std::int32_t> shifts_along(int axis, double lower, double upper,
+                                                       double reach) const {
+        std::pair<std::int32_t, std::int32_t> shifts{};
+        auto& [first, last] = shifts;
+        if (!is_periodic(axis)) return shifts;
+        while (box_.lower[axis] - image_of(upper, box_, axis, first - 1) <= reach) --first;
+        while (image_of(lower, box_, axis, last + 1) - box_.upper[axis] <= reach) ++last;
+        return shifts;
+    }
 
     Box box_;
     int dimension_;

@@ -1,0 +1,137 @@
+#include "lists/near_boxes.hpp"
+
+#include "arithmetic/infinity.hpp"
+#include "cuts/tree.hpp"
+#include "lists/part_reaches.hpp"
+#include "lists/periodic_images.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace rrcb {
+
+namespace {
+
+/// Fewer rows are tested one by one.
+constexpr std::size_t least_rows_below = 8;
+
+/// The places of points and their images along one axis.
+using Intervals = std::vector<std::array<double, 2>>;
+
+Box joined(const Box& a, const Box& b) {
+    Box box;
+    for (std::size_t axis = 0; axis < max_dimension; ++axis) {
+        box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
+        box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
+    }
+    return box;
+}
+
+}  // namespace
+
+/// A list in the making.
+class NearList {
+  public:
+    NearList(const Cuts& cuts, const NearRequest& request, NearBoxes& list)
+        : cuts_(cuts), request_(request), list_(list), reach_(Ball::reach_of(request.radius)) {
+        if (request.reaches != nullptr)
+            reach_ = std::max(reach_, Ball::reach_of(request.reaches->greatest()));
+        for (int a = 0; a < cuts.dimension; ++a) {
+            const std::array ends{request.points.lower[a], request.points.upper[a]};
+            if (request.images != nullptr) {
+                request.images->for_each_along(a, ends, reach_, [&](double lower, double upper) {
+                    places_[a].push_back({lower, upper});
+                });
+            } else {
+                places_[a].push_back(ends);
+            }
+        }
+    }
+
+    void make() {
+        const Box all = request_.images != nullptr ? request_.images->box() : everywhere;
+        if (add(root_of(cuts_), all)) list_.homes_.push_back(all);
+        for (const NearBoxes::Row& row : list_.rows_)
+            for (int k = 0; k < row.num_slots; ++k) list_.ranks_.push_back(row.first_slot + k);
+        std::ranges::sort(list_.ranks_);
+        list_.ranks_.erase(std::ranges::unique(list_.ranks_).begin(), list_.ranks_.end());
+        for (NearBoxes::Row& row : list_.rows_)
+            row.first_slot = static_cast<std::int32_t>(
+                std::ranges::lower_bound(list_.ranks_, row.first_slot) - list_.ranks_.begin());
+    }
+
+  private:
+    /// Adds the regions at or below a node with this box. Returns whether only this rank holds all
+    /// of them.
+    bool add(const Descent& at, const Box& box) {
+        if (!is_near(box)) return false;
+        const Cut* cut = at.is_part() ? nullptr : find_cut(cuts_, at.node);
+        if (cut == nullptr) return add_end(at, box);
+        const std::size_t first = list_.rows_.size();
+        list_.rows_.emplace_back();
+        const Box below = box_below(box, *cut);
+        const Box above = box_above(box, *cut);
+        const bool is_lower_home = add(at.lower(), below);
+        const bool is_upper_home = add(at.upper(), above);
+        if (is_lower_home != is_upper_home) list_.homes_.push_back(is_lower_home ? below : above);
+        join(first);
+        return is_lower_home && is_upper_home;
+    }
+
+    bool add_end(const Descent& at, const Box& box) {
+        const Part end = at.first_part;
+        if (!at.is_part()) {
+            list_.rows_.push_back(
+                {box, request_.reaches != nullptr ? reach_ : -infinity, unknown_below(at.node)});
+            return false;
+        }
+        // Whoever holds such a part needs nothing.
+        if (is_region_empty(cuts_, end, box)) return true;
+        const RankRange ranks = request_.ranks_of(end);
+        const bool is_home = ranks.first_rank == request_.rank && ranks.count == 1;
+        if (is_home && request_.images == nullptr) return true;
+        const double reach =
+            request_.reaches != nullptr ? Ball::reach_of(request_.reaches->of(end)) : -infinity;
+        // Until all ranks are known, the slot is the rank.
+        list_.rows_.push_back({box, reach, end, 0, ranks.first_rank, ranks.count});
+        return is_home;
+    }
+
+    /// Makes a row for all from `first` + 1 on, if they are many, or removes it.
+    void join(std::size_t first) {
+        std::vector<NearBoxes::Row>& rows = list_.rows_;
+        const std::size_t num_below = rows.size() - first - 1;
+        if (num_below < least_rows_below) {
+            rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(first));
+            return;
+        }
+        NearBoxes::Row row{{}, -infinity, left_out, static_cast<std::int32_t>(num_below)};
+        for (std::size_t k = first + 1; k < rows.size(); ++k) {
+            row.box = joined(row.box, rows[k].box);
+            row.reach = std::max(row.reach, rows[k].reach);
+        }
+        rows[first] = row;
+    }
+
+    bool is_near(const Box& box) const {
+        for (int a = 0; a < cuts_.dimension; ++a)
+            if (std::ranges::none_of(places_[a], [&](const auto& place) {
+                    return box.lower[a] - place[1] <= reach_ && place[0] - box.upper[a] <= reach_;
+                }))
+                return false;
+        return true;
+    }
+
+    const Cuts& cuts_;
+    const NearRequest& request_;
+    NearBoxes& list_;
+    double reach_;  ///< greatest of all
+    std::array<Intervals, max_dimension> places_{};
+};
+
+NearBoxes::NearBoxes(const Cuts& cuts, const NearRequest& request) {
+    const bool has_points = request.points.lower[0] <= request.points.upper[0];
+    if (has_points) NearList(cuts, request, *this).make();
+}
+
+}  // namespace rrcb

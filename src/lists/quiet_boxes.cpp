@@ -1,0 +1,103 @@
+#include "lists/quiet_boxes.hpp"
+
+#include "arithmetic/infinity.hpp"
+#include "cuts/tree.hpp"
+#include "lists/periodic_images.hpp"
+#include "passes/point_layout.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace rrcb {
+
+namespace {
+
+/// Returns a coordinate above which every x, by as few as possible, has x - face > reach. `scale`
+/// bounds the operands.
+double beyond(double face, double reach, double scale) {
+    if (face == -infinity) return -infinity;
+    const double margin = 4 * std::numeric_limits<double>::epsilon() * scale;
+    const double x = std::nextafter(face + reach + margin, infinity);
+    // Differences ascend with x, also rounded ones.
+    return x - face > reach ? x : infinity;
+}
+
+/// Returns the same for points whose images by one period up, if any, are beyond the box.
+double beyond_images(double reach, const Box& box, int axis) {
+    const double lower = box.lower[axis];
+    const double upper = box.upper[axis];
+    if (lower == -infinity) return -infinity;
+    const double x = beyond(lower, reach, std::abs(lower) + std::abs(upper) + reach);
+    return image_of(x, box, axis, 1) - upper > reach ? x : infinity;
+}
+
+Box mirrored(const Box& box) {
+    Box mirror;
+    for (std::size_t a = 0; a < max_dimension; ++a) {
+        mirror.lower[a] = -box.upper[a];
+        mirror.upper[a] = -box.lower[a];
+    }
+    return mirror;
+}
+
+/// Returns the lower ends of a quiet box.
+Vector lower_of(const Box& home, double reach, int dimension, const Box& periodic) {
+    Vector lower{};
+    for (int a = 0; a < dimension; ++a)
+        lower[a] = std::max(beyond(home.lower[a], reach, std::max(std::abs(home.lower[a]), reach)),
+                            beyond_images(reach, periodic, a));
+    return lower;
+}
+
+template <class Layout>
+bool is_inside(const Layout& x, LocalIndex i, const Box& box) {
+    for (int a = 0; a < Layout::dimension; ++a)
+        if (!(x(i, a) > box.lower[a] && x(i, a) < box.upper[a])) return false;
+    return true;
+}
+
+}  // namespace
+
+QuietBoxes::QuietBoxes(std::span<const Box> homes, double radius, int dimension,
+                       const PeriodicImages* images) {
+    if (radius < 0) {
+        boxes_.push_back(everywhere);
+        return;
+    }
+    const double reach = Ball::reach_of(radius);
+    const Box periodic = images != nullptr ? images->box() : everywhere;
+    for (const Box& home : homes) {
+        Box quiet;
+        quiet.lower = lower_of(home, reach, dimension, periodic);
+        quiet.upper = lower_of(mirrored(home), reach, dimension, mirrored(periodic));
+        bool is_empty = false;
+        for (int a = 0; a < dimension; ++a) {
+            quiet.upper[a] = -quiet.upper[a];
+            is_empty = is_empty || !(quiet.lower[a] < quiet.upper[a]);
+        }
+        if (!is_empty) boxes_.push_back(quiet);
+    }
+}
+
+LocalIndex QuietBoxes::list_outside(const Points& points, LocalIndex first, LocalIndex last,
+                                    LocalIndex* outside) const {
+    if (boxes_.empty()) {
+        std::iota(outside, outside + (last - first), first);
+        return last - first;
+    }
+    return visit_layout(points, [&](const auto& x) {
+        LocalIndex number = 0;
+        const Box front = boxes_.front();
+        for (LocalIndex i = first; i < last; ++i)
+            if (!is_inside(x, i, front)) outside[number++] = i;
+        for (const Box& box : std::span(boxes_).subspan(1)) {
+            const auto left = std::remove_if(outside, outside + number,
+                                             [&](LocalIndex i) { return is_inside(x, i, box); });
+            number = static_cast<LocalIndex>(left - outside);
+        }
+        return number;
+    });
+}
+
+}  // namespace rrcb

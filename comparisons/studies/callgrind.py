@@ -12,10 +12,11 @@ from pathlib import Path
 
 from driver import launcher
 
-# What waits for messages spins: the instructions of MPI depend on the machine. Those of libraries count for the
-# program's functions that call them.
+# What waits for messages spins: the instructions of MPI, and of WAITS, depend on the machine. Those of libraries count
+# for the program's functions that call them.
 OURS = re.compile(r"^rrcb_")
 HELPERS = re.compile(r"^(libc|libm|libstdc\+\+|libgcc_s|ld-linux.*)[.-]")
+WAITS = re.compile(r"^rrcb::(wait_watched|pause|Deadline::|mpi::Watch::)|steady_clock::now|nanosleep|clock_gettime")
 BELOW = "(below main)"  # calls main, and so what is counted in it
 # Callgrind counts an instruction for each byte that `rep movsb` moves. Symbols are bound before the first call.
 EVEN = {
@@ -63,11 +64,9 @@ def own_instructions(path: Path) -> Counter[str]:
             is_call = True
         elif re.match(r"[-+*\d]", line):
             cost = int(line.split()[1])
-            if _is_own(now["ob"], now["fn"]):
-                if not is_call:
-                    found[now["fn"]] += cost
-                elif HELPERS.match(Path(now["cob"]).name) and now["fn"] != BELOW:
-                    found[now["cfn"]] += cost
+            name = _counted_as(now, is_call)
+            if name and not WAITS.search(name):
+                found[name] += cost
             if is_call:
                 now["cob"] = now["ob"]
             is_call = False
@@ -82,6 +81,12 @@ def short(function: str) -> str:
     return name.split("(")[0].split(" ")[-1]
 
 
-def _is_own(binary: str, function: str) -> bool:
-    """The layer that counts messages shadows functions of MPI."""
-    return bool(OURS.match(Path(binary).name)) and not function.startswith("MPI_")
+def _counted_as(now: dict[str, str], is_call: bool) -> str:
+    """The function that a cost counts for; none for MPI and for what calls the program's functions."""
+    # The layer that counts messages shadows functions of MPI.
+    if not OURS.match(Path(now["ob"]).name) or now["fn"].startswith("MPI_"):
+        return ""
+    if not is_call:
+        return now["fn"]
+    is_helper = HELPERS.match(Path(now["cob"]).name) and now["fn"] != BELOW
+    return now["cfn"] if is_helper else ""

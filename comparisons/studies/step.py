@@ -28,8 +28,8 @@ BY_CAUSE = ("loop", "ghosts")
 CASE = ["dim", "ranks"]
 # Most instructions a point and step, of stages or whole arms, which --hold checks.
 BOUNDS = {
-    (2, 4): {"loop ghosts": 196, "loop": 245, "by-hand": 44},
-    (3, 8): {"loop ghosts": 388, "loop": 468, "by-hand": 132},
+    (2, 4): {"loop ghosts": 78, "loop": 125, "by-hand": 44},
+    (3, 8): {"loop ghosts": 135, "loop": 215, "by-hand": 132},
 }
 TIMED_RANKS = 2
 TIMED = ("loop", "by-hand", "by-hand")  # one arm against itself

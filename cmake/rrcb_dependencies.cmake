@@ -1,6 +1,7 @@
 # Finds what the enabled parts stand on.
 include(rrcb_left_out)
 include(rrcb_trilinos)
+include(rrcb_probe)
 
 # rrcb_part(<option> <default> <help>)
 #
@@ -10,18 +11,24 @@ function(rrcb_part option default help)
   set_property(CACHE ${option} PROPERTY STRINGS AUTO ON OFF)
 endfunction()
 
-# rrcb_needs(<option> <found> <what> [Debian packages that have it...])
+# rrcb_needs(<option> <found> <what> [package of CMake])
 #
-# Where a part lacks what it needs, AUTO leaves it out; ON fails.
+# If a part lacks what it needs, AUTO leaves it out; ON fails.
 function(rrcb_needs option found what)
   if(NOT ${option} OR ${found})
     return()
   endif()
+  set(absence "it needs ${what}")
+  if(ARGN)
+    rrcb_absence(absence "${what}" ${ARGN})
+  endif()
   if(NOT ${option} STREQUAL "AUTO")
-    message(FATAL_ERROR "${option}=${${option}} needs ${what}, not found (Debian packages: ${ARGN});"
+    rrcb_packages_of(packages ${option})
+    list(JOIN packages " " packages)
+    message(FATAL_ERROR "${option}=${${option}} needs ${what}; ${absence} (Debian packages: ${packages});"
                         " or leave it out: ${option}=OFF")
   endif()
-  rrcb_left_out(${option} "${what} was not found" ${ARGN})
+  rrcb_left_out(${option} "${absence}")
   set(${option} OFF PARENT_SCOPE)
 endfunction()
 
@@ -61,6 +68,7 @@ set(top_level_parts OFF)
 if(PROJECT_IS_TOP_LEVEL)
   set(top_level_parts AUTO)
 endif()
+rrcb_part(RRCB_TESTS ${top_level_parts} "The tests (need GoogleTest)")
 rrcb_part(RRCB_ZOLTAN AUTO "The Zoltan plug-in (needs Zoltan of Trilinos)")
 rrcb_part(RRCB_TEUCHOS AUTO "The parameter lists and timers of Trilinos (needs Teuchos)")
 rrcb_part(RRCB_FORTRAN ${top_level_parts} "The Fortran module (needs a Fortran compiler)")
@@ -78,7 +86,7 @@ if(RRCB_FORTRAN)
     unset(CMAKE_Fortran_COMPILER CACHE)
   endif()
   check_language(Fortran)
-  rrcb_needs(RRCB_FORTRAN CMAKE_Fortran_COMPILER "a Fortran compiler" gfortran)
+  rrcb_needs(RRCB_FORTRAN CMAKE_Fortran_COMPILER "a Fortran compiler" Fortran)
 endif()
 if(RRCB_FORTRAN)
   enable_language(Fortran)
@@ -111,13 +119,12 @@ rrcb_requires(Eigen3_FOUND "Eigen 3.4 or newer" RRCB_EIGEN_DIR "the folder that 
 
 if(RRCB_ZOLTAN)
   rrcb_find_trilinos(Zoltan)
-  rrcb_needs(RRCB_ZOLTAN "TARGET;Zoltan::zoltan" "Zoltan of Trilinos" libtrilinos-zoltan-dev)
+  rrcb_needs(RRCB_ZOLTAN "TARGET;Zoltan::zoltan" "Zoltan of Trilinos" Zoltan)
 endif()
 if(RRCB_TEUCHOS OR RRCB_MPM_SCENES)
   rrcb_find_trilinos(Teuchos)
   foreach(option IN ITEMS RRCB_TEUCHOS RRCB_MPM_SCENES)
-    rrcb_needs(${option} "TARGET;Teuchos::teuchos" "Teuchos of Trilinos" libtrilinos-teuchos-dev
-               libtrilinos-kokkos-dev)
+    rrcb_needs(${option} "TARGET;Teuchos::teuchos" "Teuchos of Trilinos" Teuchos)
   endforeach()
 endif()
 if(RRCB_MPM_SCENES)
@@ -128,8 +135,13 @@ foreach(option IN ITEMS RRCB_ZOLTAN RRCB_MPM_SCENES)
 endforeach()
 
 if(RRCB_BENCHMARKS)
-  find_package(benchmark QUIET)
-  rrcb_needs(RRCB_BENCHMARKS benchmark_FOUND "Google Benchmark" libbenchmark-dev)
+  rrcb_find_package(benchmark)
+  rrcb_needs(RRCB_BENCHMARKS benchmark_FOUND "Google Benchmark" benchmark)
+endif()
+
+if(RRCB_TESTS)
+  rrcb_find_package(GTest)
+  rrcb_needs(RRCB_TESTS GTest_FOUND "GoogleTest" GTest)
 endif()
 
 # Kokkos as Kokkos::kokkos, which tests and examples use: its own package, or that of Trilinos.
@@ -138,7 +150,11 @@ if((RRCB_TESTS OR RRCB_EXAMPLES) AND NOT TARGET Kokkos::kokkos)
   if(TARGET KokkosCore::kokkoscore)
     add_library(Kokkos::kokkos ALIAS KokkosCore::kokkoscore)
   else()
-    find_package(Kokkos QUIET)
+    rrcb_find_package(Kokkos)
+  endif()
+  if(NOT TARGET Kokkos::kokkos)
+    rrcb_absence(absence Kokkos KokkosCore Kokkos)
+    rrcb_left_out("tests and example of Kokkos" "${absence}")
   endif()
   # With the MPI of Trilinos, as Teuchos.
   if(RRCB_TEUCHOS)

@@ -1,6 +1,5 @@
-# Installs the libraries, so that find_package(rrcb) gives rrcb::rrcb and, where Zoltan and Teuchos
-# are found, rrcb::zoltan and rrcb::teuchos. These have export files of their own: users without
-# Trilinos never read them.
+# Installs the libraries, so that find_package(rrcb) provides rrcb::rrcb, and with components rrcb::zoltan and
+# rrcb::teuchos. These have export files of their own: users without Trilinos never read them.
 set(RRCB_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/rrcb)
 
 # Installs targets with what belongs to them, all of it as one component, but for libraries that
@@ -59,6 +58,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rrcbConfig.cmake.in rrcb
 write_basic_package_version_file(rrcbConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(
   FILES ${PROJECT_BINARY_DIR}/rrcbConfig.cmake ${PROJECT_BINARY_DIR}/rrcbConfigVersion.cmake
+        ${CMAKE_CURRENT_LIST_DIR}/rrcb_probe.cmake
         ${CMAKE_CURRENT_LIST_DIR}/rrcb_trilinos.cmake
         ${CMAKE_CURRENT_LIST_DIR}/rrcb_without_cxx.cmake
   DESTINATION ${RRCB_CONFIG_DIR}

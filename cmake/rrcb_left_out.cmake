@@ -1,9 +1,29 @@
-# rrcb_left_out(<what> <reason> [Debian packages that add it...])
+# rrcb_left_out(<what> <reason>)
 #
-# Notes a part of the project that this build does without.
+# Notes a part of the project that this build does without, and the packages that tools/packages.txt has for it.
 function(rrcb_left_out what reason)
+  rrcb_packages_of(packages "${what}")
   set_property(GLOBAL APPEND PROPERTY RRCB_LEFT_OUT "  ${what}: ${reason}")
-  set_property(GLOBAL APPEND PROPERTY RRCB_MISSING_PACKAGES ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY RRCB_MISSING_PACKAGES ${packages})
+endfunction()
+
+# rrcb_packages_of(<result> <what>)
+#
+# Returns the Debian packages without which a part is left out.
+set(RRCB_PACKAGES ${CMAKE_CURRENT_LIST_DIR}/../tools/packages.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${RRCB_PACKAGES})
+function(rrcb_packages_of result what)
+  set(packages)
+  file(STRINGS ${RRCB_PACKAGES} rows REGEX "^[a-z]")
+  foreach(row IN LISTS rows)
+    string(REGEX REPLACE "^.*[|] *" "" parts "${row}")
+    string(REPLACE ", " ";" parts "${parts}")
+    if(what IN_LIST parts)
+      string(REGEX MATCH "^[^ ]+" package "${row}")
+      list(APPEND packages ${package})
+    endif()
+  endforeach()
+  set(${result} ${packages} PARENT_SCOPE)
 endfunction()
 
 # Lists once, in left_out.txt, which tools/build shows in the end, what is left out, and the command

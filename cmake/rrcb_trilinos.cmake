@@ -1,7 +1,9 @@
+include(${CMAKE_CURRENT_LIST_DIR}/rrcb_probe.cmake)
+
 # rrcb_find_trilinos(<package>)
 #
 # Finds one package of Trilinos and offers it as <package>::<package in lower case>; defines nothing
-# when it is not there. A Zoltan of its own configure has no files for CMake: Zoltan_INCLUDE_DIRS and
+# when it is not there or its files have errors. A Zoltan of its own configure has no files for CMake: Zoltan_INCLUDE_DIRS and
 # Zoltan_LIBRARIES name it. Debian's Trilinos exports targets of other names, without include
 # directories or with some that do not exist, so they are wrapped; installed with the library, for
 # rrcbConfig.cmake.
@@ -9,7 +11,10 @@ function(rrcb_find_trilinos package)
   string(TOLOWER ${package} name)
   set(target ${package}::${name})
   if(NOT TARGET ${target} AND NOT ${package}_LIBRARIES)
-    find_package(${package} QUIET)
+    rrcb_find_package(${package})
+  endif()
+  if(package STREQUAL "Teuchos" AND rrcb_failure)
+    rrcb_find_teuchos_beside_its_files()
   endif()
   if(TARGET ${target} OR NOT ${package}_LIBRARIES)
     return()
@@ -19,6 +24,23 @@ function(rrcb_find_trilinos package)
   add_library(${target} INTERFACE IMPORTED GLOBAL)
   target_include_directories(${target} SYSTEM INTERFACE ${${package}_INCLUDE_DIRS} ${folders})
   target_link_libraries(${target} INTERFACE MPI::MPI_CXX ${files})
+endfunction()
+
+# Debian's files of Teuchos include those of Kokkos, which are in a package that they do not depend on. What is used
+# of Teuchos does without them: its headers and libraries are looked for where its files are.
+function(rrcb_find_teuchos_beside_its_files)
+  get_property(folder GLOBAL PROPERTY RRCB_FOLDER_Teuchos)
+  find_path(headers Teuchos_ParameterList.hpp PATHS ${folder}/../../.. ${folder}/../../../..
+            PATH_SUFFIXES include/trilinos include NO_DEFAULT_PATH NO_CACHE)
+  foreach(name IN ITEMS teuchosparameterlist teuchosparser teuchoscomm teuchoscore)
+    find_library(${name} NAMES trilinos_${name} ${name} PATHS ${folder}/../.. NO_DEFAULT_PATH NO_CACHE)
+    list(APPEND libraries ${${name}})
+  endforeach()
+  if(headers AND NOT libraries MATCHES "NOTFOUND")
+    set_property(GLOBAL PROPERTY RRCB_FAILURE_Teuchos "")
+    set(Teuchos_INCLUDE_DIRS ${headers} PARENT_SCOPE)
+    set(Teuchos_LIBRARIES ${libraries} PARENT_SCOPE)
+  endif()
 endfunction()
 
 # rrcb_link_files(<result> <library or target...>)

@@ -11,16 +11,11 @@ ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "comparisons/out"
 PROGRAMS = ROOT / "build/release/comparisons"
 COMPARE = PROGRAMS / "rrcb_compare"
-# What zoltan2-mj needs more than the rest: 10 MB to fetch, and a minute to compile.
-ZOLTAN2 = (
-    "libtrilinos-zoltan2-dev libtrilinos-tpetra-dev libtrilinos-xpetra-dev libtrilinos-epetra-dev"
-    " libtrilinos-kokkos-kernels-dev libptscotch-dev"
-).split()
 
 
 def build(*targets: str, multijagged: bool = False) -> None:
-    """Ends the program if it fails; goes on without Zoltan2 where that cannot be installed."""
-    if multijagged and subprocess.run([ROOT / "tools/set_up", *ZOLTAN2]).returncode:
+    """Ends the program if it fails; goes on without Zoltan2, a minute to compile, if that cannot be installed."""
+    if multijagged and subprocess.run([ROOT / "tools/set_up", "--for", "multijagged"]).returncode:
         print("Going on without Zoltan2, so without zoltan2-mj.", file=sys.stderr)
     option = f"-DRRCB_MULTIJAGGED={'ON' if multijagged else 'OFF'}"
     if subprocess.run([ROOT / "tools/build", option, *targets]).returncode:

@@ -30,7 +30,7 @@ endif()
 
 find_program(RRCB_LAMMPS lmp)
 if(NOT RRCB_LAMMPS)
-  rrcb_left_out("test of examples/lammps in LAMMPS" "lmp was not found" lammps)
+  rrcb_left_out("test of examples/lammps in LAMMPS" "lmp was not found")
 elseif(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   foreach(ranks IN ITEMS 2 4)
     rrcb_add_mpi_run(

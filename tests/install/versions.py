@@ -20,7 +20,7 @@ VERSIONS = [
     ("packaging/debian/librrcb{1}.symbols", "librrcb.so.{1} librrcb{1} "),
     ("packaging/debian/librrcb-zoltan{1}.symbols", "librrcb_zoltan.so.{1} librrcb-zoltan{1} "),
     ("python/rrcb/_library.py", 'VERSION = "{1}"'),
-    ("tests/consumer/CMakeLists.txt", "find_package(rrcb {1} REQUIRED)"),
+    ("tests/consumer/CMakeLists.txt", "find_package(rrcb {1} REQUIRED"),
 ]
 
 # Each file, and the beginning of its line with the address of the project.

@@ -47,8 +47,7 @@ set(with_vtk)
 if(has_vtkmodules.vtkIOXML)
   set(with_vtk --with-vtk)
 else()
-  rrcb_left_out("check of the VTK files by VTK's own readers" "no Python with VTK was found"
-                python3-vtk9)
+  rrcb_left_out("tests of VTK files by VTK's readers" "no Python with VTK was found")
 endif()
 
 # mpm_add_scene(scene RANKS count BALANCER name CELL_SIZE m END_TIME s VTK_EVERY steps POINTS count)
@@ -88,6 +87,9 @@ add_subdirectory(absence)
 # Nor a bit in the results, nor an instruction in a step, whether the program has it or not. Valgrind
 # cannot run what the sanitizers instrument.
 find_program(RRCB_VALGRIND valgrind)
+if(NOT RRCB_VALGRIND)
+  rrcb_left_out("tests of instructions in examples/mpm" "valgrind was not found")
+endif()
 if(RRCB_PYTHON)
   set(compare ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/tests/mpm/absence/compare.py
               ${PROJECT_BINARY_DIR}/tests/mpm/absence ${PROJECT_SOURCE_DIR}/examples/mpm/scenes)

@@ -31,7 +31,8 @@ add_test(
     -DCMAKE_CXX_FLAGS_DEBUG= -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_MPM=OFF -DRRCB_EXAMPLES=ON -DRRCB_EIGEN_DIR=${eigen}
     -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON -DBUILD_SHARED_LIBS=ON
-    -DRRCB_BENCHMARKS=AUTO -DRRCB_FORTRAN=AUTO -DRRCB_WERROR=${RRCB_WERROR})
+    -DRRCB_BENCHMARKS=AUTO -DRRCB_FORTRAN=AUTO -DRRCB_ZOLTAN=AUTO -DRRCB_TEUCHOS=AUTO
+    -DRRCB_WERROR=${RRCB_WERROR})
 add_test(
   NAME install.left_out
   COMMAND
@@ -59,7 +60,7 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/.git)
   add_test(NAME install.release
            COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install/release
                    ${CMAKE_CURRENT_SOURCE_DIR}/install/embedded ${CMAKE_CURRENT_BINARY_DIR}/release)
-  set_tests_properties(install.release PROPERTIES LABELS install TIMEOUT 120)
+  rrcb_set_tests_properties(install.release PROPERTIES LABELS install TIMEOUT 120)
 endif()
 
 # rrcb_add_missing_test(<name> <text of the error> <argument of cmake...>)
@@ -81,7 +82,7 @@ rrcb_add_missing_test(
 
 # docs/build installs nothing but the packages of the site.
 add_test(NAME install.set_up COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install/set_up ${PROJECT_SOURCE_DIR})
-set_tests_properties(install.set_up PROPERTIES LABELS install TIMEOUT 60)
+rrcb_set_tests_properties(install.set_up PROPERTIES LABELS install TIMEOUT 60)
 
 # A Zoltan of Debian's Trilinos 16 gives the file for pkg-config that the system's gives, and programs.
 if(RRCB_ZOLTAN)
@@ -108,7 +109,7 @@ if(RRCB_ZOLTAN)
   set_tests_properties(install.zoltan_targets PROPERTIES FIXTURES_SETUP zoltan_targets)
   set_tests_properties(install.zoltan_targets_flags PROPERTIES FIXTURES_REQUIRED zoltan_targets)
   set_tests_properties(install.zoltan_targets_consumer PROPERTIES FIXTURES_REQUIRED installed)
-  set_tests_properties(install.zoltan_targets install.zoltan_targets_flags install.zoltan_targets_consumer
+  rrcb_set_tests_properties(install.zoltan_targets install.zoltan_targets_flags install.zoltan_targets_consumer
                        PROPERTIES LABELS install TIMEOUT 300)
 endif()
 
@@ -120,7 +121,7 @@ if(RRCB_FORTRAN)
       ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${CMAKE_CURRENT_BINARY_DIR}/fortran_again -G
       ${CMAKE_GENERATOR} -DCMAKE_Fortran_COMPILER=CMAKE_Fortran_COMPILER-NOTFOUND -DRRCB_FORTRAN=ON
       -DRRCB_TESTS=OFF -DRRCB_EXAMPLES=OFF)
-  set_tests_properties(install.fortran_is_looked_for_again PROPERTIES LABELS install TIMEOUT 120)
+  rrcb_set_tests_properties(install.fortran_is_looked_for_again PROPERTIES LABELS install TIMEOUT 120)
 endif()
 # A package without archive and plug-in.
 set(bare_prefix ${CMAKE_CURRENT_BINARY_DIR}/bare_prefix)
@@ -128,7 +129,7 @@ foreach(component IN ITEMS runtime development)
   add_test(NAME install.${component} COMMAND ${CMAKE_COMMAND} --install
                                              ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos/_deps/rrcb-build
                                              --prefix ${bare_prefix} --component ${component})
-  set_tests_properties(
+  rrcb_set_tests_properties(
     install.${component} PROPERTIES FIXTURES_REQUIRED without_trilinos FIXTURES_SETUP bare LABELS install
                                     TIMEOUT 60)
 endforeach()
@@ -139,10 +140,12 @@ function(rrcb_add_bare_test name text)
                    ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -S
                    ${CMAKE_CURRENT_SOURCE_DIR}/install/bare -B ${CMAKE_CURRENT_BINARY_DIR}/${name} -G
                    ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${bare_prefix} -DCOMPONENTS=${ARGN})
-  set_tests_properties(install.${name} PROPERTIES FIXTURES_REQUIRED bare LABELS install TIMEOUT 120)
+  rrcb_set_tests_properties(install.${name} PROPERTIES FIXTURES_REQUIRED bare LABELS install TIMEOUT 120)
 endfunction()
 rrcb_add_bare_test(sets_its_own_policies "rrcb is found")
 rrcb_add_bare_test(names_missing_components "component fortran needs an rrcb built with" fortran)
+rrcb_add_bare_test(names_unknown_components "there is no component kokkos.*zoltan, teuchos and fortran"
+                   kokkos)
 
 find_program(RRCB_PKG_CONFIG pkg-config)
 if(RRCB_PKG_CONFIG)
@@ -151,7 +154,7 @@ if(RRCB_PKG_CONFIG)
              ${CMAKE_COMMAND} -E env FC=${CMAKE_Fortran_COMPILER}
              ${CMAKE_CURRENT_SOURCE_DIR}/install/pkg_config ${prefix} ${PROJECT_SOURCE_DIR}
              ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 3 ${RRCB_MPIEXEC_FLAGS})
-  set_tests_properties(install.pkg_config PROPERTIES FIXTURES_REQUIRED installed LABELS install
+  rrcb_set_tests_properties(install.pkg_config PROPERTIES FIXTURES_REQUIRED installed LABELS install
                                                      TIMEOUT 120)
 else()
   rrcb_left_out("test of the files for pkg-config" "pkg-config was not found")
@@ -160,6 +163,7 @@ find_package(Python3 COMPONENTS Interpreter QUIET)
 if(Python3_FOUND)
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/rrcb/*.h
        ${PROJECT_SOURCE_DIR}/include/rrcb/c/*.h
+       ${PROJECT_SOURCE_DIR}/src/c/ending.hpp
        ${PROJECT_SOURCE_DIR}/include/rrcb/*.hpp
        ${PROJECT_SOURCE_DIR}/include/rrcb/method/*.hpp)
   add_test(NAME install.symbols
@@ -176,13 +180,13 @@ if(Python3_FOUND)
   add_test(NAME install.debian COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/debian.py
                                        ${prefix} ${PROJECT_SOURCE_DIR})
   set_tests_properties(install.debian PROPERTIES FIXTURES_REQUIRED installed)
-  set_tests_properties(install.symbols install.packages install.names install.versions install.debian
+  rrcb_set_tests_properties(install.symbols install.packages install.names install.versions install.debian
                        PROPERTIES LABELS install TIMEOUT 60)
   if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE AND RRCB_PYTHON)
     add_test(NAME first_steps COMMAND ${CMAKE_COMMAND} -E env CMAKE_GENERATOR=${CMAKE_GENERATOR}
                                       RRCB_PYTHON=${RRCB_PYTHON}
                                       ${CMAKE_CURRENT_SOURCE_DIR}/first_steps/run ${prefix})
-    set_tests_properties(first_steps PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 600)
+    rrcb_set_tests_properties(first_steps PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 600)
   else()
     rrcb_left_out("tests of the documents' commands"
                   "the plug-in, pkg-config, mpi_f08 or mpi4py is not there")
@@ -194,9 +198,9 @@ set_tests_properties(install.install PROPERTIES FIXTURES_REQUIRED clean_prefix F
                                                 installed)
 set_tests_properties(install.consumer PROPERTIES FIXTURES_REQUIRED installed)
 set_tests_properties(install.builds_without_trilinos PROPERTIES FIXTURES_SETUP without_trilinos)
-set_tests_properties(install.left_out PROPERTIES FIXTURES_REQUIRED without_trilinos LABELS install
+rrcb_set_tests_properties(install.left_out PROPERTIES FIXTURES_REQUIRED without_trilinos LABELS install
                                                  TIMEOUT 60)
-set_tests_properties(
+rrcb_set_tests_properties(
   install.clean install.install install.consumer install.builds_without_trilinos install.subdirectory
   install.asked_for_but_missing install.names_missing_packages install.names_missing_headers PROPERTIES LABELS install TIMEOUT 300)
 set_tests_properties(install.consumer install.builds_without_trilinos PROPERTIES PROCESSORS 2)

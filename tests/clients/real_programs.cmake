@@ -70,6 +70,6 @@ foreach(program IN LISTS programs)
   set(test clients.real_programs.${program}.np2)
   add_test(NAME ${test} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/real_programs --smoke --ranks=2
                                 --only=${program} --build=${PROJECT_BINARY_DIR})
-  set_tests_properties(${test} PROPERTIES LABELS clients TIMEOUT 300 PROCESSORS 2
+  rrcb_set_tests_properties(${test} PROPERTIES LABELS clients TIMEOUT 300 PROCESSORS 2
                                           SKIP_RETURN_CODE 77)
 endforeach()

@@ -36,6 +36,24 @@ endfunction()
 rrcb_choose_mpiexec_flags(flags)
 set(RRCB_MPIEXEC_FLAGS "${flags}" CACHE STRING "Flags for mpiexec, as the MPI at hand needs them")
 
+# rrcb_limit(<result> <seconds>)
+#
+# The time limit of tests that take at most so long on a quiet machine. It ends hangs only, so it is five
+# times as long.
+function(rrcb_limit result seconds)
+  math(EXPR limit "5 * ${seconds}")
+  set(${result} ${limit} PARENT_SCOPE)
+endfunction()
+
+# rrcb_set_tests_properties(tests... PROPERTIES [name value...] TIMEOUT seconds [name value...])
+#
+# As set_tests_properties, with the limit of rrcb_limit. No value is empty.
+function(rrcb_set_tests_properties)
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "TIMEOUT" "")
+  rrcb_limit(limit ${ARG_TIMEOUT})
+  set_tests_properties(${ARG_UNPARSED_ARGUMENTS} TIMEOUT ${limit})
+endfunction()
+
 # rrcb_add_test(NAME name SOURCES files... [LIBRARIES targets...] [RANKS counts...] [LABELS ...]
 #               [TIMEOUT seconds] [ENVIRONMENT variable=value ...])
 #
@@ -46,10 +64,11 @@ function(rrcb_add_mpi_run)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
   endif()
+  rrcb_limit(limit ${ARG_TIMEOUT})
   add_test(NAME ${ARG_NAME} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ARG_RANKS}
                                     ${RRCB_MPIEXEC_FLAGS} ${ARG_COMMAND})
   set_tests_properties(
-    ${ARG_NAME} PROPERTIES TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ARG_RANKS} LABELS "${ARG_LABELS}"
+    ${ARG_NAME} PROPERTIES TIMEOUT ${limit} PROCESSORS ${ARG_RANKS} LABELS "${ARG_LABELS}"
                            ENVIRONMENT "${ARG_ENVIRONMENT}")
 endfunction()
 
@@ -73,8 +92,8 @@ function(rrcb_add_test)
   else()
     target_link_libraries(${ARG_NAME} PRIVATE GTest::gtest_main)
     add_test(NAME ${ARG_NAME} COMMAND ${ARG_NAME})
-    set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 LABELS "${ARG_LABELS}"
-                                                ENVIRONMENT "${ARG_ENVIRONMENT}")
+    rrcb_set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 LABELS "${ARG_LABELS}"
+                                                     ENVIRONMENT "${ARG_ENVIRONMENT}")
   endif()
 endfunction()
 
@@ -89,5 +108,5 @@ function(rrcb_add_example_test)
       ${CMAKE_COMMAND} -D SOURCE=${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SOURCE} -P
       ${PROJECT_SOURCE_DIR}/tests/cmake/check_output.cmake -- ${MPIEXEC_EXECUTABLE}
       ${MPIEXEC_NUMPROC_FLAG} ${ARG_RANKS} ${RRCB_MPIEXEC_FLAGS} ${ARG_COMMAND})
-  set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 PROCESSORS ${ARG_RANKS} LABELS examples)
+  rrcb_set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 PROCESSORS ${ARG_RANKS} LABELS examples)
 endfunction()

@@ -67,7 +67,7 @@ function(mpm_add_scene scene)
     add_test(NAME mpm_scene_${scene}.output
              COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/check_output.py ${out} ${ARG_POINTS}
                      ${with_vtk})
-    set_tests_properties(mpm_scene_${scene}.output PROPERTIES FIXTURES_REQUIRED mpm_scene_${scene}
+    rrcb_set_tests_properties(mpm_scene_${scene}.output PROPERTIES FIXTURES_REQUIRED mpm_scene_${scene}
                                                               TIMEOUT 60 LABELS mpm)
   endif()
 endfunction()
@@ -80,7 +80,7 @@ string(CONCAT kernels "kernels: p2g, ghost_nodes, walls, move_nodes, g2p, elasti
               "columns: x, y, velocity_x, velocity_y, mass, volume, id, "
               "stress_xx, stress_yy, stress_zz, stress_xy\n"
               "88 bytes per point\n88 bytes per migrated point\n5 doubles per ghost node\n")
-set_tests_properties(mpm_list_kernels PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
+rrcb_set_tests_properties(mpm_list_kernels PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
                                                  "^${kernels}$")
 
 add_subdirectory(absence)
@@ -100,9 +100,9 @@ if(RRCB_PYTHON)
              COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/absence/costs.py
                      ${PROJECT_BINARY_DIR}/tests/mpm/absence
                      ${PROJECT_SOURCE_DIR}/examples/mpm/scenes)
-    set_tests_properties(mpm_absence_counts mpm_costs PROPERTIES TIMEOUT 180 LABELS mpm)
+    rrcb_set_tests_properties(mpm_absence_counts mpm_costs PROPERTIES TIMEOUT 180 LABELS mpm)
   endif()
-  set_tests_properties(mpm_absence_bits PROPERTIES TIMEOUT 60 LABELS mpm)
+  rrcb_set_tests_properties(mpm_absence_bits PROPERTIES TIMEOUT 60 LABELS mpm)
 endif()
 
 # A run that goes on from a state of another ends with its bits, rebalances included.
@@ -121,7 +121,7 @@ set_tests_properties(mpm_restart.whole PROPERTIES FIXTURES_SETUP mpm_restart_who
 set_tests_properties(
   mpm_restart.continued PROPERTIES FIXTURES_REQUIRED mpm_restart_whole
                                    FIXTURES_SETUP mpm_restart_continued)
-set_tests_properties(mpm_restart.bits PROPERTIES FIXTURES_REQUIRED mpm_restart_continued TIMEOUT 60
+rrcb_set_tests_properties(mpm_restart.bits PROPERTIES FIXTURES_REQUIRED mpm_restart_continued TIMEOUT 60
                                                  LABELS mpm)
 
 # What is accepted, but may not be meant, is told; what cannot be, ends with an error.
@@ -140,13 +140,13 @@ string(REPLACE "density: 1800" "density: 1.8" light "${light}")
 file(CONFIGURE OUTPUT light.yaml CONTENT "${light}" @ONLY)
 add_test(NAME mpm_warning COMMAND rrcb_mpm --scene=${CMAKE_CURRENT_BINARY_DIR}/light.yaml
                                   --end-time=1e-6 --out=${CMAKE_CURRENT_BINARY_DIR}/warning)
-set_tests_properties(mpm_warning PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
+rrcb_set_tests_properties(mpm_warning PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
                                             "warning: .*light.yaml: materials / .*kg/m.3")
 
 # A log that is no terminal gets a line for each tenth.
 add_test(NAME mpm_log COMMAND rrcb_mpm --scene=${PROJECT_SOURCE_DIR}/examples/mpm/scenes/two_disks.yaml
                               --end-time=0.02 --out=${CMAKE_CURRENT_BINARY_DIR}/log)
-set_tests_properties(mpm_log PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
+rrcb_set_tests_properties(mpm_log PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
                                         "1[0-9].. %[^\n]*\n *2[0-9].. %.*90.. %.*\n100.0 % of 0.02 s")
 
 # Cells beyond the memory: all ranks end with an error, and none aborts. Sanitizers need more of it.
@@ -182,14 +182,14 @@ mpm_add_scene(incline_block RANKS 3 BALANCER rrcb-sampled CELL_SIZE 0.25 END_TIM
 # Units of axes stand in brackets, as in comparisons.
 add_test(NAME mpm_labels COMMAND sh -c [[! grep -nE '"[a-z ]+, (m|s|.?Pa|.s)\b' "$0"/*.py]]
                                  ${PROJECT_SOURCE_DIR}/examples/mpm/plots)
-set_tests_properties(mpm_labels PROPERTIES TIMEOUT 60 LABELS mpm)
+rrcb_set_tests_properties(mpm_labels PROPERTIES TIMEOUT 60 LABELS mpm)
 
 # The command that compares errors and instructions, in its coarsest cells.
 if(has_matplotlib AND RRCB_VALGRIND AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   add_test(NAME mpm_accuracy
            COMMAND ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/accuracy.py
                    $<TARGET_FILE:rrcb_mpm> ${CMAKE_CURRENT_BINARY_DIR}/accuracy.png --quick)
-  set_tests_properties(
+  rrcb_set_tests_properties(
     mpm_accuracy
     PROPERTIES TIMEOUT 180 LABELS mpm PASS_REGULAR_EXPRESSION
                "disks [^%]*linear [^%]* [0-9.]+ %.*disks [^%]*quadratic [^%]* [0-9.]+ %")
@@ -200,7 +200,7 @@ if(has_matplotlib)
              COMMAND ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/draw.py
                      ${CMAKE_CURRENT_BINARY_DIR}/${scene} ${CMAKE_CURRENT_BINARY_DIR}/${scene}.png
                      ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/${scene}.yaml)
-    set_tests_properties(mpm_draw_${scene} PROPERTIES FIXTURES_REQUIRED mpm_scene_${scene}
+    rrcb_set_tests_properties(mpm_draw_${scene} PROPERTIES FIXTURES_REQUIRED mpm_scene_${scene}
                                                       TIMEOUT 60 LABELS mpm)
   endforeach()
   set(ending_of_draw png)
@@ -211,7 +211,7 @@ if(has_matplotlib)
                      ${CMAKE_CURRENT_BINARY_DIR}/torpedo_anchor
                      ${CMAKE_CURRENT_BINARY_DIR}/anchor_${kind}.${ending_of_${kind}}
                      ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/torpedo_anchor.yaml)
-    set_tests_properties(mpm_${kind}_anchor PROPERTIES FIXTURES_REQUIRED mpm_scene_torpedo_anchor
+    rrcb_set_tests_properties(mpm_${kind}_anchor PROPERTIES FIXTURES_REQUIRED mpm_scene_torpedo_anchor
                                                        TIMEOUT 60 LABELS mpm)
   endforeach()
   # Its own drawings, the probes and the animation; drawings beside theory.
@@ -219,5 +219,5 @@ if(has_matplotlib)
                --figures=${CMAKE_CURRENT_BINARY_DIR}/figures)
   add_test(NAME mpm_pictures COMMAND ${pictures} --cell-size=5 --end-time=0.4 slope)
   add_test(NAME mpm_pictures.theory COMMAND ${pictures} --end-time=0.01 hydrostatic_column)
-  set_tests_properties(mpm_pictures mpm_pictures.theory PROPERTIES TIMEOUT 120 LABELS mpm)
+  rrcb_set_tests_properties(mpm_pictures mpm_pictures.theory PROPERTIES TIMEOUT 120 LABELS mpm)
 endif()

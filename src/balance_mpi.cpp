@@ -90,8 +90,12 @@ Balance balance_from_scratch(PointPasses& points, const Options& given, bool may
 
 Balance balance_once(PointPasses& points, const Options& options, const Cuts* previous,
                      bool may_keep, Participant& self) {
-    Balance result = previous ? balance_from_earlier(points, options, *previous, may_keep, self)
-                              : balance_from_scratch(points, options, may_keep, self);
+    // One part for each rank, where the cuts are those of another number of ranks.
+    const bool are_of_others =
+        previous && options.num_parts == 0 && previous->num_parts != mpi::size_of(self.comm);
+    Balance result = previous && !are_of_others
+                         ? balance_from_earlier(points, options, *previous, may_keep, self)
+                         : balance_from_scratch(points, options, may_keep, self);
     result.cuts.group = mpi::size_of(self.comm) > 1 ? self.group() : 0;
     return result;
 }
@@ -112,7 +116,7 @@ Balance balance_over(MPI_Comm comm, const Points& points, const Options& options
     Participant self = mpi::enter(comm, CallName::balance);
     const double start = MPI_Wtime();
     Balance result = balance(points, options, given(previous), true, self, std::move(memory));
-    print_line(result, start, self);
+    print_line(result, options, start, self);
     self.throw_failed_message();
     return result;
 }
@@ -132,7 +136,7 @@ Balance balance(PointPasses& points, const Options& options, const Cuts& previou
     Participant self = mpi::enter(comm, CallName::balance);
     const double start = MPI_Wtime();
     Balance result = balance(points, options, given(previous), true, self);
-    print_line(result, start, self);
+    print_line(result, options, start, self);
     // The last passes may fail, which no other message carries.
     agree(self);
     return result;

@@ -30,7 +30,7 @@ Balance balance_once(PointPasses& points, const Options& options, const Cuts* pr
 
 /// Returns null for empty cuts, from which no call starts.
 inline const Cuts* given(const Cuts& previous) {
-    return previous.dimension == 0 && previous.tree.empty() ? nullptr : &previous;
+    return previous.empty() ? nullptr : &previous;
 }
 
 }  // namespace rrcb

@@ -14,15 +14,22 @@ bool is_verbosity_asked() {
     return value != nullptr && *value != '\0' && std::string_view(value) != "0";
 }
 
-void print_line(const Balance& made, double start, const Participant& self) {
+void print_line(const Balance& made, const Options& options, double start,
+                const Participant& self) {
     if (!is_verbosity_asked() || mpi::rank_of(self.comm) != 0) return;
     const Report& report = made.report;
     const bool is_measured = !std::isnan(report.imbalance);
     const double imbalance = is_measured ? report.imbalance : report.details.estimated_imbalance;
-    std::printf("RRCB %s: %lld points in %d parts, imbalance %.4f%s, %d rounds, %.2f ms\n",
-                version(), static_cast<long long>(report.details.num_points), made.cuts.num_parts,
-                imbalance, is_measured ? "" : " (estimated)", report.details.rounds,
+    std::printf("RRCB %s: %lld points in %d parts, imbalance %.4f%s, %d rounds, %.2f ms", version(),
+                static_cast<long long>(report.details.num_points), made.cuts.num_parts, imbalance,
+                is_measured ? "" : " (estimated)", report.details.rounds,
                 1e3 * (MPI_Wtime() - start));
+    // Per cent by mistake?
+    const double tolerance = options.imbalance_tolerance;
+    if (tolerance >= 2)
+        std::printf("; a part may weigh %g times the mean, for %g %% set imbalance_tolerance to %g",
+                    tolerance, tolerance, 1 + tolerance / 100);
+    std::printf("\n");
     std::fflush(stdout);
 }
 

@@ -166,7 +166,7 @@ int main(int argc, char** argv) {
         check(rrcb_ghosts_fetch(ghosts, 1, &fetched, NULL, NULL));
         columns = realloc(columns, 2 * (count + 1) * sizeof *columns);
         const double load = count_neighbours(positions, count + near.num_ghosts, count, columns);
-        rrcb_ghosts_destroy(ghosts);
+        rrcb_ghosts_destroy(&ghosts);
         move(positions, count);
         const double counted[] = {(double)count, load};
         check(rrcb_cost_model_step(model, load, 2, counted));
@@ -186,9 +186,9 @@ int main(int argc, char** argv) {
         check(rrcb_save_cuts(balancer, &run.cuts.data, &run.cuts.size));
         write_run(argv[2], &run, comm);
     }
-    rrcb_cost_model_destroy(model);
-    rrcb_controller_destroy(controller);
-    rrcb_destroy(balancer);
+    rrcb_cost_model_destroy(&model);
+    rrcb_controller_destroy(&controller);
+    rrcb_destroy(&balancer);
     free(columns);
     free(positions);
     if (rank == 0) {

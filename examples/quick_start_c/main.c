@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
         printf("rank 0 sends %zu points, receives %zu and holds %zu\n", plan.num_exports,
                plan.num_imports, plan.num_points_after);
     }
-    rrcb_destroy(balancer);
+    rrcb_destroy(&balancer);
     free(here);
     free(parts);
     free(coordinates);

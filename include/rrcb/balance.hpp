@@ -62,12 +62,12 @@ struct Balance {
 /// Collective. The same input on the same ranks gives the same bits.
 /// @param points   of this rank, also none; the same dimension on every rank
 /// @param options  the same on every rank
-/// @param previous cuts of an earlier call, which few points leave; empty cuts, `{}`: from scratch
+/// @param previous cuts of an earlier call; ignored if empty, or of other ranks and num_parts is 0
 /// @param comm     duplicated by the first call; the duplicate is freed with it
 /// @return the cuts, the part of each point of this rank and a report
 /// Throws Error on every rank alike: for unusable coordinates, weights or arrays, options out of
-/// range or different between ranks, `previous` of another dimension or number of parts, limits
-/// without room for so many parts, or ranks that round differently. Cost: a pass over the points, a
+/// range or different between ranks, `previous` of another dimension or num_parts, limits without
+/// room for so many parts, or ranks that round differently. Cost: a pass over the points, a
 /// gathering of cells, a broadcast, and a reduction for each round of counting; while `previous` is
 /// kept a pass, a reduction and a broadcast. See docs/design/how_it_works.md.
 RRCB_API Balance balance(const Points& points, const Options& options, const Cuts& previous,

@@ -63,6 +63,9 @@ struct Cuts {
     std::uint64_t points = 0;
     /// Tells balance() when other axes would save ghosts. Set it to {} to keep the axes.
     NearCuts near{};
+
+    /// Returns true for cuts of no balance, as Cuts{}. Not collective.
+    bool empty() const { return dimension == 0 && tree.empty(); }
 };
 
 /// Returns true if cuts are the complete tree, the same on every rank: look-ups work everywhere.

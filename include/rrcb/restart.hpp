@@ -54,7 +54,8 @@ inline std::vector<std::byte> save(const CostModel& model) {
 ///
 /// On as many ranks as before a controller or model goes on with the same bits. On another number a
 /// controller begins anew; a model keeps its costs and its judgement, as its report() says. Cuts
-/// keep their number of parts: to rebalance by them set Options::num_parts to it.
+/// keep their number of parts; on other ranks balance() ignores them unless Options::num_parts is
+/// that number.
 /// @param bytes of save(), the same on every rank, in either byte order
 /// @param comm  as for the constructors; ignored for Cuts
 /// Throws Error, collective ones on every rank alike, if the bytes are truncated, of another kind,

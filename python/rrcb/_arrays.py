@@ -14,6 +14,7 @@ from ._agreement import prepare
 
 Array = np.ndarray[Any, np.dtype[Any]]
 FLOATS = {np.dtype(np.float64): 4, np.dtype(np.float32): 3}
+BYTES = 5
 NUMBERS = {np.dtype(np.int32): 1, np.dtype(np.int64): 2, **FLOATS}
 
 
@@ -218,7 +219,7 @@ class Columns:
 
     def as_bytes(self) -> tuple[int, Any]:
         """Returns the columns as the library takes them, of any dtypes."""
-        return self._columns([(0, a.itemsize * row_length(a)) for a in self.arrays])
+        return self._columns([(BYTES, a.itemsize * row_length(a)) for a in self.arrays])
 
     def as_numbers(self) -> tuple[int, Any]:
         """Returns the columns as the library takes them, to be added."""

@@ -22,13 +22,13 @@ from ._ghosts import Ghosts
 class Report:
     """Report of a balance, the same on every rank; printed as a table."""
 
-    imbalance: float  #: heaviest part / mean part
+    imbalance: float  #: heaviest part / mean part; nan with refine="NONE", which counts nothing
     within_tolerance: bool
     kept: bool  #: nothing moves: the points of rank r are part r
     num_points: int  #: over all ranks
     total_weight: float
     least_imbalance: float  #: lower bound of the imbalance of any partition
-    estimated_imbalance: float  #: before the cuts were corrected
+    estimated_imbalance: float  #: before the cuts were corrected; nan from earlier cuts
     num_records: int  #: cells bisected
     rounds: int  #: of counting, to correct the cuts
     coincident_cuts: int  #: that would divide points which no allowed cut separates

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import os
+import re
 from ctypes import Structure, c_char_p, c_int, c_size_t, c_void_p
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from mpi4py import MPI
 from ._interface import (
     DESTROYED,
     FUNCTIONS,
+    HANDLE,
     Column as Column,
     Cuts as Cuts,
     GhostOptions as GhostOptions,
@@ -119,7 +121,7 @@ def declare(library: ctypes.CDLL) -> None:
     for function, arguments in FUNCTIONS.items():
         getattr(library, "rrcb_" + function).argtypes = arguments
     for function in DESTROYED:
-        getattr(library, "rrcb_" + function).argtypes = (c_void_p,)
+        getattr(library, "rrcb_" + function).argtypes = (HANDLE,)
         getattr(library, "rrcb_" + function).restype = None
     for function in ("last_error", "version", "build_info", "cost_model_report"):
         getattr(library, "rrcb_" + function).restype = c_char_p
@@ -134,6 +136,14 @@ def text(value: bytes | None) -> str:
 library = load()
 
 
+def in_python(message: str) -> str:
+    """Returns a text of the library with the names of Python's functions."""
+    for name, here in (("the transfer", "distribute()"), ("transfer", "distribute"),
+                       ("transferred", "distributed")):
+        message = re.sub(rf"\b{name}\b", here, message)
+    return message
+
+
 def call(function: str, *arguments: Any) -> None:
     """Calls a function of the library; raises Error unless it returns 0."""
     for argument in arguments:
@@ -141,7 +151,7 @@ def call(function: str, *arguments: Any) -> None:
             argument.require_alive()
     code = getattr(library, "rrcb_" + function)(*arguments)
     if code:
-        raise Error(text(library.rrcb_last_error()), CODES[min(code, len(CODES) - 1)])
+        raise Error(in_python(text(library.rrcb_last_error())), CODES[min(code, len(CODES) - 1)])
 
 
 def saved(function: str, handle: Handle) -> bytes:
@@ -170,7 +180,7 @@ class Handle:
     def destroy(self) -> None:
         """Destroys the object; does nothing the second time."""
         if self._as_parameter_ is not None:
-            self._destroy(self._as_parameter_)
+            self._destroy(ctypes.byref(self._as_parameter_))
             self._as_parameter_ = None
 
 

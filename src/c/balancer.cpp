@@ -17,6 +17,7 @@ namespace rrcb::c {
 namespace {
 
 thread_local Failure last_failure;
+thread_local Origin last_origin;
 
 void set_option(const char* name, const char* value, Options& options) {
     require(name, "option");
@@ -51,17 +52,27 @@ Cuts copy_of(const rrcb_cuts& given) {
 
 }  // namespace
 
-int code_of(const Failure& failure) noexcept {
+int code_of(const Failure& failure, const Origin& origin) noexcept {
     if (!failure.failed) return RRCB_OK;
     last_failure = failure;
+    last_origin = origin;
     constexpr std::array codes = {RRCB_INVALID_ARGUMENT, RRCB_OUT_OF_MEMORY, RRCB_MPI_ERROR,
                                   RRCB_INTERNAL_ERROR};
     static_assert(codes.size() == static_cast<int>(ErrorCode::internal) + 1);
     return codes[static_cast<std::size_t>(failure.code)];
 }
 
+Origin origin_of_last_failure() noexcept {
+    return last_origin;
+}
+
 void require(const void* pointer, const char* name) {
     if (pointer == nullptr) reject(std::string(name) + " is null");
+}
+
+void require_handle(const void* handle, const char* name) {
+    if (handle == nullptr)
+        reject(std::string(name) + " is null: it was not created, or is destroyed");
 }
 
 void require_array(std::size_t count, const void* values, const char* name) {
@@ -71,7 +82,7 @@ void require_array(std::size_t count, const void* values, const char* name) {
 }
 
 void require_cuts(const rrcb_balancer& own) {
-    if (own.cuts.dimension == 0)
+    if (own.cuts.empty())
         reject("the balancer has no cuts yet; call rrcb_balance or rrcb_set_cuts");
 }
 
@@ -105,8 +116,8 @@ const char* rrcb_last_error(void) {
     return rrcb::c::last_failure.text.data();
 }
 
-void rrcb_destroy(rrcb_balancer* balancer) {
-    delete balancer;
+void rrcb_destroy(rrcb_balancer** balancer) {
+    rrcb::c::destroy(balancer);
 }
 
 int rrcb_set(rrcb_balancer* balancer, const char* option, const char* value) {

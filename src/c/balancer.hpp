@@ -10,10 +10,12 @@
 #include <mpi.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 /// The object behind a C program's pointer.
@@ -38,13 +40,24 @@ struct rrcb_balancer {
 
 namespace rrcb::c {
 
+/// Call that failed on this thread.
+struct Origin {
+    MPI_Comm comm = MPI_COMM_NULL;  ///< of the caller; null if the call had none
+    /// Longest wait for other ranks in which the same call may have failed, at the program's end.
+    std::chrono::seconds patience{1};
+};
+
+/// Most ranks of a collective call are late at its end only if the machine is busy.
+inline constexpr std::chrono::seconds patience_together{60};
+
 /// Keeps the text of the failure for this thread; returns its code.
-int code_of(const Failure& failure) noexcept;
+int code_of(const Failure& failure, const Origin& origin) noexcept;
+Origin origin_of_last_failure() noexcept;
 
 /// Runs the body of a function; no exception leaves it.
 template <class Body>
-int guarded(Body&& body) noexcept {
-    return code_of(attempt(body));
+int guarded(Body&& body, const Origin& origin = {}) noexcept {
+    return code_of(attempt(body), origin);
 }
 
 /// Throws Error if a pointer is null.
@@ -95,13 +108,33 @@ inline LocalIndex num_points_after(const Plan& plan) {
     return plan.num_points - plan.export_indices.size() + plan.import_indices.size();
 }
 
+/// Throws Error if a handle is null.
+void require_handle(const void* handle, const char* name);
+
+/// Returns the origin of failures of a function of a handle.
+template <class Handle>
+Origin origin_in(const Handle* handle) noexcept {
+    if constexpr (requires { handle->comm; }) {
+        if (handle != nullptr) return {handle->comm};
+    }
+    return {};
+}
+
 /// Runs the body of a function of a handle; no exception leaves it.
 template <class Handle, class Body>
 int guarded(Handle* handle, Body&& body) noexcept {
-    return guarded([&] {
-        require(handle, Handle::name);
-        body(*handle);
-    });
+    return guarded(
+        [&] {
+            require_handle(handle, Handle::name);
+            body(*handle);
+        },
+        origin_in(handle));
+}
+
+/// Frees a handle, if there is one, and sets the caller's pointer to null.
+template <class Handle>
+void destroy(Handle** handle) noexcept {
+    if (handle != nullptr) delete std::exchange(*handle, nullptr);
 }
 
 }  // namespace rrcb::c

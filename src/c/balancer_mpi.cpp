@@ -24,7 +24,7 @@ void balance(const rrcb_points* from, int32_t* parts, rrcb_balancer& own, Partic
     const double start = MPI_Wtime();
     Balance made = rrcb::balance(points, own.options, given(own.cuts), true, self,
                                  workspace ? std::move(workspace->result) : std::vector<Part>());
-    print_line(made, start, self);
+    print_line(made, own.options, start, self);
     std::ranges::copy(made.parts, parts);
     own.cuts = std::move(made.cuts);
     own.report = std::move(made.report);

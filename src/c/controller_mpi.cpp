@@ -42,7 +42,7 @@ void store(bool is_due, int* due) {
 template <class Make>
 int make_model(MPI_Comm comm, rrcb_controller* const* controller, CallName call,
                rrcb_cost_model** model, Make&& make) {
-    return guarded([&] {
+    const auto body = [&] {
         Participant self = rrcb::mpi::enter(comm, call);
         auto made = rrcb::c::make_handle(
             self, model, {{"whether a controller is given", controller != nullptr}}, [&] {
@@ -53,7 +53,8 @@ int make_model(MPI_Comm comm, rrcb_controller* const* controller, CallName call,
         else
             made->model.emplace(make(*(*controller)->controller));
         *model = made.release();
-    });
+    };
+    return guarded(body, {comm, rrcb::c::patience_together});
 }
 
 int make_new_model(MPI_Comm comm, rrcb_controller* const* controller, int num_columns,
@@ -112,8 +113,8 @@ int rrcb_controller_load_fortran(int comm, const void* bytes, size_t size,
     return rrcb_controller_load(rrcb::c::comm_of(comm), bytes, size, controller);
 }
 
-void rrcb_controller_destroy(rrcb_controller* controller) {
-    delete controller;
+void rrcb_controller_destroy(rrcb_controller** controller) {
+    rrcb::c::destroy(controller);
 }
 
 int rrcb_controller_step(rrcb_controller* controller, double load, int* due) {
@@ -133,6 +134,8 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
     return guarded(controller, [&](auto& own) {
         rrcb::Report known;
         if (report != nullptr) {
+            if (!(report->least_imbalance >= 1))
+                rrcb::reject("report is of no balance; fill it by rrcb_get_report");
             known.details.least_imbalance = report->least_imbalance;
             known.details.num_points = report->num_points;
             known.details.total_weight = report->total_weight;
@@ -166,8 +169,8 @@ int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller, c
     return load_model(rrcb::c::comm_of(comm), controller, bytes, size, model);
 }
 
-void rrcb_cost_model_destroy(rrcb_cost_model* model) {
-    delete model;
+void rrcb_cost_model_destroy(rrcb_cost_model** model) {
+    rrcb::c::destroy(model);
 }
 
 int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_columns,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <type_traits>
 
 struct rrcb_ghosts {
@@ -19,6 +20,18 @@ namespace rrcb::c {
 
 namespace {
 
+/// Needs by which the Fortran module reports radii that do not fit the points; `num_parts` is then
+/// their number.
+constexpr int wrong_radii = -1;
+
+void check_radii(const rrcb_ghost_options& from, LocalIndex num_points) {
+    if (from.needs == wrong_radii)
+        reject("radii has " + std::to_string(from.num_parts) + " entries for " +
+               std::to_string(num_points) + " points; give one for each, or one radius for all");
+    if (from.radius == 0 && from.radii == nullptr && num_points > 0)
+        reject("radius is 0, and radii is null; give one of them");
+}
+
 /// Options of a call, with the memory they borrow.
 struct KeptOptions {
     GhostOptions options{};
@@ -26,6 +39,7 @@ struct KeptOptions {
 
     void read(const rrcb_ghost_options* from, LocalIndex num_points) {
         require(from, "options");
+        check_radii(*from, num_points);
         options.radius = from->radius;
         options.needs = static_cast<Needs>(from->needs);
         if (from->radii != nullptr) options.radii = view(from->radii, num_points);
@@ -36,6 +50,7 @@ struct KeptOptions {
             std::copy_n(from->lower, max_dimension, options.periodic->lower.begin());
             std::copy_n(from->upper, max_dimension, options.periodic->upper.begin());
         }
+        require_array(from->num_parts, from->ranks_of_parts, "ranks_of_parts");
         if (from->ranks_of_parts == nullptr) return;
         for (const rrcb_rank_range& given : view(from->ranks_of_parts, from->num_parts))
             ranks.push_back({given.first_rank, given.count});
@@ -69,6 +84,8 @@ void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
 VerifyOptions options_of(const rrcb_verify_options* from, LocalIndex num_points) {
     VerifyOptions options;
     if (from == nullptr) return options;
+    if (from->sample == 0 && from->num_ids == 0 && num_points > 0)
+        reject("sample is 0, and there are no ids; give one of them, or no options");
     options.sample = from->sample;
     if (from->radius != 0) options.radius = from->radius;
     if (from->radii != nullptr) options.radii = view(from->radii, num_points);
@@ -145,8 +162,8 @@ int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
     });
 }
 
-void rrcb_ghosts_destroy(rrcb_ghosts* ghosts) {
-    delete ghosts;
+void rrcb_ghosts_destroy(rrcb_ghosts** ghosts) {
+    rrcb::c::destroy(ghosts);
 }
 
 int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {

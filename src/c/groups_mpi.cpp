@@ -57,8 +57,8 @@ int rrcb_join_keys(const rrcb_balancer* balancer, size_t count, size_t keys_per_
     });
 }
 
-void rrcb_groups_destroy(rrcb_groups* groups) {
-    delete groups;
+void rrcb_groups_destroy(rrcb_groups** groups) {
+    rrcb::c::destroy(groups);
 }
 
 int rrcb_groups_points(const rrcb_groups* groups, rrcb_points* points) {

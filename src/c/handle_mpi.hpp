@@ -12,9 +12,9 @@
 
 namespace rrcb::c {
 
-/// Makes a handle and stores it in the caller's pointer `*where`. Collective: throws the same Error
-/// on every rank if `where` is null on one, memory runs out, `check` throws, or one of `arguments`
-/// differs between ranks.
+/// Makes a handle for the caller's pointer `*where`. Collective: throws the same Error on every
+/// rank if `where` is null on one, or `*where` is not, memory runs out, `check` throws, or one of
+/// `arguments` differs between ranks.
 template <class Handle, class Check = void (*)()>
 std::unique_ptr<Handle> make_handle(
     Participant& self, Handle** where, std::initializer_list<Shared> arguments = {},
@@ -25,6 +25,9 @@ std::unique_ptr<Handle> make_handle(
             reject(std::string(Handle::name) +
                    " is null; give the address of a pointer (in Fortran: destroy what was created "
                    "before)");
+        if (*where != nullptr)
+            reject(std::string(Handle::name) +
+                   " is not null; destroy what was created before, and set a new pointer to NULL");
         check();
         made = std::make_unique<Handle>();
     });
@@ -36,22 +39,25 @@ std::unique_ptr<Handle> make_handle(
 /// exception leaves it.
 template <class Handle, class Fill>
 int create(MPI_Comm comm, CallName call, Handle** where, Fill&& fill) noexcept {
-    return guarded([&] {
+    const auto body = [&] {
         Participant self = mpi::enter(comm, call);
         auto made = make_handle(self, where);
         fill(*made);
         *where = made.release();
-    });
+    };
+    return guarded(body, {comm, patience_together});
 }
 
 /// Runs the body of a collective function of a handle; no exception leaves it.
 template <class Handle, class Body>
 int guarded_together(CallName call, Handle* handle, Body&& body) noexcept {
-    return guarded(handle, [&](auto& own) {
-        Participant self = mpi::enter(own.comm, call);
-        body(own, self);
+    const auto run = [&] {
+        require_handle(handle, Handle::name);
+        Participant self = mpi::enter(handle->comm, call);
+        body(*handle, self);
         self.throw_failed_message();
-    });
+    };
+    return guarded(run, {origin_in(handle).comm, patience_together});
 }
 
 }  // namespace rrcb::c

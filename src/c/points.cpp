@@ -19,7 +19,7 @@ std::size_t bytes_of(rrcb_type type) {
 
 // Types by which the Fortran module reports arrays that do not fit together; `stride` is then the
 // extent that does not.
-enum FortranFault { wrong_weights = 5, wrong_axis = 6, wrong_shape = 7 };
+enum FortranFault { wrong_weights = 11, wrong_axis = 12, wrong_shape = 13 };
 
 /// Throws Error for points the Fortran module could not make.
 void check_fortran(const rrcb_points& from) {

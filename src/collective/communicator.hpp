@@ -24,7 +24,8 @@ enum Tag : int {
     agreement_tag,
     roll_call_tag,
     report_tag,
-    verdict_tag
+    verdict_tag,
+    printed_tag
 };
 
 /// Greatest tag that every MPI allows, for a roll call on the caller's communicator. It is used

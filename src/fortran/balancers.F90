@@ -70,7 +70,6 @@ contains
   subroutine destroy(self)
     class(rrcb_balancer), intent(inout) :: self
     call c_destroy(self%handle)
-    self%handle = c_null_ptr
   end subroutine
 
   !> Sets an option, such as ("refine", "EXACT"), the same on all ranks. Not collective.
@@ -92,8 +91,8 @@ contains
   end subroutine
 
   !> Divides the points of all ranks into parts; starts from the cuts of the balancer, if it has any,
-  !> and keeps the new ones. Collective. With refine NONE, and after another num_parts or dimension,
-  !> call clear_cuts before.
+  !> and keeps the new ones. Collective. With refine NONE, and after another num_parts,
+  !> unless it is 0, or dimension, call clear_cuts before.
   !> @param points of this rank
   !> @param parts  gets the new part of each
   subroutine balance(self, points, parts, error)

@@ -5,6 +5,14 @@ module rrcb_c_functions
   use rrcb_c_types
   implicit none
 
+  interface
+    integer(c_int) function c_prints_last_error() bind(c, name="rrcb_prints_last_error")
+      import
+    end function
+    subroutine c_note_printed_error() bind(c, name="rrcb_note_printed_error")
+    end subroutine
+  end interface
+
   abstract interface
     type(c_ptr) function text() bind(c)
       import
@@ -16,7 +24,7 @@ module rrcb_c_functions
     end function
     subroutine free(handle) bind(c)
       import
-      type(c_ptr), value :: handle
+      type(c_ptr), intent(inout) :: handle
     end subroutine
     integer(c_int) function divide(handle, points, parts) bind(c)
       import

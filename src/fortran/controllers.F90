@@ -103,7 +103,6 @@ contains
   subroutine controller_destroy(self)
     class(rrcb_controller), intent(inout) :: self
     call c_controller_destroy(self%handle)
-    self%handle = c_null_ptr
   end subroutine
 
   !> Records a step that took this rank `load` of its own work, without waiting. Collective.
@@ -229,7 +228,6 @@ contains
   subroutine cost_model_destroy(self)
     class(rrcb_cost_model), intent(inout) :: self
     call c_cost_model_destroy(self%handle)
-    self%handle = c_null_ptr
   end subroutine
 
   !> Records a step. Collective.

@@ -51,15 +51,20 @@ contains
     three(:min(size(values), 3)) = values(:min(size(values), 3))
   end function
 
-  !> Gives the caller the code of a function in C. Without `error` an error ends the program.
+  !> Gives the caller the code of a function in C. Without `error` an error ends the program on this
+  !> rank. One of the ranks on which the same call fails prints the text.
   subroutine settle(code, error)
     integer(c_int), intent(in) :: code
     integer, intent(out), optional :: error
     if (present(error)) then
       error = code
     else if (code /= rrcb_ok) then
-      write (error_unit, '(2a)') 'rrcb: ', rrcb_last_error()
-      error stop 1
+      if (c_prints_last_error() /= 0) then
+        write (error_unit, '(2a)') 'rrcb: ', rrcb_last_error()
+        flush (error_unit)
+      end if
+      call c_note_printed_error()
+      stop 1, quiet=.true.
     end if
   end subroutine
 

@@ -8,6 +8,9 @@ module rrcb_ghost_lists
   implicit none
   private
 
+  !> Needs of radii that do not fit the points, see src/c/ghosts_mpi.cpp: they fail on all ranks.
+  integer(c_int), parameter :: wrong_radii = -1
+
   !> A copy is the same ghosts; one of them is destroyed.
   type, public :: rrcb_ghosts
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
@@ -48,19 +51,19 @@ contains
     type(c_ghost_options) :: options
     if (present(needs)) options%needs = needs
     if (present(radius)) options%radius = radius
-    if (present(radii)) then
-      if (size(radii, kind=c_size_t) /= points%count) then
-        options%radius = -1  ! refused as a missing one
-      else
-        if (.not. present(radius)) options%radius = 0
-        if (size(radii) > 0) options%radii = c_loc(radii)
-      end if
-    end if
     if (present(lower)) options%lower = c_loc(lower)
     if (present(upper)) options%upper = c_loc(upper)
     if (present(ranks_of_parts)) then
       options%ranks_of_parts = c_loc(ranks_of_parts)
       options%num_parts = size(ranks_of_parts, kind=c_size_t)
+    end if
+    if (present(radii)) then
+      if (.not. present(radius)) options%radius = 0
+      if (size(radii) > 0) options%radii = c_loc(radii)
+      if (size(radii, kind=c_size_t) /= points%count) then
+        options%needs = wrong_radii
+        options%num_parts = size(radii, kind=c_size_t)
+      end if
     end if
     call settle(c_ghosts_create(balancer%handle, points, options, room_for(self%handle)), error)
   end subroutine
@@ -69,7 +72,6 @@ contains
   subroutine destroy(self)
     class(rrcb_ghosts), intent(inout) :: self
     call c_ghosts_destroy(self%handle)
-    self%handle = c_null_ptr
   end subroutine
 
   !> Copies the lists. Not collective.

@@ -68,7 +68,6 @@ contains
   subroutine destroy(self)
     class(rrcb_groups), intent(inout) :: self
     call c_groups_destroy(self%handle)
-    self%handle = c_null_ptr
   end subroutine
 
   !> Returns the groups of this rank as points, for balance(). Not collective.

@@ -10,9 +10,9 @@ module rrcb_types
   integer(c_int), parameter, public :: rrcb_float = 3, rrcb_double = 4
   !> Whose radius counts, if points have different ones.
   integer(c_int), parameter, public :: rrcb_needs_sender = 0, rrcb_needs_receiver = 1, rrcb_needs_either = 2
-  integer(c_int), parameter :: type_byte = 0, type_int32 = 1, type_int64 = 2
+  integer(c_int), parameter :: type_int32 = 1, type_int64 = 2, type_byte = 5
   !> Types of points whose arrays do not fit together, see src/c/points.cpp: they fail on all ranks.
-  integer(c_int), parameter :: wrong_weights = 5, wrong_axis = 6, wrong_shape = 7
+  integer(c_int), parameter :: wrong_weights = 11, wrong_axis = 12, wrong_shape = 13
 
   !> View of the points of this rank; coordinate a of point i is at axes(a) + (i - 1)*stride bytes.
   !> If your points are derived types, set axes(a) to c_loc(points(1)%x(a)), and `type` to

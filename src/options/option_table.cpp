@@ -190,7 +190,7 @@ std::string texts_of(const Option& option) {
         std::string text = legal_values(option);
         if constexpr (is_range<Kind>)
             if (kind.zero != nullptr)
-                text += ", or " + std::string(automatic) + " for " + kind.zero;
+                text += ", or 0 or " + std::string(automatic) + " for " + kind.zero;
         return text;
     });
 }
@@ -234,9 +234,8 @@ bool read_option(const Option& option, std::string_view text, Options& options) 
             const bool is_automatic = kind.zero != nullptr && equal_words(text, automatic);
             const char* end = text.data() + text.size();
             const auto [stop, error] = std::from_chars(text.data(), end, value);
-            const bool is_number = error == std::errc() && stop == end &&
-                                   (value != 0 || kind.zero == nullptr) &&
-                                   std::isfinite(static_cast<double>(value));
+            const bool is_number =
+                error == std::errc() && stop == end && std::isfinite(static_cast<double>(value));
             if (!is_automatic && !(is_number && lies_in(kind, kind.most, value))) return false;
             kind.field.set(options, is_automatic ? 0 : value);
             return true;

@@ -247,15 +247,15 @@ std::string requirement(const Option& option, int dimension);
 /// Returns the legal texts of the option: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
 std::string legal_values(const Option& option);
 
-/// Returns the texts that read_option() reads: "a whole number, 1 or more, or AUTO for one part per
-/// rank".
+/// Returns the texts that read_option() reads: "a whole number, 1 or more, or 0 or AUTO for one
+/// part per rank".
 std::string texts_of(const Option& option);
 
 /// Returns a sentence on the effect and the values of the option.
 std::string documentation(const Option& option);
 
-/// Reads a value that is legal in some dimension: a number, a word in any case, or AUTO if 0 has a
-/// meaning. Returns false, and sets nothing, if the value is illegal.
+/// Reads a value that is legal in some dimension: a number, a word in any case, or AUTO for a 0
+/// with a meaning. Returns false, and sets nothing, if the value is illegal.
 bool read_option(const Option& option, std::string_view text, Options& options);
 
 /// Returns the value in the form of read_option().

@@ -97,10 +97,13 @@ bool are_distinct(std::span<const int> axes, int end) {
 }
 
 void check_grouped(std::span<const int> axes, int dimension) {
-    require(are_distinct(axes, max_dimension),
-            "axes.order must name each axis that it groups once, 0 ... 2");
-    require(std::ranges::count_if(axes, [&](int axis) { return axis < dimension; }) == dimension,
-            "axes.order must name every axis of the points if it groups them");
+    const auto is_of_points = [&](int axis) { return axis < dimension; };
+    if (!are_distinct(axes, max_dimension) ||
+        std::ranges::count_if(axes, is_of_points) != dimension)
+        reject("axes.order must name every axis of the points once if it groups them, " +
+               std::string(dimension == 1   ? "0"
+                           : dimension == 2 ? "0 and 1"
+                                            : "0, 1 and 2"));
 }
 
 void check_among(std::span<const int> axes, int dimension) {
@@ -226,9 +229,9 @@ void check_grid(const Options& options, int dimension) {
 void check_previous(const Cuts& previous, const Options& options, int dimension) {
     if (previous.num_parts != options.num_parts)
         reject("previous cuts have " + std::to_string(previous.num_parts) + " parts, not " +
-               std::to_string(options.num_parts) + "; set num_parts to " +
-               std::to_string(previous.num_parts) +
-               ", or pass no cuts ({}; None; rrcb_clear_cuts)");
+               std::to_string(options.num_parts) +
+               "; pass no cuts ({}; None; rrcb_clear_cuts), or set num_parts to " +
+               std::to_string(previous.num_parts) + " to keep their parts");
     require(
         previous.dimension == dimension && previous.shape == options.tree && has_its_cuts(previous),
         "previous cuts must have the dimension and the shape of tree asked for; "

@@ -121,7 +121,7 @@ std::vector<NamedCall> all_calls() {
              rrcb_balancer* made = nullptr;
              if (rrcb_create(world, &made) != RRCB_OK)
                  throw Error(ErrorCode::mpi, rrcb_last_error());
-             rrcb_destroy(made);
+             rrcb_destroy(&made);
          }},
     };
 }
@@ -213,7 +213,7 @@ TEST_F(DifferentCalls, give_a_c_program_the_code_and_the_text) {
                  "the same order");
     EXPECT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, in.balanced.parts);
-    rrcb_destroy(balancer);
+    rrcb_destroy(&balancer);
 }
 
 }  // namespace

@@ -327,8 +327,8 @@ TEST(FailingMemory, in_handles_of_c) {
     rrcb_controller* controller = nullptr;
     rrcb_cost_model* model = nullptr;
     const auto destroy = [&] {
-        rrcb_cost_model_destroy(model);
-        rrcb_controller_destroy(controller);
+        rrcb_cost_model_destroy(&model);
+        rrcb_controller_destroy(&controller);
         model = nullptr;
         controller = nullptr;
     };

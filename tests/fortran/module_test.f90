@@ -328,8 +328,6 @@ program module_test
   call rrcb_join_keys(balancer, reshape([5_c_int64_t, 9_c_int64_t, 9_c_int64_t, -1_c_int64_t], [2, 2]), &
                       joined, error)
   call expect(error == rrcb_ok .and. all(joined == 5), "join keys")
-  ! Ends the program if it is asked to, with this text.
-  if (command_argument_count() > 0) call balancer%set("colour", "blue")
   call expect(index(rrcb_build_info(), "version: "//rrcb_version()) == 1, "build_info")
   call balancer%destroy()
   call balancer%balance(rrcb_interleaved_points(x), parts, error)

@@ -37,6 +37,7 @@ ONLY_CPP = {
     "Points": "shorthands for members of a struct",
     "RankRange": "a shorthand for members of a struct",
     "AxisOrder": "axes.order is for C++ only",
+    "Cuts": "rrcb_get_cuts fails without cuts",
     "Error": "rrcb_code and rrcb_last_error",
     "name_of": "stages are observed to develop the library",
     "StageObserver": "stages are observed to develop the library",

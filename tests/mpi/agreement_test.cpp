@@ -121,7 +121,7 @@ TEST_F(Agreement, on_options_out_of_range) {
         [](Options& o) {
             o.axes.order = AxisOrder::grouped({0, 0});
         },
-        "axes.order must name each axis that it groups once");
+        "axes.order must name every axis of the points once if it groups them, 0");
     with(
         [](Options& o) {
             o.axes.order = AxisOrder::grouped({1, 2});

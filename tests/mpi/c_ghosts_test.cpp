@@ -42,8 +42,8 @@ class CGhosts : public testing::Test {
         forget_points();
     }
     void TearDown() override {
-        rrcb_ghosts_destroy(ghosts);
-        rrcb_destroy(balancer);
+        rrcb_ghosts_destroy(&ghosts);
+        rrcb_destroy(&balancer);
     }
 
     /// Lets points stay where they are.
@@ -57,7 +57,7 @@ class CGhosts : public testing::Test {
     Points points() const { return interleaved_points(coordinates, 3, weights); }
 
     void find(const rrcb_ghost_options& options) {
-        rrcb_ghosts_destroy(ghosts);
+        rrcb_ghosts_destroy(&ghosts);
         ghosts = nullptr;
         ASSERT_EQ(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), RRCB_OK)
             << rrcb_last_error();
@@ -418,7 +418,7 @@ TEST_F(CGhosts, groups_are_those_of_cpp) {
         std::vector<double> added(3 * count);
         ASSERT_EQ(rrcb_groups_sums(groups, 3, coordinates.data(), added.data()), RRCB_OK);
         EXPECT_EQ(added, sums(expected, coordinates, MPI_COMM_WORLD, 3));
-        rrcb_groups_destroy(groups);
+        rrcb_groups_destroy(&groups);
     }
     rrcb_groups* groups = nullptr;
     const int no_place = 7;

@@ -111,7 +111,7 @@ TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
     EXPECT_EQ(rrcb_join_keys(balancer, in_c.size(), 2, given.data(), in_c.data()), RRCB_OK);
     EXPECT_EQ(in_c, joined);
     EXPECT_EQ(rrcb_join_keys(balancer, 1, 2, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
-    rrcb_destroy(balancer);
+    rrcb_destroy(&balancer);
 }
 
 TEST(JoinedKeys, of_a_wrong_length_are_refused_on_all_ranks) {

@@ -58,7 +58,7 @@ TEST(OutsideMpi, calls_are_errors) {
     const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 1, 1, &x, nullptr);
     EXPECT_EQ(rrcb_balance(balancer, &points, &part), RRCB_INVALID_ARGUMENT);
     EXPECT_EQ(rrcb_last_error(), text);
-    rrcb_destroy(balancer);
+    rrcb_destroy(&balancer);
 }
 
 }  // namespace

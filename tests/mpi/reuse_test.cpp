@@ -171,7 +171,8 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
         [&] {
             call(is_last ? Cuts{2, 3, {Cut{}, Cut{}}} : cuts);
         },
-        "previous cuts have 3 parts, not 4; set num_parts to 3");
+        "previous cuts have 3 parts, not 4; pass no cuts ({}; None; rrcb_clear_cuts), or set "
+        "num_parts to 3 to keep their parts");
     std::vector<double> weights(700, 1.0);
     if (is_last) weights[3] = -1;
     test::expect_same_error([&] { call(cuts, weights); }, "weight of point 3");

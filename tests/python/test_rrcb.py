@@ -6,6 +6,7 @@ import sys
 import tempfile
 
 import numpy as np
+from mpi4py import MPI
 
 import rrcb
 import runner
@@ -398,6 +399,14 @@ def test_verifies_ghosts():
     assert len(seen.missing) == len(seen.strangers) == len(changed)
 
 
+def test_makes_one_part_for_each_rank_also_from_cuts_of_others():
+    x = cloud(2, 150)
+    alone = rrcb.balance(x, comm=MPI.COMM_SELF, num_parts=RANKS + 1)
+    for options in ({}, {"num_parts": 0}):
+        balance = rrcb.balance(x, comm=comm, previous=alone, **options)
+        assert balance.cuts.num_parts == RANKS
+
+
 def test_refuses_ghosts_from_before_a_transfer():
     if RANKS == 1:
         raise Skip("needs two ranks")
@@ -407,7 +416,7 @@ def test_refuses_ghosts_from_before_a_transfer():
     ghosts = balance.ghosts(here, 0.1)
     assert len(ghosts.fetch(here)) == ghosts.count
     rrcb.assign_all(1 - here, balance, comm).distribute(here)
-    same_error(lambda: ghosts.fetch(here), "the points were transferred since these ghosts")
+    same_error(lambda: ghosts.fetch(here), "the points were distributed since these ghosts")
 
 
 def test_accumulates_at_points():

@@ -96,8 +96,19 @@ TEST(OptionTable, reads_words_in_any_case) {
     EXPECT_FALSE(reads("refine", ""));
 }
 
+TEST(OptionTable, reads_0_as_auto) {
+    for (const char* name : {"num_parts", "tuning.support_mesh", "tree.group_size"}) {
+        Options options;
+        options.num_parts = options.tuning.support_mesh = options.tree.group_size = 7;
+        EXPECT_TRUE(read_option(named(name), "0", options)) << name;
+        EXPECT_EQ(write_option(named(name), options), "AUTO");
+    }
+    EXPECT_EQ(texts_of(named("num_parts")),
+              "a whole number, 1 or more, or 0 or AUTO for one part per rank");
+}
+
 TEST(OptionTable, reads_no_number_beyond_its_range_and_leaves_the_value) {
-    for (const char* text : {"0", "-1", "4097", "1.5", "8X", "", "99999999999"})
+    for (const char* text : {"-0.5", "-1", "4097", "1.5", "8X", "", "99999999999"})
         EXPECT_FALSE(reads("tuning.support_mesh", text)) << text;
     for (const char* text : {"0", "1", "-2", "2.5", "AUTO", "2147483648"})
         EXPECT_FALSE(reads("tuning.central_parts", text)) << text;

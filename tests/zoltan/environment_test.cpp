@@ -106,7 +106,7 @@ TEST(Environment, of_illegal_values_is_warned_of_once_and_leaves_the_default) {
     const int rank = Cloud().rank;
     for (const auto& [name, value] : Settings{{"RRCB_REFINE", "PERHAPS"},
                                               {"RRCB_IMBALANCE_TOL", "0.9"},
-                                              {"RRCB_SUPPORT_MESH", "0"},
+                                              {"RRCB_SUPPORT_MESH", "-1"},
                                               {"RRCB_SEED", "-1"}}) {
         const Environment environment(Settings{{name, value}});
         testing::internal::CaptureStderr();

@@ -37,7 +37,7 @@ TEST(Parameters, with_illegal_values_or_unknown_names_warn_as_zoltan_does) {
     Program program;
     EXPECT_EQ(program.set("IMBALANCE_TOL", "NONSENSE"), ZOLTAN_WARN);  // Zoltan's own
     EXPECT_EQ(program.set("RRCB_NONSENSE", "1"), ZOLTAN_WARN);
-    for (const char* value : {"0", "-1", "8X", "", "1.5", "99999999999"}) {
+    for (const char* value : {"-2", "-1", "8X", "", "1.5", "99999999999"}) {
         EXPECT_EQ(program.set("RRCB_SUPPORT_MESH", value), ZOLTAN_WARN) << value;
     }
     for (const char* value : {"LEARNED", "SAMPLE", "", "1"}) {

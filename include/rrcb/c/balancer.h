@@ -52,17 +52,21 @@ typedef struct rrcb_report {
 /** Makes a balancer with the default options and no cuts. Collective.
  *
  * @param comm     must outlive the balancer
- * @param balancer belongs to the caller; unchanged if the call fails */
+ * @param balancer points to null; gets the balancer, for rrcb_destroy; unchanged if the call fails
+ */
 RRCB_API int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
 
 /** Does the same from a communicator of Fortran. Collective.
  *
  * @param comm     must outlive the balancer
- * @param balancer belongs to the caller; unchanged if the call fails */
+ * @param balancer as for rrcb_create */
 RRCB_API int rrcb_create_fortran(int comm, rrcb_balancer** balancer);
 
-/** Frees a balancer, which may be null, and the cuts and the plan it has shown. Not collective. */
-RRCB_API void rrcb_destroy(rrcb_balancer* balancer);
+/** Frees a balancer, and the cuts and the plan it has shown. Not collective.
+ *
+ * @param balancer may be null or point to null; its pointer is set to null. Copies of the pointer
+ * must not be used any more, which cannot be checked */
+RRCB_API void rrcb_destroy(rrcb_balancer** balancer);
 
 /** Sets an option, such as ("refine", "EXACT") or ("axes.min_width", "0.1 0.1"). Not collective.
  *
@@ -80,7 +84,7 @@ RRCB_API int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const do
 
 /** Divides the points of all ranks into parts, as rrcb::balance; starts from the cuts of the
  * balancer, if it has any, and keeps the new ones. Collective. With the option refine NONE, and
- * after another num_parts or dimension, call rrcb_clear_cuts before.
+ * after another num_parts, unless it is 0, or dimension, call rrcb_clear_cuts before.
  *
  * @param balancer with the options; gets the cuts and the report
  * @param points   of this rank; without points arrays may be null, but the dimension is set

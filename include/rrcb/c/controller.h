@@ -16,17 +16,19 @@ typedef struct rrcb_cost_model rrcb_cost_model;
 /** Makes a controller, as rrcb::Controller. Collective.
  *
  * @param comm       may be freed before the controller
- * @param controller belongs to the caller; unchanged if the call fails */
+ * @param controller as for rrcb_create */
 RRCB_API int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller);
 
 /** Does the same from a communicator of Fortran. Collective.
  *
  * @param comm       may be freed before the controller
- * @param controller belongs to the caller; unchanged if the call fails */
+ * @param controller as for rrcb_create */
 RRCB_API int rrcb_controller_create_fortran(int comm, rrcb_controller** controller);
 
-/** Frees a controller, which may be null. Collective. */
-RRCB_API void rrcb_controller_destroy(rrcb_controller* controller);
+/** Frees a controller, after its cost models. Collective.
+ *
+ * @param controller as for rrcb_destroy */
+RRCB_API void rrcb_controller_destroy(rrcb_controller** controller);
 
 /** Records a step. Collective.
  *
@@ -54,7 +56,7 @@ RRCB_API int rrcb_controller_due(const rrcb_controller* controller, int* due);
 /** Records a rebalance. Called on all ranks, without communication.
  *
  * @param controller of this loop
- * @param report     of the balance, or null
+ * @param report     of the balance, by rrcb_get_report; or null
  * @param cost       on this rank, with all that it moved, in the unit of the loads */
 RRCB_API int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* report,
                                         double cost);
@@ -71,7 +73,7 @@ RRCB_API int rrcb_controller_save(rrcb_controller* controller, const void** byte
  * @param comm       may be freed before the controller
  * @param bytes      the same on every rank
  * @param size       number of them
- * @param controller belongs to the caller; unchanged if the call fails */
+ * @param controller as for rrcb_create */
 RRCB_API int rrcb_controller_load(MPI_Comm comm, const void* bytes, size_t size,
                                   rrcb_controller** controller);
 
@@ -80,7 +82,7 @@ RRCB_API int rrcb_controller_load(MPI_Comm comm, const void* bytes, size_t size,
  * @param comm       may be freed before the controller
  * @param bytes      the same on every rank
  * @param size       number of them
- * @param controller belongs to the caller; unchanged if the call fails */
+ * @param controller as for rrcb_create */
 RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t size,
                                           rrcb_controller** controller);
 
@@ -90,7 +92,7 @@ RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t si
  * @param controller  carries the sums with its steps: outlives the model, has recorded none. Null:
  * the model has a communicator of its own
  * @param num_columns the same on every rank
- * @param model       belongs to the caller; unchanged if the call fails */
+ * @param model       as for rrcb_create */
 RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                                     rrcb_cost_model** model);
 
@@ -99,12 +101,14 @@ RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, 
  * @param comm        may be freed before the model
  * @param controller  address of a controller, or null
  * @param num_columns the same on every rank
- * @param model       belongs to the caller; unchanged if the call fails */
+ * @param model       as for rrcb_create */
 RRCB_API int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* controller,
                                             int num_columns, rrcb_cost_model** model);
 
-/** Frees a cost model, which may be null. Collective unless it was made with a controller. */
-RRCB_API void rrcb_cost_model_destroy(rrcb_cost_model* model);
+/** Frees a cost model. Collective unless it was made with a controller.
+ *
+ * @param model as for rrcb_destroy */
+RRCB_API void rrcb_cost_model_destroy(rrcb_cost_model** model);
 
 /** Shows the state as bytes, as rrcb_controller_save. Collective.
  *
@@ -119,7 +123,7 @@ RRCB_API int rrcb_cost_model_save(rrcb_cost_model* model, const void** bytes, si
  * @param controller loaded before, outlives the model; null: as for rrcb_cost_model_create
  * @param bytes      the same on every rank
  * @param size       number of them
- * @param model      belongs to the caller; unchanged if the call fails */
+ * @param model      as for rrcb_create */
 RRCB_API int rrcb_cost_model_load(MPI_Comm comm, rrcb_controller* controller, const void* bytes,
                                   size_t size, rrcb_cost_model** model);
 
@@ -129,7 +133,7 @@ RRCB_API int rrcb_cost_model_load(MPI_Comm comm, rrcb_controller* controller, co
  * @param controller address of a controller, or null
  * @param bytes      the same on every rank
  * @param size       number of them
- * @param model      belongs to the caller; unchanged if the call fails */
+ * @param model      as for rrcb_create */
 RRCB_API int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller,
                                           const void* bytes, size_t size, rrcb_cost_model** model);
 

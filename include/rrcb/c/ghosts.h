@@ -19,14 +19,14 @@ typedef enum rrcb_needs {
 
 /** Distances at which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
-    double radius;       /**< cut-off of all points, in the unit of the coordinates */
-    const double* radii; /**< one for each point instead, with `radius` 0; null on every rank that
-                              has points: none */
+    double radius;       /**< cut-off of all points, in the unit of the coordinates; 0: not given */
+    const double* radii; /**< one for each point instead, 0 or more; null on every rank that has
+                              points: none */
     const double* lower; /**< of the periodic box, of length 3; null: none */
     const double* upper; /**< of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
                                               as by rrcb_ranks_of_part */
-    size_t num_parts;                      /**< length of `ranks_of_parts` */
+    size_t num_parts;                      /**< length of `ranks_of_parts`, 0 if that is null */
     int needs;                             /**< an rrcb_needs */
 } rrcb_ghost_options;
 
@@ -50,12 +50,14 @@ typedef struct rrcb_ghost_plan {
  * @param points   of this rank, after rrcb_transfer; refused if they are those of the balance or
  * of rrcb_assign_all, and one has yet to leave its rank
  * @param options  radius, periodic box, ranks of the parts
- * @param ghosts   belong to the caller; unchanged if the call fails */
+ * @param ghosts   as for rrcb_create */
 RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const rrcb_ghost_options* options, rrcb_ghosts** ghosts);
 
-/** Frees ghosts, which may be null, and their lists. Not collective. */
-RRCB_API void rrcb_ghosts_destroy(rrcb_ghosts* ghosts);
+/** Frees ghosts and their lists. Not collective.
+ *
+ * @param ghosts as for rrcb_destroy */
+RRCB_API void rrcb_ghosts_destroy(rrcb_ghosts** ghosts);
 
 /** Shows the lists. Not collective.
  *
@@ -100,8 +102,8 @@ RRCB_API int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_column
 
 /** Scope of rrcb_ghosts_verify, as rrcb::VerifyOptions. */
 typedef struct rrcb_verify_options {
-    size_t sample;              /**< most points, over all ranks, whose neighbours are looked for */
-    double radius;              /**< true cut-off, if the ghosts have a skin; 0: that of these */
+    size_t sample; /**< most points, over all ranks, whose neighbours are looked for; 0: only ids */
+    double radius; /**< true cut-off, if the ghosts have a skin; 0: that of these */
     const double* radii;        /**< one for each point, if the ghosts have some, or null */
     size_t num_ids;             /**< number of points, or 0 without ids */
     const uint64_t* ids;        /**< of the points */

@@ -25,7 +25,7 @@ typedef enum rrcb_group_place {
  * @param points   of this rank
  * @param keys     one for each point; RRCB_NO_GROUP for a point that needs none
  * @param place    an rrcb_group_place, the same on every rank
- * @param groups   belong to the caller; unchanged if the call fails */
+ * @param groups   as for rrcb_create */
 RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const uint64_t* keys, int place, rrcb_groups** groups);
 
@@ -39,8 +39,10 @@ RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points
 RRCB_API int rrcb_join_keys(const rrcb_balancer* balancer, size_t count, size_t keys_per_point,
                             const uint64_t* keys, uint64_t* joined);
 
-/** Frees groups, which may be null, and their points. Not collective. */
-RRCB_API void rrcb_groups_destroy(rrcb_groups* groups);
+/** Frees groups and their points. Not collective.
+ *
+ * @param groups as for rrcb_destroy */
+RRCB_API void rrcb_groups_destroy(rrcb_groups** groups);
 
 /** Shows the groups of this rank as points, for rrcb_balance. Not collective.
  *

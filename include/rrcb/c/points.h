@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/** Type of a value. */
+/** Type of a value; 0 is none. */
 typedef enum rrcb_type {
-    RRCB_BYTE = 0,  /**< of a value of any other type: such values are moved, not added */
-    RRCB_INT32 = 1, /**< int32_t */
-    RRCB_INT64 = 2, /**< int64_t */
-    RRCB_FLOAT = 3, /**< float */
-    RRCB_DOUBLE = 4 /**< double */
+    RRCB_INT32 = 1,  /**< int32_t */
+    RRCB_INT64 = 2,  /**< int64_t */
+    RRCB_FLOAT = 3,  /**< float */
+    RRCB_DOUBLE = 4, /**< double */
+    RRCB_BYTE = 5    /**< of a value of any other type: such values are moved, not added */
 } rrcb_type;
 
 /** Borrowed view of one rank's points, as rrcb::Points. Zero is a view of no points of no

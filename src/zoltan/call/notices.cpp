@@ -53,12 +53,14 @@ std::string report_line(const Report& report, int num_parts, const Remap& remap)
 /// Returns the causes of an imbalance above the tolerance, a sentence each.
 std::vector<std::string> balance_warnings(const Report& report, const Parameters& parameters) {
     std::vector<std::string> texts;
-    if (report.details.least_imbalance > parameters.options.imbalance_tolerance &&
-        report.details.surplus_parts == 0) {
+    const double least = report.details.least_imbalance;
+    const bool is_best = imbalance_of(report) <= least * (1 + 1e-9);
+    if (least > parameters.options.imbalance_tolerance && report.details.surplus_parts == 0 &&
+        (is_best || report.details.coincident_cuts == 0)) {
         texts.push_back(
             format("one object outweighs a part, or objects are too few: the imbalance "
                    "is %.4f, at best %.4f",
-                   imbalance_of(report), report.details.least_imbalance));
+                   imbalance_of(report), least));
     }
     const bool plain = parameters.rectilinear_blocks != 0;
     const bool divided = parameters.options.coincident == Coincident::divide && !plain;

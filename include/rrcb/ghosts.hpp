@@ -52,8 +52,8 @@ struct GhostOptions {
     /// One radius for each point instead; for contacts of spheres the diameters. Unless `needs`
     /// says otherwise: of two points on different ranks, nearer than the greater of their radii,
     /// the one with the greater radius is a ghost on the other's rank, the other not always. To
-    /// meet each pair once, skip a ghost of a smaller radius than the point's, or of an equal one
-    /// and a smaller number.
+    /// meet each pair once, use a ghost only if its radius is greater than the point's, or equal
+    /// and its id is greater; an id is any number of a point that is the same on all ranks.
     std::optional<std::span<const double>> radii{};
     /// Repeated box with all points, [lower, upper) along each axis with finite ends. Along the
     /// other axes, with infinite ends, it does not repeat. A point on an upper face, as

@@ -280,6 +280,7 @@ program module_test
   call expect(error == rrcb_invalid_argument, "ghosts without a radius")
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=moved_weights(2:))
   call expect(error == rrcb_invalid_argument, "ghosts by too few radii")
+  call expect_text("give one for each, or one radius for all")
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, 1.0_c_double, moved_weights(2:))
   call expect(error == rrcb_invalid_argument, "ghosts by a radius and too few radii")
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, 1.0_c_double, ranks_of_parts=no_ranks)

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
+#include <string>
 
 namespace rrcb {
 namespace {
@@ -49,6 +51,21 @@ struct WeightedCloud {
         return balance(points(), asked, {}, MPI_COMM_WORLD).report;
     }
 };
+
+TEST(Tolerance, that_looks_like_per_cent_is_noticed_if_lines_are_asked_for) {
+    const WeightedCloud cloud(1);
+    setenv("RRCB_VERBOSE", "1", 1);
+    for (const double tolerance : {1.05, 1.9, 2.0, 5.0}) {
+        testing::internal::CaptureStdout();
+        cloud.report(Refine::tolerance, tolerance);
+        const std::string said = testing::internal::GetCapturedStdout();
+        EXPECT_EQ(said.find("a part may weigh") != said.npos, rank() == 0 && tolerance >= 2);
+        const std::string notice =
+            "; a part may weigh 5 times the mean, for 5 % set imbalance_tolerance to 1.05\n";
+        EXPECT_EQ(said.find(notice) != said.npos, rank() == 0 && tolerance == 5) << said;
+    }
+    unsetenv("RRCB_VERBOSE");
+}
 
 TEST(Tolerance, that_exact_reaches_is_never_missed) {
     int fell_back = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <string>
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -56,6 +57,21 @@ TEST(Coincident, objects_in_a_plane_stay_together_in_rectilinear_blocks) {
     program.set("RCB_RECTILINEAR_BLOCKS", "1");
     const int ranks = program.num_ranks;
     EXPECT_EQ(counts_with(program, "RRCB"), (std::vector<int>{0, 0, 10 * ranks, 90 * ranks}));
+}
+
+TEST(Coincident, planes_are_the_cause_that_a_warning_names) {
+    Program program(2);
+    if (program.rank == 0)
+        for (int i = 0; i < 25; ++i) program.add({1.0 * (i % 5), 1.0 * (i / 5)});
+    program.set("RCB_RECTILINEAR_BLOCKS", "1");
+    program.set("DEBUG_LEVEL", "1");
+    testing::internal::CaptureStderr();
+    counts_with(program, "RRCB");
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said.find("outweighs"), std::string::npos) << said;
+    EXPECT_EQ(said.find("plane, which RCB_RECTILINEAR_BLOCKS keeps together") != said.npos,
+              program.rank == 0)
+        << said;
 }
 
 }  // namespace

@@ -105,7 +105,8 @@ Balance balance(const Points& points, const Options& options, const Cuts* previo
     HostPasses host(points, std::move(memory));
     Balance result = balance(host, options, previous, may_keep, self);
     result.parts = host.take_parts();
-    result.cuts.points = hash_of(points);
+    result.cuts.points = hash_if_leaving(points, result.parts, result.cuts.num_parts,
+                                         mpi::rank_of(self.comm), mpi::size_of(self.comm));
     return result;
 }
 

@@ -59,7 +59,8 @@ struct Cuts {
     /// Random number of the ranks of the balance, with which calls check their communicator; 0:
     /// none, as of a balance on one rank. Set it to 0 to use the cuts on other ranks.
     std::uint64_t group = 0;
-    /// Hash of this rank's points of the balance, with which ghosts() recognizes them; 0: none.
+    /// Hash of this rank's points of the balance if one of them has to leave, with which ghosts()
+    /// recognizes them; 0: none.
     std::uint64_t points = 0;
     /// Tells balance() when other axes would save ghosts. Set it to {} to keep the axes.
     NearCuts near{};

@@ -1,12 +1,14 @@
 #include "balance_mpi.hpp"
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
+#include "collective/communicator.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "options/request.hpp"
 #include "verbose_mpi.hpp"
 #include "workspace_mpi.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace rrcb::c {
 
@@ -71,8 +73,11 @@ int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, in
                 positions = rrcb::c::points_of(points);
                 rrcb::c::require_array(positions.count, parts, "parts");
             });
-            std::ranges::copy(rrcb::assign_all(own.cuts, positions, self), parts);
+            const std::vector<rrcb::Part> found = rrcb::assign_all(own.cuts, positions, self);
+            std::ranges::copy(found, parts);
             own.lower_count(positions.count);
-            own.cuts.points = rrcb::hash_of(positions);
+            own.cuts.points =
+                rrcb::hash_if_leaving(positions, found, own.cuts.num_parts,
+                                      rrcb::mpi::rank_of(self.comm), rrcb::mpi::size_of(self.comm));
         });
 }

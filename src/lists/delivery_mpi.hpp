@@ -48,11 +48,17 @@ void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_r
 /// Throws Error unless a column holds its components for each of `count` points or other `entries`.
 void check_column(const detail::ByteColumn& column, LocalIndex count, const std::string& entries);
 
-/// Moves columns into their results. Returns whether any rank sends points.
+/// Result of deliver().
+struct Delivered {
+    bool moves = false;           ///< whether any rank sends points
+    bool is_like_before = false;  ///< the points that hash_of(points) reads may be as before
+};
+
+/// Moves columns into their results.
 ///
 /// Collective: exchange_counts(), one reduction and the messages. An earlier failure on one rank is
 /// thrown on all.
-bool deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
-             const TransferLimits& limits, TransferReport* report, Participant& self);
+Delivered deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
+                  const TransferLimits& limits, TransferReport* report, Participant& self);
 
 }  // namespace rrcb

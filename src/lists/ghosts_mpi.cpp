@@ -1,4 +1,5 @@
 #include "collective/agreement_mpi.hpp"
+#include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/rank_counts_mpi.hpp"
@@ -16,6 +17,7 @@
 #include "options/rejection.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
+#include "passes/assignment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -66,7 +68,6 @@ struct GhostRequest {
     Radii radii;
     Holders holders;
     std::optional<PeriodicImages> images;
-    bool has_balanced;                     ///< whether the points are unchanged since the balance
     Box box{};                             ///< of the points
     std::optional<PartReaches> reaches{};  ///< of the parts, if their radii count
 
@@ -85,17 +86,31 @@ struct GhostRequest {
     void note_reaches(const Cuts& cuts) {
         const std::vector<Part> ends = holders.ends_here();
         reaches.emplace(cuts.num_parts, cuts.dimension);
+        if (points.count == 0) return;
+        if (ends.size() == 1) return note_reaches(ends.front());
+        std::vector<Part> of_points(points.count);
+        assign_known(cuts, points, of_points);
         const auto for_each_end = [&](LocalIndex i, auto&& visit) {
-            const Part part = ends.size() > 1 ? part_of(cuts, points.position(i)) : no_part;
-            const Part end = part == no_part ? no_part : end_of(cuts, part);
-            if (std::ranges::binary_search(ends, end)) return visit(end);
+            if (std::ranges::binary_search(ends, of_points[i])) return visit(of_points[i]);
             std::ranges::for_each(ends, visit);
         };
         for (LocalIndex i = 0; i < points.count; ++i)
             for_each_end(i, [&](Part end) { reaches->note_radius(end, radii.of(i)); });
         for (LocalIndex i = 0; i < points.count; ++i)
-            for_each_end(
-                i, [&](Part end) { reaches->note_place(end, radii.of(i), points.position(i)); });
+            for_each_end(i, [&](Part end) { note_place(end, i); });
+    }
+
+  private:
+    /// All points count for one part.
+    void note_reaches(Part end) {
+        reaches->note_radius(end, radii.greatest());
+        if (!radii.each) return reaches->note_box(end, radii.same, box);
+        for (LocalIndex i = 0; i < points.count; ++i) note_place(end, i);
+    }
+
+    void note_place(Part end, LocalIndex i) {
+        const Vector x = points.position(i);
+        reaches->note_box(end, radii.of(i), {x, x});
     }
 };
 
@@ -154,7 +169,6 @@ class Neighbourhood {
     void add(LocalIndex point, const Ball& ball, const Shift& shift) {
         const bool is_image = shift != Shift{};
         if (!is_image && is_home_alone(ball)) return;
-        if (!is_image && request_.has_balanced) require_here(point, ball.centre());
         lists_.begin(point, shift);
         near_.for_each_touched<dimension>(ball, [&](const NearBoxes::Row& row) {
             if (is_unknown(row.entry)) return void(lacking_.insert(unknown_node(row.entry)));
@@ -170,15 +184,6 @@ class Neighbourhood {
         const Ball wide = ball.widened(reach_);
         return std::ranges::any_of(
             near_.homes(), [&](const Box& home) { return wide.is_inside(home, cuts_.dimension); });
-    }
-
-    void require_here(LocalIndex point, const Vector& position) const {
-        const Part part = part_of(cuts_, position);
-        const Holders& holders = request_.holders;
-        if (part == no_part || holders.of_part(part).contains(holders.rank)) return;
-        reject("these are the points of the balance, but point " + std::to_string(point) +
-               " (the first is 0) has to leave this rank for part " + std::to_string(part) +
-               "; give the points that the transfer returned");
     }
 
     const Cuts& cuts_;
@@ -223,6 +228,17 @@ void exchange_shifts(GhostPlan& plan, Participant& self) {
             nullptr, self);
 }
 
+/// Throws Error for points from before the transfer. Unless they differ from those after it by
+/// their hash, they may be these. Whose ranks have other parts than by default is not known.
+void refuse_points_of_balance(const Cuts& cuts, const GhostRequest& request, MPI_Comm comm) {
+    if (cuts.points == 0 || request.holders.given || cuts.points != hash_of(request.points)) return;
+    const TransferLog* log = mpi::Attribute<TransferLog>::find(comm);
+    if (log != nullptr && log->are_like_before(request.points.count)) return;
+    reject(
+        "these are the points of the balance, some of which have to leave this rank for their "
+        "parts; give the points that the transfer returned");
+}
+
 /// Takes the greatest reaches of all ranks. Collective.
 void join(PartReaches& reaches, Participant& self) {
     const std::span<double> numbers = reaches.numbers();
@@ -246,7 +262,7 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     self.attempt([&] {
         mpi::require_group(cuts.group, "the balance of the cuts", self);
         request.check(cuts);
-        request.has_balanced = cuts.points == hash_of(request.points);
+        refuse_points_of_balance(cuts, request, self.comm);
         request.radii.are_of_receivers() ? request.note_reaches(cuts) : list();
         bits_of_cuts = bits_of(cuts);
         if (request.holders.given) bits_of_holders = hash_of(*request.holders.given);
@@ -280,8 +296,7 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
                          {options.radius, options.radii, options.needs},
                          {options.ranks_of_parts, cuts.shape, cuts.num_parts,
                           mpi::rank_of(self.comm), mpi::size_of(self.comm)},
-                         {},
-                         false};
+                         {}};
     if (points.count == 0 && std::isnan(options.radius)) request.radii.each.emplace();
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);

@@ -22,14 +22,14 @@ class PartReaches {
     /// Notes a radius of this rank, before all places.
     void note_radius(Part end, double radius) { raise(numbers_[end * width()], radius); }
 
-    /// Notes the place of the same point.
-    void note_place(Part end, double radius, const Vector& x) {
+    /// Notes the box of the same point, or of all points with this radius.
+    void note_box(Part end, double radius, const Box& box) {
         const bool is_great = radius > of(end) / 2;
         double* reach = &numbers_[end * width() + (is_great ? 0 : 1 + 2 * dimension_)];
         raise(*reach, radius);
         for (int a = 0; a < dimension_; ++a) {
-            raise(*++reach, -x[a]);
-            raise(*++reach, x[a]);
+            raise(*++reach, -box.lower[a]);
+            raise(*++reach, box.upper[a]);
         }
     }
 

@@ -1,5 +1,6 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "cuts/owned_cuts.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/notices_mpi.hpp"
 #include "lists/transfer_log.hpp"
@@ -38,18 +39,26 @@ int first_rank_of(Part part, int num_parts, int num_ranks) {
     return part * (num_ranks / num_parts) + std::max(0, part + left_over + 1 - num_parts);
 }
 
+/// Throws Error unless each part is one of `num_parts`.
 void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Plan& plan) {
+    require_parts(num_parts);
     const int rank = mpi::rank_of(comm);
     const int num_ranks = mpi::size_of(comm);
+    // Most points stay.
+    const auto [first, end] = parts_on(rank, num_parts, num_ranks);
+    const auto num_here = static_cast<std::uint32_t>(end - first);
     // Consecutive points mostly have one part, and destination_of() divides.
     Part part = -1;
     int destination = rank;
     for (LocalIndex i = 0; i < parts.size(); ++i) {
+        if (static_cast<std::uint32_t>(parts[i]) - static_cast<std::uint32_t>(first) < num_here)
+            [[likely]]
+            continue;
         if (parts[i] != part) {
             part = parts[i];
+            if (part < 0 || part >= num_parts) check_parts(parts, num_parts);
             destination = destination_of(part, num_parts, rank, num_ranks);
         }
-        if (destination == rank) continue;
         plan.export_indices.push_back(i);
         plan.export_ranks.push_back(destination);
         plan.export_parts.push_back(parts[i]);
@@ -77,10 +86,7 @@ RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
 Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
     Plan result;
     result.num_points = parts.size();
-    self.attempt([&] {
-        check_parts(parts, num_parts);
-        list_exports(parts, num_parts, self.comm, result);
-    });
+    self.attempt([&] { list_exports(parts, num_parts, self.comm, result); });
     exchange_records<Notice>(
         result.export_ranks,
         [&](std::size_t k) {

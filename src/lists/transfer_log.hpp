@@ -22,15 +22,25 @@ inline std::uint64_t next_stamp() {
 /// they have on every rank, and no older plan brought as many back later.
 class TransferLog {
   public:
-    /// Notes a transfer; the same calls on every rank.
-    void add(const Plan& plan, bool moves) {
+    /// Notes a transfer; the same calls on every rank. `is_like_before`: its result here may have
+    /// the hash of the points before.
+    void add(const Plan& plan, bool moves, bool is_like_before) {
         ++number_;
         if (!moves || plan.stamp == 0) return;
         auto place = std::ranges::find(transfers_, plan.stamp, &Transfer::plan);
         if (place == transfers_.end())
             place = std::ranges::min_element(transfers_, {}, &Transfer::number);
+        const bool was_like_before = place->plan == plan.stamp && place->is_like_before;
         *place = {plan.stamp, number_, plan.num_points,
-                  plan.num_points - plan.export_indices.size() + plan.import_ranks.size()};
+                  plan.num_points - plan.export_indices.size() + plan.import_ranks.size(),
+                  is_like_before || was_like_before};
+    }
+
+    /// Returns true if so many points, after a transfer, may have the hash of those before.
+    bool are_like_before(LocalIndex num_points) const {
+        return std::ranges::any_of(transfers_, [&](const Transfer& transfer) {
+            return transfer.is_like_before && transfer.after == num_points;
+        });
     }
 
     /// Returns the number of the latest transfer that may have taken the points of ghosts, or 0.
@@ -52,6 +62,7 @@ class TransferLog {
         std::uint64_t number = 0;  ///< among all, the same on every rank
         LocalIndex before = 0;
         LocalIndex after = 0;
+        bool is_like_before = false;
     };
 
     std::uint64_t number_ = 0;

@@ -57,8 +57,8 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
         if (log == nullptr)
             log = mpi::Attribute<TransferLog>::keep(std::make_unique<TransferLog>(), self.comm);
     });
-    const bool moves = deliver(delivery, columns, limits, report, self);
-    log->add(plan, moves);
+    const Delivered delivered = deliver(delivery, columns, limits, report, self);
+    log->add(plan, delivered.moves, delivered.is_like_before);
 }
 
 void detail::move(const Plan& plan, std::span<const ByteColumn> columns,

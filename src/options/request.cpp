@@ -1,6 +1,7 @@
 #include "options/request.hpp"
 
 #include <rrcb/detail/mix.hpp>
+#include <rrcb/plan.hpp>
 
 #include <algorithm>
 #include <array>
@@ -53,6 +54,18 @@ std::uint64_t hash_of(const Points& points) {
         for (const LocalIndex i : {LocalIndex{0}, points.count / 2, points.count - 1})
             for (const double x : points.position(i)) add(x, hash);
     return std::max(hash, std::uint64_t{1});
+}
+
+std::uint64_t hash_if_leaving(const Points& points, std::span<const Part> parts, int num_parts,
+                              int rank, int num_ranks) {
+    Part latest = no_part;
+    for (const Part part : parts) {
+        if (part == latest) [[likely]]
+            continue;
+        if (!ranks_of_part(part, num_parts, num_ranks).contains(rank)) return hash_of(points);
+        latest = part;
+    }
+    return 0;
 }
 
 std::uint64_t bits_of(const Option& option, const Options& options) {

@@ -37,6 +37,11 @@ std::uint64_t hash_of(std::span<const double> values);
 /// Returns a hash of the number of points and the first, middle and last position, never 0.
 std::uint64_t hash_of(const Points& points);
 
+/// Returns the value of Cuts::points: the same hash if one of the points has to leave `rank` for
+/// its part, otherwise 0.
+std::uint64_t hash_if_leaving(const Points& points, std::span<const Part> parts, int num_parts,
+                              int rank, int num_ranks);
+
 /// Returns the bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);
 

@@ -270,8 +270,12 @@ void check_dimension(int dimension, const char* name) {
                " must have 1, 2 or 3 dimensions, also on a rank without points");
 }
 
-void check_parts(std::span<const Part> parts, int num_parts) {
+void require_parts(int num_parts) {
     require(num_parts >= 1, "num_parts must be at least 1");
+}
+
+void check_parts(std::span<const Part> parts, int num_parts) {
+    require_parts(num_parts);
     for (std::size_t i = 0; i < parts.size(); ++i)
         if (parts[i] < 0 || parts[i] >= num_parts)
             reject("part " + std::to_string(parts[i]) + " of point " + std::to_string(i) +

@@ -46,6 +46,9 @@ bool is_interleaved(const Points& points);
 /// Throws Error with `name` unless the dimension is 1, 2 or 3.
 void check_dimension(int dimension, const char* name);
 
+/// Throws Error unless there are parts.
+void require_parts(int num_parts);
+
 /// Throws Error unless there are parts, and each of `parts` is one of them.
 void check_parts(std::span<const Part> parts, int num_parts);
 

@@ -154,9 +154,12 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
     result.report = report_of(decision.verdict, options.num_parts, plain.part_sizes);
     result.cuts = std::move(decision.cuts);
     result.cuts.group = mpi::size_of(self.comm) > 1 ? self.group() : 0;
-    result.cuts.points = hash_of(points);
     const StageScope stage(options.observer, Stage::assignment, self.arithmetic);
-    self.attempt([&] { assign(result.cuts, points, result.parts); });
+    self.attempt([&] {
+        assign(result.cuts, points, result.parts);
+        result.cuts.points = hash_if_leaving(points, result.parts, options.num_parts,
+                                             mpi::rank_of(self.comm), mpi::size_of(self.comm));
+    });
     agree(self);
     return result;
 }

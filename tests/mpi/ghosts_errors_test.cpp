@@ -9,9 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -58,7 +60,7 @@ TEST(Ghosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     // A radius that reaches all parts hides nothing.
     for (const double radius : {0.01, 2.0}) {
         const GhostOptions options{.radius = radius};
-        expect_refusal("these are the points of the balance, but point ",
+        expect_refusal("these are the points of the balance, some ",
                        [&] { ghosts(made.cuts, points, options, MPI_COMM_WORLD); });
         const Points of_last = test::is_last_rank() ? points : moved;
         expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": these are the points",
@@ -74,6 +76,42 @@ TEST(Ghosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     const auto kept = transfer(plan(again, MPI_COMM_WORLD), column(here, 2), MPI_COMM_WORLD);
     EXPECT_NO_THROW(
         ghosts(again.cuts, interleaved_points(kept, 2), {.radius = 0.1}, MPI_COMM_WORLD));
+}
+
+/// Balances, transfers and finds ghosts several times, each time of the right points.
+void expect_loop(std::vector<double> x, const Options& options) {
+    for (int step = 0; step < 5; ++step) {
+        const Points points = interleaved_points(x, 2);
+        const Balance made = balance(points, options, {}, MPI_COMM_WORLD);
+        x = transfer(plan(made, MPI_COMM_WORLD), column(x, 2), MPI_COMM_WORLD);
+        EXPECT_NO_THROW(
+            ghosts(made.cuts, interleaved_points(x, 2), {.radius = 0.1}, MPI_COMM_WORLD));
+    }
+}
+
+TEST(Ghosts, of_divided_points_are_found_after_a_transfer_that_moves_none) {
+    Options options;
+    options.coincident = Coincident::divide;
+    expect_loop({0.5, 0.5}, options);
+    std::vector<double> tenth = test::uniform_cloud(1000, 2, static_cast<unsigned>(rank()));
+    std::fill(tenth.begin(), tenth.begin() + 200, 0.5);
+    expect_loop(tenth, options);
+}
+
+TEST(Ghosts, of_points_that_look_like_those_before_the_transfer_are_found) {
+    Options options;
+    options.coincident = Coincident::divide;
+    options.refine = Refine::exact;
+    // Rank 1 passes on one of the coincident points and gets another.
+    const std::vector<double> two{0.5, 0.5, 0.5, 0.5};
+    expect_loop(rank() == 0 ? two : std::vector<double>(rank() % 2 * 2, 0.5), options);
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        std::mt19937_64 engine(seed * 100 + static_cast<unsigned>(rank()));
+        std::vector<double> x(2 * (engine() % 6));
+        for (double& value : x) value = static_cast<double>(engine() % 2);
+        options.num_parts = num_ranks() + static_cast<int>(seed % 4);
+        expect_loop(x, options);
+    }
 }
 
 TEST(Ghosts, of_unusable_points_cuts_or_ranks_are_refused_on_all_ranks) {

@@ -63,6 +63,8 @@ program module_test
   call expect(error == rrcb_ok, "create")
   call balancer%set("refine ", "EXACT ", error)
   call expect(error == rrcb_ok, "set")
+  call balancer%set("num_parts", "0", error)
+  call expect(error == rrcb_ok, "one part per rank")
   call balancer%set_part_sizes(sizes, error)
   call expect(error == rrcb_ok, "set_part_sizes")
   call balancer%balance(rrcb_interleaved_points(x, weights), parts, error)

@@ -21,9 +21,9 @@ constexpr double share_of_first = 1.0 / 3;
 constexpr std::size_t start_length = 2;  ///< 2^2 steps
 
 /// Returns the median of the first values; of two the smaller.
-double median(std::array<double, 3> values, std::size_t count) {
-    std::sort(values.begin(), values.begin() + count);
-    return values[(count - 1) / 2];
+double median(const std::array<double, 3>& values, std::size_t count) {
+    const auto [less, greater] = std::minmax({values[0], values[count > 1 ? 1 : 0]});
+    return count < 3 ? less : std::clamp(values[2], less, greater);
 }
 
 }  // namespace

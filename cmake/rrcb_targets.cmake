@@ -15,6 +15,14 @@ function(rrcb_precompile target)
     <string> <vector> ${ARGN})
 endfunction()
 
+# rrcb_compile_together(<target> <file that is compiled alone...>)
+#
+# Compiles the files of a target in groups, which takes less time from scratch.
+function(rrcb_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # While the first number of the version is 0, a new second one may change the interface.
 function(rrcb_set_soname target)
   set_target_properties(

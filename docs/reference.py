@@ -12,7 +12,7 @@ from pathlib import Path
 import reference_members
 import reference_python
 
-CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts",
+CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts", "neighbours",
        "groups", "remap", "quality", "controller", "cost", "restart", "stages", "error", "version", "eigen",
        "kokkos", "kokkos/passes", "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
        "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters",
@@ -25,7 +25,7 @@ FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "groups.f90",
 TASKS = {"points": "describe points", "views": "describe views", "kokkos": "divide on a device", "options": "choose", "balance": "divide",
          "cuts": "look up", "plan": "plan a move", "transfer": "move columns", "balancer": "divide, look up, move",
          "balancers": "divide, look up, move", "ghosts": "find neighbours and answer queries",
-         "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure",
+         "neighbours": "exchange in each step", "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure",
          "controller": "decide when to rebalance", "controllers": "decide when to rebalance",
          "cost": "learn weights", "restart": "save and load", "error": "handle errors", "paper": "compare"}
 

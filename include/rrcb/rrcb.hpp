@@ -7,6 +7,7 @@
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 #include <rrcb/groups.hpp>
+#include <rrcb/neighbours.hpp>
 #include <rrcb/options.hpp>
 #include <rrcb/plan.hpp>
 #include <rrcb/points.hpp>

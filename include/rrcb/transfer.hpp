@@ -28,6 +28,21 @@ struct Column {
     std::size_t components = 1;  ///< values of a point, >= 1
 };
 
+/// A column whose array a call may write, and resize if the array can: see Neighbours. Elsewhere it
+/// is used as a Column.
+template <std::ranges::contiguous_range Array>
+struct WritableColumn : Column<std::ranges::range_value_t<Array>> {
+    Array* array;  ///< must outlive the view; `values` shows it as it was when the view was made
+};
+
+namespace detail {
+
+template <class Array>
+concept WritableArray = std::ranges::contiguous_range<Array> && std::is_lvalue_reference_v<Array> &&
+    !std::is_const_v<std::remove_reference_t<std::ranges::range_reference_t<Array>>>;
+
+}  // namespace detail
+
 /// Returns a view of a vector or an array of any kind. Not collective.
 ///
 /// @param values     must outlive the view
@@ -36,11 +51,26 @@ template <std::ranges::contiguous_range Values>
 auto column(const Values& values, std::size_t components = 1) {
     return Column<std::ranges::range_value_t<Values>>{values, components};
 }
+/// Returns a view of an array that is not const, through which a call may write. Not collective.
+///
+/// @param values     as above
+/// @param components as above
+template <detail::WritableArray Values>
+auto column(Values&& values, std::size_t components = 1) {
+    using Array = std::remove_reference_t<Values>;
+    return WritableColumn<Array>{{values, components}, &values};
+}
 
 /// Returns a view unchanged. Not collective.
 template <class T>
 Column<T> column(const Column<T>& same) {
     return same;
+}
+
+/// Returns a view of the array of a writable column, as it is now. Not collective.
+template <class Array>
+auto column(const WritableColumn<Array>& same) {
+    return Column<std::ranges::range_value_t<Array>>{*same.array, same.components};
 }
 
 /// Joins several columns, to be moved in one message: columns(column(positions, 3), masses,
@@ -85,6 +115,9 @@ struct ByteColumn {
     std::byte* (*resize)(void* result, std::size_t num_values);
 };
 
+/// Throws Error for an array of fixed size. Returns nothing.
+RRCB_API std::byte* refuse_to_resize(std::size_t from, std::size_t to);
+
 template <class T>
 ByteColumn byte_column(const Column<T>& column, std::vector<T>& result) {
     return {reinterpret_cast<const std::byte*>(column.values.data()),
@@ -97,6 +130,26 @@ ByteColumn byte_column(const Column<T>& column, std::vector<T>& result) {
                 auto& values = *static_cast<std::vector<T>*>(vector);
                 values.resize(num_values);
                 return reinterpret_cast<std::byte*>(values.data());
+            }};
+}
+
+/// Returns a column whose result is its own array. Its values are those of the array now.
+template <class Array>
+ByteColumn byte_column(const WritableColumn<Array>& column) {
+    using T = std::ranges::range_value_t<Array>;
+    return {reinterpret_cast<const std::byte*>(std::ranges::data(*column.array)),
+            std::ranges::size(*column.array),
+            kind_of<T>,
+            sizeof(T),
+            column.components,
+            column.array,
+            [](void* array, std::size_t num_values) {
+                auto& values = *static_cast<Array*>(array);
+                if constexpr (requires { values.resize(num_values); })
+                    values.resize(num_values);
+                else if (std::ranges::size(values) != num_values)
+                    return refuse_to_resize(std::ranges::size(values), num_values);
+                return reinterpret_cast<std::byte*>(std::ranges::data(values));
             }};
 }
 

@@ -30,8 +30,14 @@ std::string_view name_of(CallName call) {
                                "save",
                                "load",
                                "join_keys",
-                               "reply"};
-    static_assert(names.size() == static_cast<std::size_t>(CallName::reply) + 1 &&
+                               "reply",
+                               "Neighbours",
+                               "Neighbours::migrate",
+                               "Neighbours::find_ghosts",
+                               "Neighbours::fetch",
+                               "Neighbours::accumulate",
+                               "Neighbours::sum"};
+    static_assert(names.size() == static_cast<std::size_t>(CallName::sum) + 1 &&
                   names.size() <= most_call_names);
     return names.at(static_cast<std::size_t>(call));
 }
@@ -57,11 +63,24 @@ std::string text_of(const CallDifference& difference) {
            "; every rank must make the same calls in the same order";
 }
 
+namespace {
+
+// All tags are below 32,768, which every MPI allows. Ranks are never so many calls apart as to mix
+// them up.
+constexpr int most_kinds = 16;
+constexpr int most_numbers = 2 * CallRecord::num_kept;
+constexpr int first_link_tag = most_kinds * most_call_names * most_numbers;
+constexpr int most_links = (32768 - first_link_tag) / 2;
+
+}  // namespace
+
 int CallLog::tag(int kind) const {
-    // Below 32,768, which every MPI allows. Ranks are never so many calls apart as to mix them up.
-    constexpr int most_kinds = 16;
-    const auto number = static_cast<int>(mine.number() % (2 * CallRecord::num_kept));
+    const auto number = static_cast<int>(mine.number() % most_numbers);
     return kind + most_kinds * (static_cast<int>(mine.latest()) + most_call_names * number);
+}
+
+int CallLog::next_link_tag() {
+    return first_link_tag + 2 * (num_links++ % most_links);
 }
 
 }  // namespace rrcb

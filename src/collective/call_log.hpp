@@ -1,10 +1,13 @@
 #pragma once
 
+#include "collective/neighbour_link.hpp"
+
 #include <mpi.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,9 +43,15 @@ enum class CallName : std::uint8_t {
     save,
     load,
     join_keys,
-    reply
+    reply,
+    neighbours,
+    migrate,
+    find_ghosts,
+    fetch_of_neighbours,
+    accumulate_of_neighbours,
+    sum
 };
-inline constexpr int most_call_names = 32;
+inline constexpr int most_call_names = 40;
 
 /// Returns the name by which users know a function.
 std::string_view name_of(CallName call);
@@ -84,6 +93,7 @@ struct CallLog {
     enum class End : std::uint8_t {
         none,
         differed,  ///< ranks made different calls: the next call makes another duplicate
+        failed,    ///< a call that waits only for neighbours failed: likewise
         missing    ///< some ranks made no call: no other call is possible
     };
 
@@ -99,6 +109,12 @@ struct CallLog {
     /// Messages under way, which no rank may ever receive.
     CallRecord sent{};
     CallDifference verdict{};
+    FailureNotice notice{};
+    std::shared_ptr<LinkMessages> undelivered{};
+    std::shared_ptr<CallLog> ended_before{};  ///< another log that has ended
+
+    std::vector<NeighbourLink*> links{};  ///< exchanges between neighbours that exist
+    int num_links = 0;                    ///< that were made, the same on every rank
 
     /// Notes a call that waits in the other messages of its own only.
     void add(CallName call) { mine.add(call); }
@@ -111,6 +127,9 @@ struct CallLog {
 
     /// Returns the tag by which a kind of message meets only those of the same call.
     int tag(int kind) const;
+
+    /// Returns the tag of another link; the one after it is that of its notices.
+    int next_link_tag();
 };
 
 }  // namespace rrcb

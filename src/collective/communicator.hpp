@@ -25,7 +25,8 @@ enum Tag : int {
     roll_call_tag,
     report_tag,
     verdict_tag,
-    printed_tag
+    printed_tag,
+    notice_tag
 };
 
 /// Greatest tag that every MPI allows, for a roll call on the caller's communicator. It is used

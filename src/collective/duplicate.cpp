@@ -3,6 +3,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "collective/spread_failure_mpi.hpp"
 #include "collective/watch_mpi.hpp"
 
 #include <rrcb/detail/mix.hpp>
@@ -18,13 +19,19 @@ namespace rrcb::mpi {
 
 namespace {
 
-/// Freed with the communicator that it is kept with, unless messages on it are left pending.
+/// Freed with the communicator that it is kept with, unless messages on it are left pending, whose
+/// memory then stays.
 struct Duplicate {
     std::shared_ptr<CallLog> log = std::make_shared<CallLog>();
 
     ~Duplicate() {
+        static std::shared_ptr<CallLog> ended;
+        if (log->end != CallLog::End::none) {
+            log->ended_before = std::exchange(ended, log);
+            return;
+        }
         MPI_Comm comm = std::exchange(log->comm, MPI_COMM_NULL);
-        if (comm != MPI_COMM_NULL && log->end == CallLog::End::none) MPI_Comm_free(&comm);
+        if (comm != MPI_COMM_NULL) MPI_Comm_free(&comm);
     }
 };
 
@@ -58,11 +65,13 @@ void refuse_two_groups(MPI_Comm user) {
 }
 
 /// Returns what is kept with `user`, or null. Makes way for another duplicate if ranks made
-/// different calls with this one. Throws Error if some made none.
-Duplicate* kept_with(MPI_Comm user) {
+/// different calls with this one, or failed apart; then `old` is its log. Throws Error if some made
+/// none.
+Duplicate* kept_with(MPI_Comm user, std::shared_ptr<CallLog>& old) {
     Duplicate* found = Attribute<Duplicate>::find(user);
     if (found == nullptr || found->log->end == CallLog::End::none) return found;
     if (found->log->end == CallLog::End::missing) throw_end(found->log->why);
+    old = found->log;
     Attribute<Duplicate>::forget(user);
     return nullptr;
 }
@@ -87,14 +96,15 @@ void duplicate(MPI_Comm user, CallName call, MPI_Comm& comm, Participant& self) 
     comm = *made;
 }
 
-/// Makes the duplicate, and keeps it. Collective.
-Duplicate& make(MPI_Comm user, CallName call) {
+/// Makes the duplicate, and keeps it. Then no message of an `old` one is needed, if there was one
+/// on every rank. Collective.
+Duplicate& make(MPI_Comm user, CallName call, CallLog* old) {
     refuse_two_groups(user);
     MPI_Comm comm = MPI_COMM_NULL;
     Duplicate* kept = nullptr;
     Participant self{user};
     duplicate(user, call, comm, self);
-    const std::uint64_t group = make_group(self);
+    const std::uint64_t group = old != nullptr ? old->group : make_group(self);
     self.attempt([&] {
         check(MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
         kept = Attribute<Duplicate>::keep(std::make_unique<Duplicate>(), user);
@@ -111,6 +121,7 @@ Duplicate& make(MPI_Comm user, CallName call) {
         }
         throw;
     }
+    if (old != nullptr) drain(*old, comm);
     return *kept;
 }
 
@@ -140,8 +151,9 @@ Participant enter(MPI_Comm user, CallName call) {
     if (user == MPI_COMM_NULL)
         throw Error(ErrorCode::invalid_argument,
                     "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
-    Duplicate* found = kept_with(user);
-    const Duplicate& kept = found != nullptr ? *found : make(user, call);
+    std::shared_ptr<CallLog> old;
+    Duplicate* found = kept_with(user, old);
+    const Duplicate& kept = found != nullptr ? *found : make(user, call, old.get());
     kept.log->begin(call);
     return {kept.log->comm, kept.log};
 }

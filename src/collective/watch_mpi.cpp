@@ -2,6 +2,7 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "collective/spread_failure_mpi.hpp"
 
 #include <rrcb/error.hpp>
 
@@ -63,8 +64,12 @@ void throw_end(const std::string& why) {
     throw Error(ErrorCode::mpi, why);
 }
 
-Watch::Watch(CallLog& log)
-    : log_(log), deadline_(log.comm, log.tag(roll_call_tag), agree_limit(), true) {}
+// Neighbours may be some calls apart, so that the roll call of such calls is one for all.
+Watch::Watch(CallLog& log, Scope scope)
+    : log_(log),
+      scope_(scope),
+      deadline_(log.comm, scope == Scope::all ? log.tag(roll_call_tag) : roll_call_tag,
+                agree_limit(), true) {}
 
 void Watch::look() {
     const auto waited = deadline_.waited();
@@ -72,6 +77,7 @@ void Watch::look() {
     if (waited < short_wait) return;
     // The communicator of the calls was freed: only a controller goes on without it.
     if (log_.comm == MPI_COMM_NULL) return pause(waited);
+    if (scope_ == Scope::all) look_for_failure(log_);
     if (waited >= patience) compare();
     if (deadline_.is_missed())
         end(CallLog::End::missing, text_of_absence(deadline_, log_.mine.latest()) +

@@ -19,12 +19,16 @@ inline std::chrono::milliseconds patience{1000};
 /// messages.
 class Watch {
   public:
+    /// Calls waited for: of all ranks, or of neighbours only, which look for failures themselves.
+    enum class Scope : std::uint8_t { all, neighbours };
+
     /// The log outlives it.
-    explicit Watch(CallLog& log);
+    explicit Watch(CallLog& log, Scope scope = Scope::all);
 
     /// Looks once, then gives up the processor; does nothing in a short wait.
     ///
-    /// Throws Error if calls differ, or if ranks are missing after RRCB_AGREE_SECONDS.
+    /// Throws Error if calls differ, if ranks are missing after RRCB_AGREE_SECONDS, or if a call
+    /// between neighbours has failed elsewhere.
     void look();
 
   private:
@@ -32,6 +36,7 @@ class Watch {
     [[noreturn]] void end(CallLog::End how, std::string&& why);
 
     CallLog& log_;
+    Scope scope_;
     Deadline deadline_;
     bool has_reported_ = false;
 };

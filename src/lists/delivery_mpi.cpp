@@ -1,9 +1,11 @@
 #include "lists/delivery_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
+#include "collective/column_type.hpp"
 #include "collective/communicator.hpp"
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/stream_mpi.hpp"
+#include "lists/rows.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/detail/mix.hpp>
@@ -15,7 +17,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <type_traits>
 
 namespace rrcb {
 
@@ -43,25 +44,9 @@ std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
     return bytes;
 }
 
-/// Properties of a column that must be the same on every rank: components, bytes and kind of a
-/// value.
-using ColumnType = std::array<std::uint64_t, 3>;
-
-ColumnType type_of(const ByteColumn& column) {
-    return {column.components, column.value_bytes, static_cast<std::uint64_t>(column.kind)};
-}
-
-std::string text_of(const ColumnType& type) {
-    constexpr std::array kinds{"whole numbers", "floating-point numbers", "values of another type"};
-    const auto [components, value_bytes, kind] = type;
-    return std::to_string(components) + " per point, " + kinds.at(kind) + " of " +
-           std::to_string(value_bytes) + " bytes";
-}
-
 std::uint64_t hash_of_columns(std::span<const ByteColumn> columns) {
     std::uint64_t hash = columns.size();
-    for (const ByteColumn& column : columns)
-        for (const std::uint64_t number : type_of(column)) hash = detail::mix(hash ^ number);
+    for (const ByteColumn& column : columns) hash = detail::mix(hash ^ type_of(column));
     return hash;
 }
 
@@ -85,8 +70,9 @@ void refuse_types(std::span<const ByteColumn> columns, Participant& self) {
         const ColumnType there = of_root(here, self);
         self.attempt([&] {
             if (here != there)
-                reject("column " + std::to_string(k) + " (the first is 0) has " + text_of(here) +
-                       ", but " + text_of(there) + " on rank 0; give the same on every rank");
+                reject("column " + std::to_string(k) + " (the first is 0) has " +
+                       text_of_type(here) + ", but " + text_of_type(there) +
+                       " on rank 0; give the same on every rank");
         });
     }
     agree(self);
@@ -119,17 +105,13 @@ std::vector<Lane> make_results(std::span<const ByteColumn> columns, LocalIndex n
     return lanes;
 }
 
-void copy(const std::byte* from, std::size_t bytes, std::byte* to) {
-    if (bytes > 0) std::memcpy(to, from, bytes);
-}
-
 void keep(const Delivery& delivery, const Lane& lane) {
     if (delivery.num_kept == 0) return;
     std::byte* to = lane.to;
     LocalIndex begin = 0;
     const auto copy_run = [&](LocalIndex end) {
         const std::size_t bytes = (end - begin) * lane.bytes;
-        copy(lane.from + begin * lane.bytes, bytes, to);
+        copy_bytes(lane.from + begin * lane.bytes, bytes, to);
         to += bytes;
     };
     for (const LocalIndex index : delivery.removed) {
@@ -137,26 +119,6 @@ void keep(const Delivery& delivery, const Lane& lane) {
         begin = index + 1;
     }
     copy_run(delivery.num_points);
-}
-
-/// Copies by a constant number of bytes if it is a common one, which is faster.
-void gather(const Lane& lane, std::span<const LocalIndex> points, std::byte* to) {
-    const auto gather_by = [&](auto bytes) {
-        for (const LocalIndex point : points) {
-            copy(lane.from + point * bytes, bytes, to);
-            to += bytes;
-        }
-    };
-    switch (lane.bytes) {
-        case 8:
-            return gather_by(std::integral_constant<std::size_t, 8>{});
-        case 16:
-            return gather_by(std::integral_constant<std::size_t, 16>{});
-        case 24:
-            return gather_by(std::integral_constant<std::size_t, 24>{});
-        default:
-            return gather_by(lane.bytes);
-    }
 }
 
 /// Returns true if as many points as before may have the same hash: in some column the first, the
@@ -182,16 +144,17 @@ void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, 
     const auto pack = [&](std::size_t first, std::size_t count, std::byte* place) {
         for (const Lane& lane : lanes) {
             if (delivery.sent.empty()) {
-                copy(lane.from + first * lane.bytes, count * lane.bytes, place);
+                copy_bytes(lane.from + first * lane.bytes, count * lane.bytes, place);
             } else {
-                gather(lane, delivery.sent.subspan(first, count), place);
+                gather(lane.from, lane.bytes, delivery.sent.subspan(first, count), place);
             }
             place += count * lane.bytes;
         }
     };
     const auto unpack = [&](std::size_t first, std::size_t count, const std::byte* place) {
         for (const Lane& lane : lanes) {
-            copy(place, count * lane.bytes, lane.to + (delivery.num_kept + first) * lane.bytes);
+            copy_bytes(place, count * lane.bytes,
+                       lane.to + (delivery.num_kept + first) * lane.bytes);
             place += count * lane.bytes;
         }
     };
@@ -199,6 +162,11 @@ void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, 
 }
 
 }  // namespace
+
+std::byte* detail::refuse_to_resize(std::size_t from, std::size_t to) {
+    reject("an array of fixed size has " + std::to_string(from) + " values, but " +
+           std::to_string(to) + " are needed; give a vector, or an array of that size");
+}
 
 LocalIndex total(std::span<const RankCount> counts) {
     LocalIndex sum = 0;

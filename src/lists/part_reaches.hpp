@@ -36,6 +36,11 @@ class PartReaches {
     /// Returns the numbers of all parts, of which the ranks take the maximum.
     std::span<double> numbers() { return numbers_; }
 
+    /// Returns the numbers of one part.
+    std::span<double> numbers_of(Part end) {
+        return std::span(numbers_).subspan(end * width(), width());
+    }
+
     double of(Part end) const { return numbers_[end * width()]; }
     double greatest() const {
         double greatest = -infinity;

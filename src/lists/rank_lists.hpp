@@ -16,6 +16,14 @@ class RankLists {
         for (const int rank : ranks) lists_.push_back({rank});
     }
 
+    /// Empties the lists; their memory stays.
+    void clear() {
+        for (List& list : lists_) {
+            list.points.clear();
+            list.shifts.clear();
+        }
+    }
+
     /// Begins with a point, or an image of it. Points come in ascending order.
     void begin(LocalIndex point, const Shift& shift) {
         ++number_;

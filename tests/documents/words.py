@@ -18,7 +18,7 @@ LONG_SHARE = 0.03
 # Words as `wc -w` counts them. Others may have 250; all but examples/mpm together TOTAL.
 TOTAL = 16900
 BUDGETS = {
-    "README.md": 820, "CHANGELOG.md": 385, "CONTRIBUTING.md": 480, "comparisons/README.md": 710,
+    "README.md": 820, "CHANGELOG.md": 405, "CONTRIBUTING.md": 480, "comparisons/README.md": 710,
     "comparisons/columns.md": 950, "docs/choosing.md": 1130, "docs/hard_cases.md": 430,
     "docs/errors.md": 830, "docs/first_program.md": 395, "docs/hosts.md": 640,
     "docs/install.md": 640, "docs/kokkos.md": 500, "docs/loop.md": 550, "docs/machines.md": 490,

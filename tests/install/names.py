@@ -34,6 +34,8 @@ ONLY_CPP = {
     "is_whole": "rrcb_get_cuts refuses cuts that are not",
     "is_above": "rrcb_part_of descends by it",
     "TreeShape": "for those who descend themselves",
+    "Neighbours": "its functions in the other languages follow",
+    "ghosts_of": "an array of rrcb_column",
     "Points": "shorthands for members of a struct",
     "RankRange": "a shorthand for members of a struct",
     "AxisOrder": "axes.order is for C++ only",

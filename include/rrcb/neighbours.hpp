@@ -1,0 +1,345 @@
+#pragma once
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/ghosts.hpp>
+#include <rrcb/transfer.hpp>
+
+#include <mpi.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+
+/// Distances within which ranks are neighbours, and the ranks of the parts. The same on every rank.
+struct NeighbourOptions {
+    /// Cut-off of ghosts, in the unit of the coordinates; if points have radii, the greatest.
+    double radius = 0;
+    /// Distance that a point may move between two calls of migrate(), in the same unit.
+    double travel = 0;
+    /// Repeated box with all points, as GhostOptions::periodic. Wrap positions before each call.
+    std::optional<Box> periodic{};
+    /// Ranks of each part, as after a remap(), if not ranks_of_part().
+    std::optional<std::span<const RankRange>> ranks_of_parts{};
+    /// Whose radii count, see Needs. With the radii of receivers, find_ghosts() exchanges a message
+    /// with each neighbour.
+    Needs needs = Needs::sender;
+};
+
+/// Entries that ranks have in common, such as nodes of a mesh at the faces of parts.
+struct SharedEntries {
+    std::vector<RankCount> ranks;  ///< number shared with each neighbour, by ascending rank
+    /// Indices of these entries: for the first rank, then for the second, ... Both ranks of a pair
+    /// list the same entries in the same order.
+    std::vector<LocalIndex> indices;
+};
+
+/// Arrays for columns of ghosts, see ghosts_of().
+template <class... Arrays>
+struct GhostArrays {
+    std::tuple<Arrays&...> arrays;
+};
+
+/// Names the arrays for columns of ghosts, in the order of the columns of the points: vectors, or
+/// arrays of the right size. Not collective.
+template <class... Arrays>
+GhostArrays<Arrays...> ghosts_of(Arrays&... arrays) {
+    return {std::tie(arrays...)};
+}
+
+namespace detail {
+
+struct NeighbourAccess;
+
+/// Adds the values of a column to those of some points.
+using AddValues = void(std::span<const LocalIndex> points, std::size_t components,
+                       const void* values, void* sums);
+
+/// A column of points, to which that of their ghosts is added. Of `points`, the result is written.
+struct SumColumn {
+    ByteColumn ghosts;
+    ByteColumn points;
+    AddValues* add;
+};
+
+template <class T>
+void add_values(std::span<const LocalIndex> points, std::size_t components, const void* values,
+                void* sums) {
+    add_each(points, components, static_cast<const T*>(values), static_cast<T*>(sums));
+}
+
+inline Points positions_of(const Points& points) {
+    return points;
+}
+
+template <Scalar T>
+Points positions_of(const Column<T>& column) {
+    Points points{.dimension = static_cast<int>(column.components), .stride = column.components};
+    if (column.components < 1 || column.components > max_dimension) return points;
+    points.count = column.values.size() / column.components;
+    for (std::size_t a = 0; a < column.components; ++a) {
+        const std::span<const T> axis =
+            points.count == 0 ? column.values : column.values.subspan(a);
+        if constexpr (std::is_same_v<T, double>)
+            points.axes[a] = axis;
+        else
+            points.float_axes[a] = axis;
+    }
+    return points;
+}
+
+/// Returns a column without its type; only a writable one has a result.
+template <class Values>
+ByteColumn any_column(const Values& values) {
+    const Column view = column(column(values));
+    using T = std::remove_cv_t<typename decltype(view.values)::element_type>;
+    return {reinterpret_cast<const std::byte*>(view.values.data()),
+            view.values.size(),
+            kind_of<T>,
+            sizeof(T),
+            view.components,
+            nullptr,
+            nullptr};
+}
+
+/// As byte_column(), also for an array.
+template <class Array>
+ByteColumn writable_column(const WritableColumn<Array>& view) {
+    return byte_column(view);
+}
+template <WritableArray Array>
+ByteColumn writable_column(Array&& array) {
+    return byte_column(column(array));
+}
+
+/// As writable_column(), for an array that can be resized.
+template <class Array>
+ByteColumn resizable_column(const WritableColumn<Array>& view) {
+    static_assert(
+        requires { view.array->resize(0); }, "give a vector: points come and go");
+    return byte_column(view);
+}
+template <WritableArray Array>
+ByteColumn resizable_column(Array&& array) {
+    return resizable_column(column(array));
+}
+
+}  // namespace detail
+
+/// The ranks near this one, by the cuts of a balance: the exchanges of each step of a simulation,
+/// with one message to each neighbour and call, and no collective call.
+///
+///     rrcb::Neighbours neighbours(balance.cuts, {.radius = r, .travel = t}, comm);
+///     ...                                                // in each step:
+///     neighbours.migrate(column(x, 3), column(v, 3), ids);
+///     neighbours.find_ghosts(column(x, 3));
+///     neighbours.fetch(rrcb::ghosts_of(ghost_x), column(x, 3));
+///     neighbours.accumulate(column(ghost_f, 3), column(f, 3));
+///
+/// A neighbour is a rank with a part at most max(radius, travel) from a part of this rank. Every
+/// rank makes the same calls in the same order. If a call fails on a rank, it also fails on its
+/// neighbours, the next call on theirs, ...: all ranks throw, with the same text, at the latest in
+/// the next collective call; none waits for a rank that has failed. Then make other Neighbours, and
+/// other controllers and ghost plans.
+class Neighbours {
+  public:
+    /// Finds the neighbours. Collective.
+    ///
+    /// @param cuts    of a balance, complete; they are copied
+    /// @param options distances, periodic box, ranks of the parts
+    /// @param comm    of the balance, or a congruent one
+    /// Throws Error on every rank alike: for cuts with HeldCuts::own, distances that are negative
+    /// or not finite, a periodic box as ghosts(), options or cuts that differ between ranks,
+    /// another communicator, or no memory. Cost: a pass over the parts, one pass of counts, and a
+    /// reduction.
+    RRCB_API Neighbours(const Cuts& cuts, const NeighbourOptions& options, MPI_Comm comm);
+    /// Frees the memory, without communication.
+    RRCB_API ~Neighbours();
+    /// Takes over other neighbours, which may then only be destroyed or assigned to. Not
+    /// collective.
+    RRCB_API Neighbours(Neighbours&&) noexcept;
+    /// Takes over other neighbours. Not collective.
+    RRCB_API Neighbours& operator=(Neighbours&&) noexcept;
+
+    /// Sends points that have left the parts of this rank to the ranks that now own them, and takes
+    /// theirs, in place. With all neighbours.
+    ///
+    ///     neighbours.migrate(column(x, 3), column(v, 3), ids);
+    ///     neighbours.migrate(member_points(particles, &Particle::position), particles);
+    ///
+    /// Arriving points, by ascending rank, take the places of those that left, then the end; places
+    /// left over are filled from the end. All other points keep their indices. Coincident points
+    /// divided by a cut stay on their rank.
+    /// @param positions column of positions, which moves too, or Points in arrays of `columns`
+    /// @param columns   writable and resizable: vectors, or column(vector, components)
+    /// Throws Error as described above: for a point in a part of no neighbour, which all arrays
+    /// still contain, or columns that differ between ranks. A rank that fails because of another
+    /// has completed its exchange with the other neighbours: no point is lost or doubled, except if
+    /// memory or MPI fails. Cost: a few comparisons a point, a look-up for each that left.
+    template <class Positions, class... Columns>
+    void migrate(Positions&& positions, Columns&&... columns) {
+        const std::array<detail::ByteColumn, sizeof...(Columns)> others{
+            detail::resizable_column(std::forward<Columns>(columns))...};
+        if constexpr (std::is_same_v<std::remove_cvref_t<Positions>, Points>) {
+            migrate_columns(positions, others);
+        } else {
+            std::array<detail::ByteColumn, 1 + sizeof...(Columns)> all{
+                detail::resizable_column(std::forward<Positions>(positions))};
+            for (std::size_t k = 0; k < others.size(); ++k) all[k + 1] = others[k];
+            migrate_columns(detail::positions_of(column(positions)), all);
+        }
+    }
+
+    /// Finds the points that other ranks need as ghosts, as ghosts() does, in the lists of
+    /// ghosts(). Not collective, without messages, except with Needs::receiver or either.
+    ///
+    /// Call it on every rank after migrate(), before fetch(). To keep ghosts for some steps, give
+    /// radii with a skin, and call neither until it is used up.
+    /// @param positions a column with an entry for each axis, or Points
+    /// @param radii     one for each point, none above NeighbourOptions::radius; without: that one
+    /// Throws Error on this rank, on neighbours in their next exchange: for a point that other
+    /// ranks than neighbours need, as it is too far outside the parts of this rank, and as
+    /// ghosts().
+    template <class Positions>
+    void find_ghosts(const Positions& positions,
+                     const std::optional<std::span<const double>>& radii = {}) {
+        if constexpr (std::is_same_v<Positions, Points>)
+            find_ghosts_of(positions, radii);
+        else
+            find_ghosts_of(detail::positions_of(column(positions)), radii);
+    }
+
+    /// Fetches columns of the ghosts into arrays, which it resizes. With all neighbours.
+    ///
+    ///     neighbours.fetch(rrcb::ghosts_of(ghost_x, ghost_ids), column(x, 3), ids);
+    ///
+    /// Ghosts are in the order of fetch(plan, ...): by ascending rank. Positions of images are
+    /// those of their points until apply_shifts(neighbours.ghosts(), ghost_x).
+    /// @param ghosts  an array for each column
+    /// @param columns of the points that find_ghosts() got, the same types on every rank
+    /// Throws Error as described above: for columns that do not fit the points or those of other
+    /// ranks, or if points of this rank migrated since find_ghosts().
+    template <class... Arrays, class... Columns>
+    void fetch(const GhostArrays<Arrays...>& ghosts, const Columns&... columns) {
+        static_assert(sizeof...(Arrays) == sizeof...(Columns), "give an array for each column");
+        const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
+            return std::array<detail::ByteColumn, sizeof...(Columns)>{
+                fetched(std::get<I>(ghosts.arrays), columns)...};
+        }
+        (std::index_sequence_for<Arrays...>{});
+        fetch_columns(each);
+    }
+
+    /// Adds the values of ghosts to those of their points, in place: the reverse of fetch(). With
+    /// all neighbours.
+    ///
+    ///     neighbours.accumulate(column(ghost_f, 3), column(f, 3));
+    ///
+    /// @param ghosts an entry, or `components`, for each ghost of the latest fetch(), or
+    /// ghosts_of() several such arrays
+    /// @param columns numbers of the same types for each point, writable
+    /// Adds in the order of accumulate(plan, ...): the same bits. Throws Error as fetch().
+    template <class GhostColumn, class... Columns>
+    void accumulate(const GhostColumn& ghosts, Columns&&... columns) {
+        static_assert(sizeof...(Columns) == 1, "name several arrays of ghosts with ghosts_of()");
+        accumulate_columns(
+            std::array{summed(detail::any_column(ghosts), std::forward<Columns>(columns)...)});
+    }
+    /// Adds several columns in the same way, in one message to each neighbour.
+    ///
+    ///     neighbours.accumulate(rrcb::ghosts_of(ghost_f, ghost_q), column(f, 3), q);
+    ///
+    /// @param ghosts  an array for each column
+    /// @param columns as above
+    template <class... Arrays, class... Columns>
+    void accumulate(const GhostArrays<Arrays...>& ghosts, Columns&&... columns) {
+        static_assert(sizeof...(Arrays) == sizeof...(Columns), "give a column for each array");
+        const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
+            return std::array{
+                summed_as(std::get<I>(ghosts.arrays), std::forward<Columns>(columns))...};
+        }
+        (std::index_sequence_for<Arrays...>{});
+        accumulate_columns(each);
+    }
+
+    /// Replaces shared entries by the sums of the values of all ranks that list them, in place.
+    /// With all neighbours.
+    ///
+    /// Values are added by ascending rank: if each pair of the ranks of an entry lists it, all get
+    /// the same bits.
+    /// @param shared  lists of entries in common with neighbours
+    /// @param columns numbers, one entry, or `components`, for each node, writable
+    /// Throws Error as described above, and for ranks that are no neighbours or whose lists differ
+    /// in length.
+    template <class... Columns>
+    void sum(const SharedEntries& shared, Columns&&... columns) {
+        sum_columns(shared,
+                    std::array<detail::SumColumn, sizeof...(Columns)>{summed_alone(columns)...});
+    }
+
+    /// Returns the lists of find_ghosts(), with the stamp of a plan: send, send_indices, and since
+    /// the first fetch() after it, receive and shifts. Valid until the next call. Not collective.
+    RRCB_API const GhostPlan& ghosts() const;
+
+    /// Returns the ranks of the neighbours, ascending. Not collective.
+    RRCB_API std::span<const int> ranks() const;
+
+  private:
+    friend struct detail::NeighbourAccess;
+    struct State;
+
+    // The functions above, for columns without their types. Columns to migrate have their own
+    // arrays as results, fetched ones those of the ghosts, and of shared entries only `points`
+    // counts.
+    RRCB_API void migrate_columns(const Points& positions,
+                                  std::span<const detail::ByteColumn> columns);
+    RRCB_API void find_ghosts_of(const Points& points,
+                                 const std::optional<std::span<const double>>& radii);
+    RRCB_API void fetch_columns(std::span<const detail::ByteColumn> columns);
+    RRCB_API void accumulate_columns(std::span<const detail::SumColumn> columns);
+    RRCB_API void sum_columns(const SharedEntries& shared,
+                              std::span<const detail::SumColumn> columns);
+
+    template <class Array, class Values>
+    static detail::ByteColumn fetched(Array& array, const Values& values) {
+        detail::ByteColumn result = detail::any_column(values);
+        const detail::ByteColumn ghosts = detail::byte_column(column(array));
+        static_assert(std::is_same_v<std::ranges::range_value_t<Array>,
+                                     typename decltype(value_of(column(values)))::type>,
+                      "ghosts must have the type of the column");
+        result.result = ghosts.result;
+        result.resize = ghosts.resize;
+        return result;
+    }
+    template <class T>
+    static std::type_identity<T> value_of(const Column<T>&);
+
+    template <class Values>
+    static detail::SumColumn summed(const detail::ByteColumn& ghosts, Values&& values) {
+        using T = typename decltype(value_of(column(values)))::type;
+        static_assert(std::is_arithmetic_v<T>, "only numbers can be added");
+        return {ghosts, detail::writable_column(std::forward<Values>(values)),
+                detail::add_values<T>};
+    }
+    template <class Array, class Values>
+    static detail::SumColumn summed_as(const Array& array, Values&& values) {
+        detail::SumColumn sum = summed(detail::any_column(array), std::forward<Values>(values));
+        sum.ghosts.components = sum.points.components;
+        return sum;
+    }
+    template <class Values>
+    static detail::SumColumn summed_alone(Values&& values) {
+        return summed({}, std::forward<Values>(values));
+    }
+
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rrcb

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "collective/call_log.hpp"
+#include "collective/neighbour_link.hpp"
+
+#include <rrcb/transfer.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Exchanges one message with each of some ranks, its neighbours, in each call, which no collective
+/// call precedes. Both ranks of a pair have each other as neighbours, and make the same calls.
+///
+/// A call consists of begin(), attempt() of the steps that write the messages, run(), attempt() of
+/// those that read them, and end(). If it fails, so do the neighbours; see
+/// spread_failure_mpi.hpp. The memory of messages is kept for the next call.
+class NeighbourExchange {
+  public:
+    /// Not collective, but all ranks make their exchanges in the same order. Throws std::bad_alloc.
+    NeighbourExchange(std::vector<int> ranks, std::shared_ptr<CallLog> log);
+    ~NeighbourExchange();
+    NeighbourExchange(const NeighbourExchange&) = delete;
+    NeighbourExchange& operator=(const NeighbourExchange&) = delete;
+
+    std::span<const int> ranks() const { return link_.ranks; }
+    const CallLog& log() const { return *log_; }
+
+    /// Begins a call with columns. `version` must be the same on both ranks of a pair. Throws Error
+    /// if an earlier call has failed.
+    void begin(CallName call, std::uint64_t version = 0);
+
+    /// Runs a step; if it throws, the call ends with this failure, here and on the neighbours.
+    template <class Step>
+    void attempt(Step&& step) {
+        const Failure failure = rrcb::attempt(step);
+        if (failure.failed) fail(of_this_rank(failure));
+    }
+
+    /// States the types of the columns, see type_of().
+    void set_types(std::span<const std::uint64_t> types);
+
+    /// Returns the memory for `bytes` of a message with `rows` rows to a neighbour, 16-byte
+    /// aligned.
+    std::byte* message_to(std::size_t neighbour, std::size_t rows, std::size_t bytes);
+
+    /// Sends the messages and receives those of the neighbours.
+    void run();
+
+    /// Returns whether the message of a neighbour has arrived and is of the same call.
+    bool has_message(std::size_t neighbour) const { return incoming_[neighbour].is_valid; }
+    std::size_t rows_from(std::size_t neighbour) const;
+    /// Returns the message of a neighbour; fails unless it has this length.
+    const std::byte* message_from(std::size_t neighbour, std::size_t bytes) const;
+
+    /// Ends the call: throws the failure of a neighbour, if there is one.
+    void end();
+
+  private:
+    struct Incoming {
+        detail::Uninitialized<std::byte> bytes{};
+        FailureNotice notice{};
+        bool has_arrived = false;
+        bool has_notice = false;  ///< which stays: no message is sent after it
+        bool is_valid = false;
+    };
+    struct Header;
+
+    [[noreturn]] void fail(const Failure& failure);
+    Failure of_this_rank(const Failure& failure) const;
+    void note(const Failure& failure);
+    void check(int code, const char* call);
+    bool settle(std::size_t neighbour);
+    void receive(std::size_t neighbour);
+    void look_for_notice(std::size_t neighbour);
+    void compare(std::size_t neighbour);
+    std::size_t body_begin() const;
+
+    std::shared_ptr<CallLog> log_;
+    NeighbourLink link_;
+    std::vector<Incoming> incoming_;
+    std::vector<std::uint64_t> types_;
+    CallName call_ = CallName::none;
+    std::uint64_t version_ = 0;
+    Failure failure_{};  ///< first one of this call
+};
+
+}  // namespace rrcb

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "lists/rows.hpp"
+
+#include <rrcb/transfer.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace rrcb {
+
+/// Returns the bytes of one row of a column.
+inline std::size_t row_bytes(const detail::ByteColumn& column) {
+    return column.components * column.value_bytes;
+}
+
+/// Returns the bytes of a block of rows in a message; each block begins where any number may.
+inline std::size_t block_bytes(std::size_t row_bytes, std::size_t num_rows) {
+    constexpr std::size_t alignment = 16;
+    return (row_bytes * num_rows + alignment - 1) / alignment * alignment;
+}
+
+/// Returns the bytes of a message with a block of rows for each column.
+inline std::size_t message_bytes(std::span<const detail::ByteColumn> columns,
+                                 std::size_t num_rows) {
+    std::size_t bytes = 0;
+    for (const detail::ByteColumn& column : columns)
+        bytes += block_bytes(row_bytes(column), num_rows);
+    return bytes;
+}
+
+/// Writes the rows of some points of each column.
+inline void pack(std::span<const detail::ByteColumn> columns, std::span<const LocalIndex> points,
+                 std::byte* place) {
+    for (const detail::ByteColumn& column : columns) {
+        gather(column.from, row_bytes(column), points, place);
+        place += block_bytes(row_bytes(column), points.size());
+    }
+}
+
+}  // namespace rrcb

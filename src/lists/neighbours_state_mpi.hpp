@@ -1,0 +1,158 @@
+#pragma once
+
+#include "collective/neighbour_exchange_mpi.hpp"
+#include "lists/delivery_mpi.hpp"
+#include "lists/migration.hpp"
+#include "lists/radii.hpp"
+#include "lists/rank_lists.hpp"
+#include "lists/territory.hpp"
+
+#include <rrcb/neighbours.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Neighbours for bindings, whose columns have no types.
+struct detail::NeighbourAccess {
+    static void migrate(Neighbours& neighbours, const Points& positions,
+                        std::span<const ByteColumn> columns) {
+        neighbours.migrate_columns(positions, columns);
+    }
+    static void find_ghosts(Neighbours& neighbours, const Points& points,
+                            const std::optional<std::span<const double>>& radii) {
+        neighbours.find_ghosts_of(points, radii);
+    }
+    static void fetch(Neighbours& neighbours, std::span<const ByteColumn> columns) {
+        neighbours.fetch_columns(columns);
+    }
+    static void accumulate(Neighbours& neighbours, std::span<const SumColumn> columns) {
+        neighbours.accumulate_columns(columns);
+    }
+    static void sum(Neighbours& neighbours, const SharedEntries& shared,
+                    std::span<const SumColumn> columns) {
+        neighbours.sum_columns(shared, columns);
+    }
+};
+
+struct Neighbours::State {
+    /// Points or ghosts of one rank, in a list by rank.
+    struct Range {
+        LocalIndex first = 0;
+        LocalIndex count = 0;
+    };
+
+    /// State of the ghosts.
+    enum class Stage : std::uint8_t { none, moved, found, fetched };
+
+    State(const Cuts& cuts, const NeighbourOptions& options, int rank, int num_ranks)
+        : territory(cuts, options, rank, num_ranks), radius(options.radius), needs(options.needs) {
+        if (options.periodic) ghosts.periodic = *options.periodic;
+        ghosts.radius = radius;
+        ghosts.needs = needs;
+    }
+
+    /// Throws Error for neighbours that were moved from.
+    static State& of(const Neighbours& neighbours);
+
+    /// Makes the exchange, and memory for a range of each neighbour.
+    void open(std::vector<int> ranks, std::shared_ptr<CallLog> log);
+
+    /// Number that stands for this rank among those of the neighbours.
+    std::size_t own() const { return exchange->ranks().size(); }
+    int rank_of(std::size_t n) const {
+        return n == own() ? territory.rank() : exchange->ranks()[n];
+    }
+
+    /// Returns the points that a neighbour needs.
+    std::span<const LocalIndex> sent_to(std::size_t n) const {
+        return std::span(ghosts.send_indices).subspan(send[n].first, send[n].count);
+    }
+
+    /// Calls visit(n, range) for each neighbour and this rank, by ascending rank, with the ghosts
+    /// from there.
+    template <class Visit>
+    void for_each_source(Visit&& visit) const {
+        for (const std::size_t n : by_rank) visit(n, receive[n]);
+    }
+
+    void set_types(std::span<const detail::ByteColumn> columns);
+
+    void check_positions(const Points& points) const;
+    void check_radii(const Points& points, const Radii& radii) const;
+    /// Throws Error unless there are ghosts at this stage or later.
+    void require_ghosts(Stage least) const;
+
+    /// Lists the points that other ranks need.
+    void find_ghosts(const Points& points, const Radii& radii);
+    void exchange_reaches(const Points& points, const Radii& radii, PartReaches& reaches);
+    void note_sent();
+
+    /// Notes the number of ghosts of each neighbour, count(n).
+    template <class Count>
+    void note_received(Count&& count) {
+        ghosts.receive.clear();
+        num_ghosts = 0;
+        for (const std::size_t n : by_rank) {
+            receive[n] = {num_ghosts, n == own() ? send[n].count : count(n)};
+            num_ghosts += receive[n].count;
+            if (receive[n].count > 0) ghosts.receive.push_back({rank_of(n), receive[n].count});
+        }
+    }
+
+    /// Notes the shifts of the ghosts, those of a neighbour from place(n, count).
+    template <class Place>
+    void take_shifts(Place&& place) {
+        ghosts.shifts.resize(num_ghosts);
+        for_each_source([&](std::size_t n, const Range& range) {
+            if (n == own())
+                std::copy_n(shifts.begin() + static_cast<std::ptrdiff_t>(send[n].first),
+                            range.count,
+                            ghosts.shifts.begin() + static_cast<std::ptrdiff_t>(range.first));
+            else
+                copy_bytes(place(n, range.count), range.count * sizeof(Shift),
+                           reinterpret_cast<std::byte*>(ghosts.shifts.data() + range.first));
+        });
+    }
+
+    /// Checks lists of shared entries, and notes each entry once.
+    void list_shared(const SharedEntries& shared, std::span<const detail::SumColumn> columns);
+    std::span<const LocalIndex> shared_with(const SharedEntries& shared, std::size_t n) const {
+        return std::span(shared.indices).subspan(common[n].first, common[n].count);
+    }
+    void add_shared(const SharedEntries& shared, std::span<const detail::SumColumn> columns);
+
+    Territory territory;
+    double radius;
+    Needs needs;
+    std::unique_ptr<NeighbourExchange> exchange{};
+    std::vector<std::size_t> by_rank{};  ///< neighbours and this rank
+
+    Migration migration{};
+
+    GhostPlan ghosts{};
+    Stage stage = Stage::none;
+    std::uint64_t num_found = 0;      ///< how often ghosts were found
+    std::vector<Shift> shifts{};      ///< of ghosts.send_indices, in a periodic box
+    LocalIndex num_ghosts = 0;        ///< of the latest fetch()
+    std::vector<Range> send{};        ///< of ghosts.send_indices: for each neighbour, and this rank
+    std::vector<Range> receive{};     ///< of the ghosts, likewise
+    std::optional<NearBoxes> near{};  ///< for the radii of senders
+    std::optional<QuietBoxes> quiet{};
+    std::optional<RankLists> lists{};
+
+    std::vector<Range> common{};          ///< entries shared with each neighbour
+    std::vector<LocalIndex> entries{};    ///< each shared entry once
+    std::vector<char> is_listed{};        ///< of all entries, 0 between calls
+    std::vector<std::byte> own_values{};  ///< of the shared entries
+
+    std::vector<detail::ByteColumn> of_ghosts{};
+    std::vector<std::uint64_t> types{};
+};
+
+}  // namespace rrcb

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "cuts/packed_tree.hpp"
+#include "lists/near_boxes.hpp"
+#include "lists/part_reaches.hpp"
+#include "lists/periodic_images.hpp"
+#include "lists/quiet_boxes.hpp"
+#include "lists/radii.hpp"
+
+#include <rrcb/neighbours.hpp>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+
+/// The parts of this rank, and those near them.
+class Territory {
+  public:
+    /// Copies the cuts. Throws Error for cuts or options that are not valid.
+    Territory(const Cuts& cuts, const NeighbourOptions& options, int rank, int num_ranks);
+    Territory(const Territory&) = delete;
+    Territory& operator=(const Territory&) = delete;
+
+    const Cuts& cuts() const { return cuts_; }
+    const PeriodicImages* images() const { return images_ ? &*images_ : nullptr; }
+    int rank() const { return rank_; }
+
+    /// Ends of the tree at the parts of this rank that have a region, ascending.
+    std::span<const Part> ends() const { return ends_; }
+
+    /// Returns the other ranks with parts within reach of those of this rank, ascending.
+    std::vector<int> near_ranks() const;
+
+    /// Returns the regions near the points of this rank. `reaches` may be null.
+    NearBoxes near_boxes(const PartReaches* reaches) const;
+
+    /// Calls visit(i) for each point that may be outside the parts of this rank, in ascending
+    /// order.
+    template <class Visit>
+    void for_each_outside(const Points& points, Visit&& visit) const {
+        inside_->for_each_outside(points, visit);
+    }
+
+    /// Returns the rank that owns a position, this one if it can.
+    int owner_of(const Vector& position) const;
+
+    /// Notes the reaches of the points of this rank. A point outside its parts counts for each.
+    void note_reaches(const Points& points, const Radii& radii, PartReaches& reaches) const;
+
+    /// Returns whether a position is in the closed regions of this rank.
+    bool is_at_home(const Vector& position) const;
+
+    /// Returns whether a point with this radius is so near the regions of this rank that only
+    /// neighbours can need it.
+    bool is_within_reach(const Vector& position, double radius) const;
+
+    /// Throws Error for a point that is not finite, or outside the periodic box.
+    void check_position(const Points& points, LocalIndex point) const;
+
+    /// Returns "point I (the first is 0) at (X, Y)".
+    std::string name_of(const Points& points, LocalIndex point) const;
+
+  private:
+    RankRange ranks_of_end(Part end) const;
+    void find_regions();
+
+    Cuts cuts_;
+    std::vector<RankRange> ranks_of_parts_;
+    bool has_ranks_;
+    int rank_;
+    int num_ranks_;
+    double reach_;
+    std::optional<PeriodicImages> images_{};
+    std::vector<Part> ends_{};
+    std::vector<Box> regions_{};  ///< of these
+    Box all_{};                   ///< of the regions
+    PackedTree tree_;
+    std::optional<QuietBoxes> inside_{};
+};
+
+}  // namespace rrcb

@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -159,6 +160,9 @@ class RRCB_API PointPasses {
     virtual std::vector<Part> parts() const = 0;
     /// Gives the points the parts of such a copy.
     virtual void set_parts(std::span<const Part> parts) = 0;
+
+    /// Returns how many cells of a mesh moments() adds up fast; an automatic mesh has no more.
+    virtual std::int64_t most_cells() const { return std::numeric_limits<std::int64_t>::max(); }
 };
 
 /// Divides points which only passes can read; the parts stay with them, and Balance::parts is

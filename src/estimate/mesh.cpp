@@ -67,6 +67,12 @@ double most_cells_per_axis(int dimension) {
     return dimension == 1 ? 400 : dimension == 2 ? 42 : 15;
 }
 
+/// Returns a whole number of cells, at least 1. The root of a cube may be rounded to below it.
+int whole_cells(double cells) {
+    constexpr double above_rounding = 1 + 1e-12;
+    return static_cast<int>(std::max(1.0, std::floor(cells * above_rounding)));
+}
+
 /// Returns a mesh whose cells are one or more cells of the grid that limits the cuts: the weight
 /// between the lines is then known, which saves 7 % of the rounds. Returns nullopt if the numbers
 /// do not allow it.
@@ -118,9 +124,7 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
     const double usual = std::max(by_points, std::min(by_parts, fine_cells(dimension)));
     const double filled = per_axis(count / least_points_per_cell);
     const double cells = std::min({most_cells_per_axis(dimension), usual, filled});
-    // The root of a cube may be rounded to below the whole number.
-    constexpr double above_rounding = 1 + 1e-12;
-    return static_cast<int>(std::max(1.0, std::floor(cells * above_rounding)));
+    return whole_cells(cells);
 }
 
 SupportMesh mesh_by_options(PointPasses& points, const Box& box, const Options& options) {
@@ -128,9 +132,10 @@ SupportMesh mesh_by_options(PointPasses& points, const Box& box, const Options& 
     const bool is_automatic = options.tuning.support_mesh == 0;
     if (is_automatic && !options.axes.grid.empty())
         if (const auto mesh = mesh_on_lines(box, dimension, options)) return *mesh;
-    const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count(), options)
-                                   : options.tuning.support_mesh;
-    return framed_mesh(points, box, cells);
+    if (!is_automatic) return framed_mesh(points, box, options.tuning.support_mesh);
+    const double most = std::pow(static_cast<double>(points.most_cells()), 1.0 / dimension);
+    const int cells = automatic_cells_per_axis(dimension, points.count(), options);
+    return framed_mesh(points, box, most < cells ? whole_cells(most) : cells);
 }
 
 }  // namespace rrcb

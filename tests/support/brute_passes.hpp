@@ -14,7 +14,7 @@
 
 namespace rrcb::test {
 
-class BrutePasses final : public PointPasses {
+class BrutePasses : public PointPasses {
   public:
     BrutePasses(std::span<const double> coordinates, int dimension,
                 std::span<const double> weights = {})

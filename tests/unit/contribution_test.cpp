@@ -1,11 +1,15 @@
 #include "estimate/contribution.hpp"
 
+#include "../support/brute_passes.hpp"
+#include "../support/clouds.hpp"
 #include "estimate/mesh.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace rrcb {
 namespace {
@@ -36,6 +40,24 @@ TEST(AutomaticMesh, has_sixty_four_cells_or_sixteen_for_each_part) {
     EXPECT_EQ(cells_for(2, 50'000, 1 << 20), 22) << "no more where there are many ranks";
     EXPECT_EQ(cells_for(3, 50'000, 1 << 20), 10);
     EXPECT_EQ(cells_for(2, 800 * 31 * 31, 4), 31) << "where cells cost little beside the points";
+}
+
+struct FewCells final : test::BrutePasses {
+    using BrutePasses::BrutePasses;
+    std::int64_t most_cells() const override { return 125; }
+};
+
+TEST(AutomaticMesh, has_no_more_cells_than_passes_add_up_fast) {
+    const std::vector<double> x = test::uniform_cloud(30000, 3, 1);
+    FewCells points(x, 3);
+    const Box box{{0, 0, 0}, {1, 1, 1}};
+    const Options options{.num_parts = 1000};
+    EXPECT_EQ(mesh_by_options(points, box, options).cells, (std::array<int, 3>{5, 5, 5}));
+    test::BrutePasses others(x, 3);
+    EXPECT_EQ(mesh_by_options(others, box, options).cells, (std::array<int, 3>{10, 10, 10}));
+    Options given;
+    given.tuning.support_mesh = 9;
+    EXPECT_EQ(mesh_by_options(points, box, given).cells, (std::array<int, 3>{9, 9, 9}));
 }
 
 Options asking_for_mesh(int cells) {

@@ -16,6 +16,7 @@ namespace {
 
 using Device = Kokkos::DefaultExecutionSpace;
 using Positions = Kokkos::View<double* [3], Device>;
+using NoWeights = Kokkos::View<double*, Device>;
 
 std::uint64_t bytes_out = 0;
 
@@ -32,12 +33,15 @@ void add_copy(Kokkos::Tools::SpaceHandle to, const char*, const void*,
 
 struct Place {
     Positions x;
+    bool is_sorted;  ///< along the first axis
     KOKKOS_FUNCTION void operator()(std::int64_t i) const {
         // A Weyl sequence along each axis, denser towards 0.
         for (int a = 0; a < 3; ++a) {
             const double u = static_cast<double>(i) * (0.8191725 - 0.148 * a);
             const double fraction = u - static_cast<double>(static_cast<std::int64_t>(u));
             x(i, a) = fraction * fraction;
+            if (a == 0 && is_sorted)
+                x(i, a) = static_cast<double>(i) / static_cast<double>(x.extent(0));
         }
     }
 };
@@ -58,9 +62,10 @@ double least_time(const Call& call) {
     return least;
 }
 
-void print_row(std::int64_t count) {
+void print_row(std::int64_t count, bool is_sorted) {
     const Positions x("x", static_cast<std::size_t>(count));
-    Kokkos::parallel_for(Kokkos::RangePolicy<Kokkos::IndexType<std::int64_t>>(0, count), Place{x});
+    Kokkos::parallel_for(Kokkos::RangePolicy<Kokkos::IndexType<std::int64_t>>(0, count),
+                         Place{x, is_sorted});
     const rrcb::Options options{.num_parts = 8};
     rrcb::Cuts cuts;
     bytes_out = 0;
@@ -73,8 +78,12 @@ void print_row(std::int64_t count) {
     const double copying = least_time([&] { Kokkos::deep_copy(copy, x); });
     const double host =
         least_time([&] { rrcb::balance(rrcb::view_points(copy), options, {}, MPI_COMM_WORLD); });
-    std::printf("| %lld | %.2f | %.2f | %.2f | %.2f | %llu |\n", static_cast<long long>(count),
-                cold, again, copying, host, static_cast<unsigned long long>(bytes));
+    auto result = rrcb::balance(Device(), x, options, MPI_COMM_WORLD);
+    const double into = least_time(
+        [&] { rrcb::balance_into(result, Device(), x, NoWeights(), options, {}, MPI_COMM_WORLD); });
+    std::printf("| %lld | %s | %.2f | %.2f | %.2f | %.2f | %.2f | %llu |\n",
+                static_cast<long long>(count), is_sorted ? "sorted" : "random", cold, into, again,
+                copying, host, static_cast<unsigned long long>(bytes));
 }
 
 }  // namespace
@@ -85,9 +94,10 @@ int main(int argc, char** argv) {
     Kokkos::Tools::Experimental::set_begin_deep_copy_callback(add_copy);
     std::printf("3-D doubles, 8 parts to 1 %%, %s, ms:\n\n", Device::name());
     std::printf(
-        "| points | device | from earlier cuts | copy to the host | call there | bytes to the "
-        "host |\n|---|---|---|---|---|---|\n");
-    for (int k = 1; k < argc; ++k) print_row(std::atoll(argv[k]));
+        "| points | order | device | in the same memory | from earlier cuts | copy to the host | "
+        "call there | bytes to the host |\n|---|---|---|---|---|---|---|---|\n");
+    for (int k = 1; k < argc; ++k)
+        for (const bool is_sorted : {false, true}) print_row(std::atoll(argv[k]), is_sorted);
     Kokkos::finalize();
     MPI_Finalize();
 }

@@ -20,10 +20,6 @@ concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
 template <class Views>
 concept KokkosPoints = Kokkos::is_view<typename ViewOf<Views>::Type>::value;
 
-/// Weights of points that all weigh 1.
-template <class Views>
-using NoWeights = Kokkos::View<const double*, MemoryOf<Views>>;
-
 }  // namespace detail
 
 /// Result of a call with views. Cuts and report are on the host and the same on every rank.
@@ -32,33 +28,54 @@ struct KokkosBalance {
     Cuts cuts;                                 ///< between the parts, for look-ups
     Report report;                             ///< measured imbalance and statistics
     Kokkos::View<Part*, MemorySpace> parts{};  ///< of the points of this rank, where they are
+    KokkosMemory<MemorySpace> memory{};        ///< for balance_into()
 };
 
-/// Divides points in views as the function of Points with the same name. Collective.
+/// Replaces a result as balance() would, and reuses its memory on the device. Collective.
 ///
-///     auto balance = rrcb::balance(exec, x, weights, options, {}, comm);
-///
+/// @param result   has no parts if the call throws; of as many points as before, or fewer, it
+/// allocates nothing for each. Copies of a result, and of its views, share the memory
 /// @param exec     instance on whose device the points are; the call ends with a fence of it
 /// @param x        View<T**> or View<T*[3]> of floats or doubles, points by axes, at any stride; or
 ///                 a std::array of one View<T*> for each axis
 /// @param weights  a view of one float or double for each point; empty: every point weighs 1
 /// @param options  the same on every rank
-/// @param previous as for Points
+/// @param previous as for Points; may be `result.cuts`
 /// @param comm     as for Points
 /// Throws Error as balance(const Points&), on every rank alike, also if Kokkos is not initialized
 /// on one. Cuts may differ from those of Points by rounding. Cost: see docs/kokkos.md.
+template <detail::KokkosSpace Execution, detail::KokkosPoints Views, class Weights>
+void balance_into(KokkosBalance<detail::MemoryOf<Views>>& result, const Execution& exec,
+                  const Views& x, const Weights& weights, const Options& options,
+                  const Cuts& previous, MPI_Comm comm) {
+    result.parts = {};
+    KokkosPasses<Execution, Views, Weights> passes(exec, x, weights, result.memory);
+    Balance on_host = balance(static_cast<PointPasses&>(passes), options, previous, comm);
+    result = {std::move(on_host.cuts), std::move(on_host.report), passes.device_parts(),
+              passes.memory()};
+}
+
+/// Divides points in views as the function of Points with the same name. Collective.
+///
+///     auto balance = rrcb::balance(exec, x, weights, options, {}, comm);
+///
+/// @param exec     as for balance_into(), as all others
+/// @param x        positions
+/// @param weights  a view, empty if every point weighs 1
+/// @param options  the same on every rank
+/// @param previous as for Points
+/// @param comm     as for Points
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views, detail::KokkosPoints Weights>
 auto balance(const Execution& exec, const Views& x, const Weights& weights, const Options& options,
              const Cuts& previous, MPI_Comm comm) {
-    KokkosPasses<Execution, Views, Weights> passes(exec, x, weights);
-    Balance result = balance(static_cast<PointPasses&>(passes), options, previous, comm);
-    return KokkosBalance<detail::MemoryOf<Views>>{std::move(result.cuts), std::move(result.report),
-                                                  passes.device_parts()};
+    KokkosBalance<detail::MemoryOf<Views>> result;
+    balance_into(result, exec, x, weights, options, previous, comm);
+    return result;
 }
 
 /// Divides points in views that all weigh 1. Collective.
 ///
-/// @param exec     as above, as all others
+/// @param exec     as for balance_into(), as all others
 /// @param x        positions
 /// @param options  the same on every rank
 /// @param previous cuts of an earlier call, or none
@@ -66,12 +83,15 @@ auto balance(const Execution& exec, const Views& x, const Weights& weights, cons
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 auto balance(const Execution& exec, const Views& x, const Options& options, const Cuts& previous,
              MPI_Comm comm) {
-    return balance(exec, x, detail::NoWeights<Views>(), options, previous, comm);
+    KokkosBalance<detail::MemoryOf<Views>> result;
+    const detail::UnitWeights<detail::MemoryOf<Views>> weights;
+    balance_into(result, exec, x, weights, options, previous, comm);
+    return result;
 }
 
 /// Divides points in views that all weigh 1, from scratch. Collective.
 ///
-/// @param exec    as above, as all others
+/// @param exec    as for balance_into(), as all others
 /// @param x       positions
 /// @param options the same on every rank
 /// @param comm    of the ranks with points
@@ -91,8 +111,8 @@ template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 void assign(const Execution& exec, const Cuts& cuts, const Views& x,
             const Kokkos::View<Part*, detail::MemoryOf<Views>>& parts) {
     assign(cuts, Points{.dimension = cuts.dimension}, {});  // checks the cuts
-    using NoWeights = detail::NoWeights<Views>;
-    KokkosPasses<Execution, Views, NoWeights> passes(exec, x, NoWeights(), parts);
+    using Memory = detail::MemoryOf<Views>;
+    KokkosPasses<Execution, Views, detail::UnitWeights<Memory>> passes(exec, x, {}, {parts, {}});
     detail::require_on_device(passes.dimension() == cuts.dimension,
                               "positions must have the dimension of the cuts");
     detail::require_on_device(parts.extent(0) == passes.count(),
@@ -115,15 +135,16 @@ struct KokkosPlan {
     std::vector<RankCount> counts{};  ///< points for each rank that gets some, this one included
 };
 
-/// Lists points by the rank that gets their part, as plan() of the host. Not collective.
+/// Returns the rank that gets each point, as Cabana::Distributor takes them. Not collective.
 ///
 /// @param exec    as for balance(); ends with a fence of it
 /// @param balance of the points of this rank
 /// @param comm    of the balance
 /// Throws Error if Kokkos is not initialized.
 template <detail::KokkosSpace Execution, class MemorySpace>
-KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySpace>& balance,
-                             MPI_Comm comm) {
+Kokkos::View<int*, MemorySpace> destinations(const Execution& exec,
+                                             const KokkosBalance<MemorySpace>& balance,
+                                             MPI_Comm comm) {
     detail::require_kokkos();
     int rank = 0;
     int num_ranks = 1;
@@ -137,11 +158,28 @@ KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySp
     detail::Device<Execution, MemorySpace> device(exec);
     const auto parts = balance.parts;
     const auto ranks = device.template allocate<int>(parts.extent(0));
-    const auto order = device.template allocate<LocalIndex>(parts.extent(0));
     const auto table = device.copy_in(rank_of_part);
     Kokkos::parallel_for(
         "rrcb::ranks", device.range(parts.extent(0)),
         KOKKOS_LAMBDA(const std::int64_t i) { ranks(i) = table(parts(i)); });
+    device.fence();
+    return ranks;
+}
+
+/// Lists points by the rank that gets their part, as plan() of the host. Not collective.
+///
+/// @param exec    as for balance()
+/// @param balance of the points of this rank
+/// @param comm    of the balance
+/// Throws Error as destinations(), which takes less memory and time.
+template <detail::KokkosSpace Execution, class MemorySpace>
+KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySpace>& balance,
+                             MPI_Comm comm) {
+    const auto ranks = destinations(exec, balance, comm);
+    int num_ranks = 1;
+    MPI_Comm_size(comm, &num_ranks);
+    detail::Device<Execution, MemorySpace> device(exec);
+    const auto order = device.template allocate<LocalIndex>(ranks.extent(0));
     return {ranks, order, detail::list_by_rank(device, num_ranks, ranks, order)};
 }
 

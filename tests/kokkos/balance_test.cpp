@@ -97,6 +97,30 @@ TEST(KokkosBalance, begins_with_earlier_cuts) {
     }
 }
 
+TEST(KokkosBalance, reuses_its_memory) {
+    const Cloud cloud = cloud_of_rank(2, true, false);
+    const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
+    const auto weights = on_device(cloud.weights);
+    const auto expected = balance(Device(), x, weights, Options{}, {}, MPI_COMM_WORLD);
+    const std::vector<Part> expected_parts = on_host(expected.parts);
+    auto found = expected;
+    const Part* const parts = found.parts.data();
+    for (const Cuts& previous : {Cuts{}, expected.cuts}) {
+        balance_into(found, Device(), x, weights, Options{}, previous, MPI_COMM_WORLD);
+        expect_same_cuts(found.cuts, expected.cuts);
+        EXPECT_EQ(on_host(found.parts), expected_parts);
+        EXPECT_EQ(found.parts.data(), parts);
+    }
+    // Fewer points, in the same memory.
+    const std::pair<std::size_t, std::size_t> half(0, cloud.count() / 2);
+    const auto fewer = Kokkos::subview(x, half, Kokkos::ALL);
+    const auto lighter = Kokkos::subview(weights, half);
+    const auto of_fewer = balance(Device(), fewer, lighter, Options{}, {}, MPI_COMM_WORLD);
+    balance_into(found, Device(), fewer, lighter, Options{}, {}, MPI_COMM_WORLD);
+    EXPECT_EQ(on_host(found.parts), on_host(of_fewer.parts));
+    EXPECT_EQ(found.parts.data(), parts);
+}
+
 TEST(KokkosBalance, reads_points_without_weights) {
     const Cloud cloud = cloud_of_rank(3, false, false);
     const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
@@ -161,8 +185,8 @@ Traffic traffic_of(const Call& call) {
 
 TEST(KokkosBalance, copies_little_and_rarely_waits) {
     for (const bool is_weighted : {false, true}) {
-        const Cloud cloud =
-            smooth_cloud(200000, 3, 10 + static_cast<unsigned>(rank()), is_weighted);
+        Cloud cloud = smooth_cloud(200000, 3, 10 + static_cast<unsigned>(rank()), is_weighted);
+        cloud.x = uniform_cloud(200000, 3, 10 + static_cast<unsigned>(rank()));  // no ties
         const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
         const auto weights = on_device(cloud.weights);
         const auto traffic_to = [&](Refine refine) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -120,6 +121,64 @@ TEST(Moments, reach_from_the_frame_to_the_box) {
     mesh.frame.upper[0] = 4.5;
     mesh.cells_per_length[0] = 4;
     expect_reference(cloud, mesh, passes_of<double, Kokkos::LayoutLeft>(cloud).moments(mesh));
+}
+
+/// What 32 threads of a GPU do that add the points of a block to bins.
+struct Meetings {
+    double additions = 0;  ///< of a bin, for each point
+    double threads = 0;    ///< that add to one bin at a time: mean over additions
+};
+
+Meetings meetings_of(const std::vector<int>& bins, bool adds_runs) {
+    constexpr int width = 32;
+    const int run = adds_runs ? detail::run_length : 1;
+    std::array<int, width> last;
+    last.fill(-1);
+    double additions = 0;
+    double threads = 0;
+    for (std::size_t k = 0; k + width * run <= bins.size(); k += width * run)
+        for (int step = 0; step < run; ++step) {
+            std::map<int, int> adding;
+            for (std::size_t t = 0; t < width; ++t) {
+                const int bin = bins[k + t * run + step];
+                if (!adds_runs) ++adding[bin];
+                if (adds_runs && last[t] >= 0 && last[t] != bin) ++adding[last[t]];
+                last[t] = bin;
+            }
+            for (const auto& [bin, number] : adding) {
+                additions += number;
+                threads += number * number;
+            }
+        }
+    return {additions / static_cast<double>(bins.size()), threads / std::max(additions, 1.0)};
+}
+
+TEST(Meetings, are_few_in_any_order_of_the_points) {
+    constexpr std::size_t count = 1 << 17;
+    const auto bins_of = [](double scale, auto place) {
+        std::vector<int> bins;
+        for (std::size_t i = 0; i < count; ++i)
+            bins.push_back(static_cast<int>(scale * place(static_cast<double>(i) / count)));
+        return bins;
+    };
+    std::mt19937_64 engine(1);
+    const auto random = bins_of(1000, [&](double) { return uniform(engine); });
+    const auto sorted = bins_of(1000, [](double x) { return x; });
+    const auto parts = bins_of(8, [](double x) { return x; });
+    // Rows of a lattice, each through 10 cells.
+    const auto rows = bins_of(10, [](double x) { return std::fmod(x * 2500, 1); });
+    const auto clustered = bins_of(1000, [&](double) { return std::pow(uniform(engine), 30); });
+    const auto cost = [](const std::vector<int>& bins, bool adds_runs) {
+        const Meetings found = meetings_of(bins, adds_runs);
+        return found.additions * found.threads;
+    };
+    EXPECT_NEAR(cost(random, false), 1.03, 0.01);
+    EXPECT_NEAR(cost(sorted, false), 29, 1);
+    EXPECT_LT(cost(random, true), 1.04);
+    EXPECT_LT(cost(sorted, true), 0.2 * cost(sorted, false));
+    EXPECT_LT(cost(parts, true), 0.01 * cost(parts, false));
+    EXPECT_LT(cost(rows, true), 0.25 * cost(rows, false));
+    EXPECT_LT(cost(clustered, true), 0.5 * cost(clustered, false));
 }
 
 TEST(Moments, without_weight_are_those_of_the_number) {

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <thread>
 
 namespace rrcb::test {
 namespace {
@@ -291,6 +294,32 @@ TEST(Passes, read_a_view_of_each_axis) {
     KokkosPasses<Device, Axes, WeightView> uneven(Device(), Axes{x, shorter}, {});
     EXPECT_EQ(error_of([&] { uneven.summary(true); }),
               "coordinate arrays must all have the same length");
+}
+
+TEST(Passes, refuse_no_axes_and_four) {
+    for (const int dimension : {0, 4}) {
+        const Kokkos::View<double**, Memory> x("x", 10, dimension);
+        KokkosPasses<Device, Kokkos::View<double**, Memory>, WeightView> passes(Device(), x, {});
+        EXPECT_EQ(error_of([&] { passes.summary(true); }),
+                  "positions have 1 to 3 axes, not " + std::to_string(dimension));
+    }
+}
+
+TEST(Passes, of_two_threads_do_not_disturb_each_other) {
+    const Cloud cloud = smooth_cloud(40000, 3, 5, true);
+    const Cuts cuts = cuts_through(cloud, 40, 2);
+    const auto expected = passes_of<double, Kokkos::LayoutLeft>(cloud).assign(cuts, true);
+    const auto repeat = [&](auto passes, int& num_equal) {
+        for (int k = 0; k < 30; ++k) {
+            num_equal += passes.assign(cuts, true).weights == expected.weights;
+            passes.summary(true);
+        }
+    };
+    std::array<int, 2> num_equal{};
+    std::thread other(repeat, passes_of<double, Kokkos::LayoutLeft>(cloud), std::ref(num_equal[0]));
+    repeat(passes_of<double, Kokkos::LayoutLeft>(cloud), num_equal[1]);
+    other.join();
+    EXPECT_EQ(num_equal, (std::array{30, 30}));
 }
 
 TEST(Passes, refuse_weights_of_another_length) {

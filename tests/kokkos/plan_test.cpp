@@ -15,7 +15,7 @@ namespace {
 TEST(Plan, lists_points_by_rank) {
     for (const int num_parts : {1, 2, 7, 40}) {
         const Cloud cloud = lattice_cloud(20000, 2, 3 + rank(), false);
-        KokkosBalance<Memory> balance{cuts_through(cloud, num_parts, 4), {}, {}};
+        KokkosBalance<Memory> balance{cuts_through(cloud, num_parts, 4), {}, {}, {}};
         balance.parts = Kokkos::View<Part*, Memory>("parts", cloud.count());
         assign(Device(), balance.cuts, view_of<double, Kokkos::LayoutLeft>(cloud), balance.parts);
         const std::vector<Part> parts = on_host(balance.parts);
@@ -25,6 +25,7 @@ TEST(Plan, lists_points_by_rank) {
         for (std::size_t k = 0; k < expected.export_indices.size(); ++k)
             ranks[expected.export_indices[k]] = expected.export_ranks[k];
         EXPECT_EQ(on_host(found.ranks), ranks);
+        EXPECT_EQ(on_host(destinations(Device(), balance, MPI_COMM_WORLD)), ranks);
         std::vector<LocalIndex> order(cloud.count());
         std::iota(order.begin(), order.end(), LocalIndex{0});
         std::ranges::stable_sort(order, {}, [&](LocalIndex i) { return ranks[i]; });
@@ -39,7 +40,7 @@ TEST(Plan, lists_points_by_rank) {
 }
 
 TEST(Plan, of_no_points_is_empty) {
-    const KokkosBalance<Memory> balance{{.dimension = 2, .tree = {}}, {}, {}};
+    const KokkosBalance<Memory> balance{{.dimension = 2, .tree = {}}, {}, {}, {}};
     const KokkosPlan<Memory> found = plan(Device(), balance, MPI_COMM_WORLD);
     EXPECT_TRUE(found.counts.empty());
     EXPECT_EQ(found.order.extent(0), 0u);

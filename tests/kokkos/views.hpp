@@ -18,6 +18,16 @@ using Device = Kokkos::DefaultExecutionSpace;
 using Memory = Device::memory_space;
 using WeightView = Kokkos::View<double*, Memory>;
 
+}  // namespace rrcb::test
+
+#ifdef RRCB_TEST_AS_DEVICE
+// The host does what a GPU does: its teams add up in halves of words, rows in registers.
+template <>
+inline constexpr bool rrcb::detail::runs_on_host<rrcb::test::Device> = false;
+#endif
+
+namespace rrcb::test {
+
 /// Runs Kokkos around the tests of a program.
 struct KokkosRuns : testing::Environment {
     void SetUp() override { Kokkos::initialize(); }

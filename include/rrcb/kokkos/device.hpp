@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <mutex>
 #include <new>
 #include <string>
 #include <type_traits>
@@ -31,6 +32,17 @@ template <class Execution>
 inline constexpr bool runs_on_host =
     std::is_same_v<typename Execution::memory_space, Kokkos::HostSpace>;
 
+/// Returns a lock for kernels that use scratch memory: before Kokkos 4 those of all threads on a
+/// host share it.
+template <class Execution>
+std::unique_lock<std::mutex> lock_scratch() {
+    static std::mutex mutex;
+    if constexpr (runs_on_host<Execution> && KOKKOS_VERSION < 40000)
+        return std::unique_lock(mutex);
+    else
+        return {};
+}
+
 /// An instance of an execution space, and memory that the steps of a call share: views of it hold
 /// their numbers until the next fence.
 template <class Space, class MemorySpace>
@@ -41,9 +53,19 @@ class Device {
     template <class T>
     using Lent = Kokkos::View<T*, Memory, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
-    explicit Device(const Execution& exec) : exec_(exec) {}
+    /// Uses memory of an earlier call, see memory().
+    explicit Device(const Execution& exec, const Kokkos::View<char*, Memory>& memory = {})
+        : exec_(exec), memory_(memory) {}
 
     const Execution& exec() const { return exec_; }
+    const Kokkos::View<char*, Memory>& memory() const { return memory_; }
+
+    /// Returns the length of blocks of `count` points so that each worker, of some threads, gets
+    /// four.
+    std::int64_t block_length(std::int64_t count, int threads) const {
+        const std::int64_t workers = std::max(static_cast<int>(exec_.concurrency()) / threads, 1);
+        return count / (4 * workers) + 1;
+    }
 
     /// Returns indices 0 ... count - 1, of 64 bits, for a kernel.
     template <class Count>
@@ -118,11 +140,24 @@ class Device {
     std::vector<Kokkos::View<char*, Memory>> full_{};
 };
 
-/// Integers that atomic operations of all devices add; negative numbers wrap.
-using Word = unsigned long long;
+/// Unsigned integers whose atomic addition is an instruction of all devices, which that of unsigned
+/// long long is not in each Kokkos; negative numbers wrap.
+using Word = std::uint64_t;
 
 /// Points that a team adds up in a word for each bin: up to 2^15 numbers below 2^47.
-inline constexpr int block_length = 1 << 15;
+inline constexpr std::int64_t most_in_block = 1 << 15;
+
+/// Consecutive points that a thread of a team takes in turn: of doubles a sector of 32 bytes.
+inline constexpr int run_length = 4;
+
+/// What a point adds: numbers to consecutive bins.
+template <int Fields>
+struct Row {
+    static constexpr std::int64_t none = INT64_MIN;
+
+    std::int64_t bin;  ///< the first; none: adds nothing. Values of 0 need no bin
+    std::int64_t values[Fields];
+};
 
 /// Sums of integers in bins, exact and so the same in any order. Sums of all blocks have two words,
 /// for the higher and the lower bits, and hold 2^40 numbers.
@@ -131,28 +166,76 @@ struct Bins {
     static constexpr int low_bits = 24;
     static constexpr Word low_mask = (Word{1} << low_bits) - 1;
 
-    Word* of_block;  ///< a word for each; null: only those of all
+    /// A word in scratch memory, in which devices have atomic additions of 32 bits only.
+    struct Halves {
+        std::uint32_t low, high;
+    };
+    using Scratch = std::conditional_t<runs_on_host<Execution>, Word, Halves>;
+
+    Scratch* of_block;  ///< null: only those of all
     Word* of_all;
 
     KOKKOS_INLINE_FUNCTION void add(std::int64_t bin, std::int64_t value) const {
-        if (of_block == nullptr) {
+        if (of_block == nullptr)
             add_to_all(bin, value);
-        } else if constexpr (runs_on_host<Execution>) {
+        else if constexpr (runs_on_host<Execution>)
             of_block[bin] += static_cast<Word>(value);
-        } else {
-            Kokkos::atomic_fetch_add(&of_block[bin], static_cast<Word>(value));
-        }
+        else
+            add_in_halves(of_block[bin], static_cast<Word>(value));
+    }
+    KOKKOS_INLINE_FUNCTION static void add_in_halves(Halves& word, Word value) {
+        const auto low = static_cast<std::uint32_t>(value);
+        auto high = static_cast<std::uint32_t>(value >> 32);
+        if (low != 0 && Kokkos::atomic_fetch_add(&word.low, low) > UINT32_MAX - low) ++high;
+        if (high != 0) Kokkos::atomic_add(&word.high, high);
+    }
+    /// Adds the sum of a bin of the block to those of all.
+    KOKKOS_INLINE_FUNCTION void finish(std::int64_t bin) const {
+        Word sum = 0;
+        if constexpr (runs_on_host<Execution>)
+            sum = of_block[bin];
+        else
+            sum = Word{of_block[bin].high} << 32 | of_block[bin].low;
+        add_to_all(bin, static_cast<std::int64_t>(sum));
     }
     KOKKOS_INLINE_FUNCTION void add_to_all(std::int64_t bin, std::int64_t value) const {
         const Word low = static_cast<Word>(value) & low_mask;
         const auto high = static_cast<Word>(value >> low_bits);
-        if (high != 0) Kokkos::atomic_fetch_add(&of_all[2 * bin], high);
-        if (low != 0) Kokkos::atomic_fetch_add(&of_all[2 * bin + 1], low);
+        if (high != 0) Kokkos::atomic_add(&of_all[2 * bin], high);
+        if (low != 0) Kokkos::atomic_add(&of_all[2 * bin + 1], low);
     }
     static double total(Word high, Word low) {
         high += low >> low_bits;
         return static_cast<double>(static_cast<std::int64_t>(high)) * (low_mask + 1) +
                static_cast<double>(low & low_mask);
+    }
+};
+
+/// Rows of the points of a thread. On a device those of equal bins are added up in registers first:
+/// neighbours in memory are often neighbours in space, and would meet in one word.
+template <class Execution, int Fields>
+struct Rows {
+    Bins<Execution> bins;
+    Row<Fields> sum{Row<Fields>::none, {}};
+
+    KOKKOS_INLINE_FUNCTION void add(const Row<Fields>& row) {
+        if (row.bin == row.none) return;
+        if (runs_on_host<Execution>) return add_to_bins(row);
+        if (row.bin != sum.bin) {
+            finish();
+            sum = row;
+        } else {
+            for (int f = 0; f < Fields; ++f) sum.values[f] += row.values[f];
+        }
+    }
+    KOKKOS_INLINE_FUNCTION void finish() const {
+        if (sum.bin != sum.none) add_to_bins(sum);
+    }
+
+  private:
+    KOKKOS_INLINE_FUNCTION void add_to_bins(const Row<Fields>& row) const {
+        for (int f = 0; f < Fields; ++f)
+            if (row.values[f] != 0) bins.add(row.bin + f, row.values[f]);
     }
 };
 
@@ -165,10 +248,10 @@ template <class Execution>
 std::int64_t bins_in_scratch(const Execution& exec) {
     const Kokkos::TeamPolicy<Execution> policy(exec, 1, 1);
     const int bytes = policy.scratch_size_max(scratch_level<Execution>) - 64;
-    return std::min(bytes / static_cast<int>(sizeof(Word)), 8 * block_length);
+    return std::min<std::int64_t>(bytes / static_cast<int>(sizeof(Word)), 8 * most_in_block);
 }
 
-/// Calls body(i, bins) for i = 0 ... count - 1, which adds to bins whose sums are in `of_all`.
+/// Adds the rows body(i) for i = 0 ... count - 1 to bins whose sums are in `of_all`.
 template <class Device, class Body>
 void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins, Word* of_all,
                  const Body& body) {
@@ -177,35 +260,42 @@ void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins
     const int in_block =
         num_bins <= bins_in_scratch(device.exec()) ? static_cast<int>(num_bins) : 0;
     const int bytes = in_block * static_cast<int>(sizeof(Word));
-    const int teams = static_cast<int>(count / block_length) + 1;
+    // Blocks for all of the machine, of no fewer points than bins.
+    const std::int64_t length =
+        std::clamp(device.block_length(count, runs_on_host<Execution> ? 1 : 1024),
+                   std::clamp<std::int64_t>(in_block, 1024, most_in_block), most_in_block);
+    const int teams = static_cast<int>((count + length - 1) / length);
+    if (teams == 0) return;
     Policy policy(device.exec(), teams, Kokkos::AUTO);
     if constexpr (runs_on_host<Execution>) policy = Policy(device.exec(), teams, 1);
     if (in_block > 0)
         policy.set_scratch_size(scratch_level<Execution>, Kokkos::PerTeam(bytes + 64));
+    const auto lock = lock_scratch<Execution>();
     Kokkos::parallel_for(
         "rrcb::add_in_bins", policy, KOKKOS_LAMBDA(const typename Policy::member_type& team) {
-            const std::int64_t first = static_cast<std::int64_t>(team.league_rank()) * block_length;
-            const std::int64_t rest = count - first;
-            const int length = static_cast<int>(rest < block_length ? rest : block_length);
+            const std::int64_t first = team.league_rank() * length;
+            const std::int64_t end = first + length < count ? first + length : count;
             Bins<Execution> bins{nullptr, of_all};
             if (in_block > 0)
-                bins.of_block = static_cast<Word*>(
+                bins.of_block = static_cast<typename Bins<Execution>::Scratch*>(
                     team.team_scratch(runs_on_host<Execution> ? 1 : 0).get_shmem(bytes));
             Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block),
-                                 [&](int bin) { bins.of_block[bin] = 0; });
+                                 [&](int bin) { bins.of_block[bin] = {}; });
             team.team_barrier();
-            const Body add = body;  // a copy, which stays in registers
-            Kokkos::parallel_for(Kokkos::TeamThreadRange(team, length),
-                                 [&](int k) { add(first + k, bins); });
+            const Body row_of = body;  // a copy, which stays in registers
+            Rows<Execution, Body::fields> rows{bins};
+            for (std::int64_t i = first + team.team_rank() * run_length; i < end;
+                 i += team.team_size() * run_length)
+                for (int k = 0; k < run_length; ++k)
+                    if (i + k < end) rows.add(row_of(i + k));
+            rows.finish();
             team.team_barrier();
-            Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block), [&](int bin) {
-                bins.add_to_all(bin, static_cast<std::int64_t>(bins.of_block[bin]));
-            });
+            Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block),
+                                 [&](int bin) { bins.finish(bin); });
         });
 }
 
-/// Returns the sums of what each body(i, bins) adds for i = 0 ... count - 1, one body after the
-/// other. A fence.
+/// Returns the sums of the rows of each body, one body after the other. A fence.
 template <class Device, class Body>
 std::vector<double> sum_in_bins(Device& device, std::int64_t count, std::int64_t num_bins,
                                 const std::vector<Body>& bodies) {

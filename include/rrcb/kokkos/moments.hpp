@@ -45,33 +45,39 @@ struct Layers {
     }
 };
 
-/// Adds up fields of points in the cells of a mesh: their number, their weight if they have any,
-/// then for each of some axes the first and second moment about the middle of the cell.
-template <class T, class W>
+/// Fields of points in the cells of a mesh: for each of some axes the first and second moment about
+/// the middle of the cell; after those of the last axis the number, and the weight if they have
+/// any.
+template <class Positions, class W, bool Weighs>
 struct AddMoments {
-    Positions<T> x;
+    static constexpr int dimension = Positions::static_dimension;
+    static constexpr int tail = Weighs ? 2 : 1;
+    static constexpr int fields = 2 * dimension + tail;
+
+    Positions x;
     Weights<W> weights;
     Layers layers[max_dimension];
-    int num_fields;
+    int num_fields;  ///< in a cell
     int first_axis;
     int end_axis;
 
-    template <class Bins>
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, const Bins& bins) const {
-        double offset[max_dimension] = {};
-        std::int64_t bin = 0;
-        for (int a = max_dimension; a-- > 0;)
-            if (a < x.dimension) bin = bin * layers[a].number + layers[a].find(x(i, a), offset[a]);
-        bin *= num_fields;
-        bins.add(bin++, 1);
-        const double weight = weights.relative(i);
-        if (weights.values != nullptr) bins.add(bin++, to_units(weight, weight_bits));
-        for (int a = 0; a < max_dimension; ++a) {
+    KOKKOS_INLINE_FUNCTION Row<fields> operator()(std::int64_t i) const {
+        double offset[dimension];
+        std::int64_t cell = 0;
+        for (int a = dimension; a-- > 0;)
+            cell = cell * layers[a].number + layers[a].find(x(i, a), offset[a]);
+        Row<fields> row{cell * num_fields - 2 * first_axis, {}};
+        const double weight = Weighs ? weights.relative(i) : 1.0;
+        for (int a = 0; a < dimension; ++a) {
             if (a < first_axis || a >= end_axis) continue;
             const double first = weight * offset[a];
-            bins.add(bin++, to_units(first, weight_bits));
-            bins.add(bin++, to_units(first * offset[a], square_bits));
+            row.values[2 * a] = to_units(first, weight_bits);
+            row.values[2 * a + 1] = to_units(first * offset[a], square_bits);
         }
+        if (end_axis < dimension) return row;
+        row.values[2 * dimension] = 1;
+        if (Weighs) row.values[fields - 1] = to_units(weight, weight_bits);
+        return row;
     }
 };
 
@@ -93,46 +99,53 @@ inline std::vector<Layer> layers_of(const SupportMesh& mesh, Layers (&layers)[ma
     return all;
 }
 
+/// Returns the cells whose fields a team adds up in one reading of the points.
+template <class Execution>
+std::int64_t cells_in_scratch(const Execution& exec, int dimension, bool weighs) {
+    return bins_in_scratch(exec) / (2 * dimension + (weighs ? 2 : 1));
+}
+
 /// Returns the moments of every cell that holds weight, as cell_moments(): mean and deviation to
 /// within 1e-6 of the sides of a cell unless its points are lighter than a millionth of the
 /// heaviest; the same bits in any order of the points. Adds up as many axes at once as a team has
 /// scratch for, all if it is too small for one. A fence.
-template <class Device, class T, class W>
-std::vector<CellMoments> moments_on(Device& device, const Positions<T>& x,
-                                    const Weights<W>& weights, const SupportMesh& mesh) {
+template <bool Weighs, class Device, class Positions, class W>
+std::vector<CellMoments> moments_on(Device& device, const Positions& x, const Weights<W>& weights,
+                                    const SupportMesh& mesh) {
+    using Body = AddMoments<Positions, W, Weighs>;
     const std::size_t num_cells = rrcb::num_cells(mesh);
-    AddMoments<T, W> body{x, weights, {}, 0, 0, 0};
+    Body body{x, weights, {}, 0, 0, 0};
     const std::vector<Layer> layers = layers_of(mesh, body.layers);
     const auto on_device = device.copy_in(layers);
     const Layer* first = on_device.data();
     for (int a = 0; a < mesh.dimension; first += body.layers[a++].number)
         body.layers[a].first = first;
-    const bool weighs = weights.values != nullptr;
-    const int head = weighs ? 2 : 1;
     const auto bins = static_cast<std::size_t>(bins_in_scratch(device.exec()));
-    const int fitting = (static_cast<int>(bins / num_cells) - head) / 2;
+    const int fitting = (static_cast<int>(bins / num_cells) - Body::tail) / 2;
     const int num_axes = fitting < 1 ? mesh.dimension : std::min(fitting, mesh.dimension);
-    body.num_fields = head + 2 * num_axes;
-    std::vector<AddMoments<T, W>> bodies;
-    for (; body.first_axis < mesh.dimension; body.first_axis = body.end_axis) {
+    body.num_fields = 2 * num_axes + Body::tail;
+    std::vector<Body> bodies;
+    for (; body.end_axis < mesh.dimension; body.first_axis = body.end_axis) {
         body.end_axis = std::min(body.first_axis + num_axes, mesh.dimension);
         bodies.push_back(body);
     }
     const std::size_t num_bins = num_cells * static_cast<std::size_t>(body.num_fields);
     const std::vector<double> sums =
         sum_in_bins(device, x.count, static_cast<std::int64_t>(num_bins), bodies);
+    const int of_last = mesh.dimension - bodies.back().first_axis;
     std::vector<CellMoments> cells;
     for (std::size_t cell = 0; cell < num_cells; ++cell) {
         const double* sum = &sums[cell * static_cast<std::size_t>(body.num_fields)];
-        const double units = weighs ? sum[1] : std::ldexp(sum[0], weight_bits);
+        const double* tail = sum + num_bins * (bodies.size() - 1) + 2 * of_last;
+        const double units = Weighs ? tail[1] : std::ldexp(tail[0], weight_bits);
         if (!(units > 0)) continue;
         CellMoments of{cell, cell_box(mesh, cell), {}};
-        of.moments.count = static_cast<GlobalCount>(sum[0]);
-        of.moments.weight = weighs ? weights.from_units(units) : sum[0];
+        of.moments.count = static_cast<GlobalCount>(tail[0]);
+        of.moments.weight = Weighs ? weights.from_units(units) : tail[0];
         for (int axis = 0; axis < mesh.dimension; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             const Layer layer = layer_of(mesh, of.box, a);
-            const double* of_axis = sum + axis / num_axes * num_bins + head + axis % num_axes * 2;
+            const double* of_axis = sum + axis / num_axes * num_bins + axis % num_axes * 2;
             const double mean = of_axis[0] / units;
             const double square = std::ldexp(of_axis[1], weight_bits - square_bits) / units;
             of.moments.mean[a] = std::clamp((layer.middle + mean * layer.side) / mesh.scale[a],

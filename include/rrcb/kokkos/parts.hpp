@@ -5,6 +5,8 @@
 #include <rrcb/passes.hpp>
 #include <rrcb/plan.hpp>
 
+#include <bit>
+#include <cstring>
 #include <utility>
 
 namespace rrcb::detail {
@@ -16,12 +18,15 @@ struct TreeNode {
     std::int32_t lower_parts;  ///< parts below it
 
     /// Returns true if a position is not below the cut, as is_above() of the host.
-    KOKKOS_INLINE_FUNCTION bool is_above(const Position& p, int dimension) const {
-        const double x = axis == 0 ? p.x[0] : axis == 1 ? p.x[1] : p.x[2];
-        const double plane = axis == 0 ? at[0] : axis == 1 ? at[1] : at[2];
+    template <int Dimension>
+    KOKKOS_INLINE_FUNCTION bool is_above(const Position<Dimension>& p) const {
+        double x = p.x[0];
+        double plane = at[0];
+        for (int a = 1; a < Dimension; ++a)
+            if (axis == a) x = p.x[a], plane = at[a];
         if (x != plane) return x > plane;
-        for (int a = 0; a < max_dimension; ++a)
-            if (a < dimension && p.x[a] != at[a]) return p.x[a] > at[a];
+        for (int a = 0; a < Dimension; ++a)
+            if (p.x[a] != at[a]) return p.x[a] > at[a];
         return true;
     }
 };
@@ -31,9 +36,10 @@ struct Region {
     double lower[max_dimension] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     double upper[max_dimension] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
 
-    KOKKOS_INLINE_FUNCTION bool contains(const Position& p, int dimension) const {
-        for (int a = 0; a < max_dimension; ++a)
-            if (a < dimension && !(p.x[a] >= lower[a] && p.x[a] < upper[a])) return false;
+    template <int Dimension>
+    KOKKOS_INLINE_FUNCTION bool contains(const Position<Dimension>& p) const {
+        for (int a = 0; a < Dimension; ++a)
+            if (!(p.x[a] >= lower[a] && p.x[a] < upper[a])) return false;
         return true;
     }
 };
@@ -80,9 +86,15 @@ KOKKOS_INLINE_FUNCTION Part marked(Part part) {
 
 /// Finds the parts of points, or takes those that are given; marks the open points, and counts the
 /// others.
-template <class T, class W>
+template <class Positions, class W, bool Weighs>
 struct Assign {
-    Positions<T> x;
+    static constexpr int fields = Weighs ? 2 : 1;  ///< the number of points, their weight
+    // Rows of bins: points whose coordinates are not finite, open points, points of each part.
+    static constexpr int bad = 0;
+    static constexpr int open = 1;
+    static constexpr int first = 2;
+
+    Positions x;
     Weights<W> weights;
     const TreeNode* nodes;
     const Region* regions;
@@ -92,34 +104,30 @@ struct Assign {
     Opens opens;
     bool counts;
 
-    // Bins: coordinates that are not finite, open points; counts of parts, then their weights.
-    static constexpr int bad = 0;
-    static constexpr int open = 1;
-    static constexpr int first = 2;
+    std::int64_t num_bins() const { return fields * (first + (counts ? num_parts : 0)); }
 
-    std::int64_t num_bins() const {
-        return first + (counts ? num_parts : 0) * (weights.values == nullptr ? 1 : 2);
-    }
-    template <class Bins>
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, const Bins& bins) const {
-        const Position p = x.position(i);
-        for (int a = 0; a < max_dimension; ++a)
-            if (!is_finite(p.x[a])) bins.add(bad, 1);
+    KOKKOS_INLINE_FUNCTION Row<fields> operator()(std::int64_t i) const {
+        const auto p = x.position(i);
+        bool is_bad = false;
+        for (const double value : p.x) is_bad = is_bad || !is_finite(value);
         const Part part = finds ? part_of(p) : parts[i];
         const bool is_open = opens != Opens::none && part >= 0 &&
-                             regions[part].contains(p, x.dimension) == (opens == Opens::inside);
-        parts[i] = is_open ? marked(part) : part;
-        if (is_open) return bins.add(open, 1);
-        if (!counts || part < 0) return;
-        bins.add(first + part, 1);
-        if (weights.values != nullptr) bins.add(first + num_parts + part, weights.units(i));
+                             regions[part].contains(p) == (opens == Opens::inside);
+        if (finds || is_open) parts[i] = is_open ? marked(part) : part;
+        if (is_bad) return {bad, {1}};
+        if (is_open) return {fields * open, {1}};
+        if (!counts || part < 0) return {Row<fields>::none, {}};
+        Row<fields> row{static_cast<std::int64_t>(fields) * (first + part), {1}};
+        if (Weighs) row.values[fields - 1] = weights.units(i);
+        return row;
     }
+    template <class Position>
     KOKKOS_INLINE_FUNCTION Part part_of(const Position& p) const {
         std::int32_t node = 0;
         Part part = 0;
         for (int below = num_parts; below > 1;) {
             const std::int32_t lower_parts = nodes[node].lower_parts;
-            const bool is_above = nodes[node].is_above(p, x.dimension);
+            const bool is_above = nodes[node].is_above(p);
             node += is_above ? lower_parts : 1;
             part += is_above ? lower_parts : 0;
             below = is_above ? below - lower_parts : lower_parts;
@@ -130,12 +138,12 @@ struct Assign {
 
 /// Adds points to those on the host, without totals; those with `parts` lose their marks for
 /// no_part. Returns their parts. A fence.
-template <class Device, class T, class W>
-std::vector<Part> copy_points(Device& device, const Positions<T>& x, const Weights<W>& weights,
+template <bool Weighs, class Device, class Positions, class W>
+std::vector<Part> copy_points(Device& device, const Positions& x, const Weights<W>& weights,
                               const typename Device::template Lent<LocalIndex>& indices,
                               Part* parts, Collected& to) {
-    const bool weighs = weights.values != nullptr;
-    const int width = x.dimension + (weighs ? 3 : 2);
+    constexpr int dimension = Positions::static_dimension;
+    constexpr int width = dimension + (Weighs ? 3 : 2);
     const auto view =
         device.template lend<double>(indices.extent(0) * static_cast<std::size_t>(width));
     Kokkos::parallel_for(
@@ -145,17 +153,17 @@ std::vector<Part> copy_points(Device& device, const Positions<T>& x, const Weigh
             *row++ = static_cast<double>(i);
             *row++ = parts == nullptr ? no_part : marked(parts[i]);
             if (parts != nullptr) parts[i] = no_part;
-            for (int a = 0; a < x.dimension; ++a) *row++ = x(i, a);
-            if (weighs) *row = weights(i);
+            for (int a = 0; a < dimension; ++a) *row++ = x(i, a);
+            if (Weighs) *row = weights(i);
         });
     const std::vector<double> rows = device.copy_out(view);
     std::vector<Part> before;
-    to.dimension = x.dimension;
+    to.dimension = dimension;
     for (auto row = rows.begin(); row != rows.end(); row += width) {
         to.original.push_back(static_cast<LocalIndex>(row[0]));
         before.push_back(static_cast<Part>(row[1]));
-        to.coordinates.insert(to.coordinates.end(), row + 2, row + 2 + x.dimension);
-        if (weighs) to.weights.push_back(row[width - 1]);
+        to.coordinates.insert(to.coordinates.end(), row + 2, row + 2 + dimension);
+        if (Weighs) to.weights.push_back(row[width - 1]);
     }
     return before;
 }
@@ -165,6 +173,7 @@ template <class Device>
 typename Device::template Lent<LocalIndex> list_marked(Device& device, std::size_t count,
                                                        std::size_t number, const Part* parts) {
     const auto indices = device.template lend<LocalIndex>(number);
+    const auto lock = lock_scratch<typename Device::Execution>();
     Kokkos::parallel_scan(
         "rrcb::list", device.range(count),
         KOKKOS_LAMBDA(const std::int64_t i, std::int64_t& before, const bool is_final) {
@@ -175,25 +184,50 @@ typename Device::template Lent<LocalIndex> list_marked(Device& device, std::size
     return indices;
 }
 
+/// Returns an integer in the order of a number, and back: devices have atomic bounds of integers.
+KOKKOS_INLINE_FUNCTION std::int64_t flipped(std::int64_t bits) {
+    return bits < 0 ? bits ^ INT64_MAX : bits;
+}
+KOKKOS_INLINE_FUNCTION std::int64_t to_ordered(double value) {
+    std::int64_t bits = 0;
+    memcpy(&bits, &value, sizeof bits);
+    return flipped(bits);
+}
+
 /// Returns the box of the points of each part. A fence.
-template <class Device, class T>
-std::vector<Box> boxes_of_parts(Device& device, const Positions<T>& x, const Part* parts,
+template <class Device, class Positions>
+std::vector<Box> boxes_of_parts(Device& device, const Positions& x, const Part* parts,
                                 int num_parts) {
-    const std::vector<Box> empty(static_cast<std::size_t>(num_parts));
-    const auto boxes = device.copy_in(empty);
-    static_assert(sizeof(Box) == 2 * max_dimension * sizeof(double));
+    constexpr int dimension = Positions::static_dimension;
+    using Bounds = std::array<std::int64_t, 2 * dimension>;
+    Bounds none;
+    for (int a = 0; a < 2 * dimension; ++a)
+        none[static_cast<std::size_t>(a)] = to_ordered(a < dimension ? HUGE_VAL : -HUGE_VAL);
+    const std::vector<Bounds> empty(static_cast<std::size_t>(num_parts), none);
+    const auto bounds = device.copy_in(empty);
     Kokkos::parallel_for(
         "rrcb::boxes", device.range(x.count), KOKKOS_LAMBDA(const std::int64_t i) {
             if (parts[i] < 0) return;
-            // Kokkos reads a bound before it writes one: most points need no atomic operation.
-            auto* const lower = reinterpret_cast<double*>(boxes.data() + parts[i]);
-            double* const upper = lower + max_dimension;
-            for (int a = 0; a < x.dimension; ++a) {
-                Kokkos::atomic_fetch_min(lower + a, x(i, a));
-                Kokkos::atomic_fetch_max(upper + a, x(i, a));
+            auto* const lower = reinterpret_cast<std::int64_t*>(bounds.data() + parts[i]);
+            volatile const std::int64_t* const before = lower;
+            for (int a = 0; a < dimension; ++a) {
+                // Most points need no atomic operation.
+                const std::int64_t place = to_ordered(x(i, a));
+                if (place < before[a]) Kokkos::atomic_fetch_min(lower + a, place);
+                if (place > before[dimension + a])
+                    Kokkos::atomic_fetch_max(lower + dimension + a, place);
             }
         });
-    return device.copy_out(boxes);
+    std::vector<Box> boxes;
+    for (const Bounds& of_part : device.copy_out(bounds)) {
+        Box box;
+        for (std::size_t a = 0; a < dimension; ++a) {
+            box.lower[a] = std::bit_cast<double>(flipped(of_part[a]));
+            box.upper[a] = std::bit_cast<double>(flipped(of_part[dimension + a]));
+        }
+        boxes.push_back(box);
+    }
+    return boxes;
 }
 
 /// Lists points by rank, each list in ascending order: a thread for each block of points counts
@@ -222,13 +256,15 @@ std::vector<RankCount> list_by_rank(Device& device, int num_ranks, const Ranks& 
                                     const Order& order) {
     const auto count = static_cast<std::int64_t>(ranks.extent(0));
     // So that the places need less memory than the points.
-    const std::int64_t length = std::max(4096, num_ranks);
+    const std::int64_t length =
+        std::max<std::int64_t>({256, num_ranks, device.block_length(count, 1)});
     const std::int64_t num_blocks = count / length + 1;
     const auto num_places = static_cast<std::size_t>(num_blocks * num_ranks);
     const auto places = device.template lend<std::int64_t>(num_places);
     Kokkos::deep_copy(device.exec(), places, 0);
     ListBlock list{ranks.data(), count, length, num_ranks, places.data(), nullptr};
     Kokkos::parallel_for("rrcb::count_by_rank", device.range(num_blocks), list);
+    const auto lock = lock_scratch<typename Device::Execution>();
     Kokkos::parallel_scan(
         "rrcb::places", device.range(num_places),
         KOKKOS_LAMBDA(const std::int64_t k, std::int64_t& before, const bool is_final) {

@@ -12,17 +12,39 @@
 
 namespace rrcb {
 
+/// Memory of calls with views, which the next call uses.
+template <class MemorySpace>
+struct KokkosMemory {
+    Kokkos::View<Part*, MemorySpace> parts{};    ///< of at least as many points as the last call's
+    Kokkos::View<char*, MemorySpace> scratch{};  ///< for the steps of a call
+};
+
+namespace detail {
+
+/// Weights of points that all weigh 1.
+template <class MemorySpace>
+struct UnitWeights {
+    using memory_space = MemorySpace;
+    using non_const_value_type = double;
+    static std::size_t extent(int) { return 0; }
+    static std::int64_t stride(int) { return 0; }
+    static const double* data() { return nullptr; }
+};
+
+}  // namespace detail
+
 /// The points of one rank in the memory of an execution space of Kokkos, for balance(PointPasses&).
 ///
 /// Kernels run on `exec` and give the same bits in each run and for each layout. Positions: a view
 /// of points by axes, or a std::array of one view for each axis; floats or doubles at any stride.
-/// Weights: a view of floats or doubles; empty if every point weighs 1. The class allocates a part
-/// for each point; what leaves the device is the results.
+/// Weights: a view of floats or doubles; empty if every point weighs 1. What leaves the device is
+/// the results.
 template <class ExecutionSpace, class Views, class WeightView>
 class KokkosPasses final : public PointPasses {
     using Memory = detail::MemoryOf<Views>;
+    using Device = detail::Device<ExecutionSpace, Memory>;
     using T = detail::ScalarOf<Views>;
-    using W = detail::ScalarOf<WeightView>;
+    using W = typename WeightView::non_const_value_type;
     template <class Number>
     static constexpr bool is_real = std::is_same_v<Number, float> || std::is_same_v<Number, double>;
 
@@ -37,14 +59,15 @@ class KokkosPasses final : public PointPasses {
   public:
     using PartsView = Kokkos::View<Part*, Memory>;
 
-    /// Takes views, also of memory for parts; copies nothing. Not collective, as all of these.
+    /// Takes views, and memory if it is not to be allocated; copies nothing. Not collective, as all
+    /// of these.
     KokkosPasses(const ExecutionSpace& exec, const Views& x, const WeightView& weights,
-                 const PartsView& parts = {})
-        : device_(exec),
+                 const KokkosMemory<Memory>& memory = {})
+        : device_(exec, memory.scratch),
           views_(x),
           weight_view_(weights),
           x_(detail::positions_of(x)),
-          parts_(parts) {
+          parts_(memory.parts) {
         if (weights.extent(0) == 0) return;
         given_.values = weights.data();
         given_.stride = static_cast<std::int64_t>(weights.stride(0));
@@ -55,8 +78,16 @@ class KokkosPasses final : public PointPasses {
     bool has_weights() const override { return given_.values != nullptr; }
     void use_weights(bool are_used) override { uses_weights_ = are_used; }
 
+    std::int64_t most_cells() const override {
+        return detail::cells_in_scratch(device_.exec(), x_.dimension, weighs());
+    }
+
     /// Returns the parts of the points, on the device.
-    const PartsView& device_parts() const { return parts_; }
+    PartsView device_parts() const {
+        return Kokkos::subview(parts_, std::pair(std::size_t{0}, std::size_t{count()}));
+    }
+    /// Returns the memory for another call.
+    KokkosMemory<Memory> memory() const { return {parts_, device_.memory()}; }
 
     PointSummary summary(bool reads_positions) override {
         check();
@@ -66,21 +97,25 @@ class KokkosPasses final : public PointPasses {
         if (x_.count == 0) return summary;
         summary.lightest = summary.heaviest = 1;
         if (!reads_positions && !weighs()) return summary;
-        const detail::Ends ends = find_ends(reads_positions);
-        if (weighs()) {
-            summary.lightest = ends.lightest;
-            summary.heaviest = ends.heaviest;
-            summary.weight = detail::total_weight(device_, x_.count, given_);
-        }
-        detail::check_coordinates(ends.coordinates);
-        for (int axis = 0; axis < x_.dimension && reads_positions; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            const detail::Position* const first = ends.positions + axis;
-            summary.first[a] = std::to_array(first->x);
-            summary.last[a] = std::to_array(first[max_dimension].x);
-            summary.box.lower[a] = summary.first[a][a];
-            summary.box.upper[a] = summary.last[a][a];
-        }
+        on_points([&](const auto& x, auto weighs) {
+            constexpr int dimension = detail::dimension_of<decltype(x)>;
+            const auto found = detail::find_ends<weighs.value>(device_, x, given_, reads_positions);
+            if (weighs) {
+                summary.lightest = found.ends.lightest;
+                given_.set_heaviest(summary.heaviest = heaviest_ = found.ends.heaviest);
+                summary.weight = detail::total_weight(device_, x_.count, given_);
+            }
+            detail::check_coordinates(found.coordinates);
+            for (std::size_t a = 0; a < dimension && reads_positions; ++a) {
+                const auto* const first = found.corners.positions + a;
+                std::copy_n(first->x, dimension, summary.first[a].begin());
+                std::copy_n(first[dimension].x, dimension, summary.last[a].begin());
+                std::fill(summary.first[a].begin() + dimension, summary.first[a].end(), 0.0);
+                std::fill(summary.last[a].begin() + dimension, summary.last[a].end(), 0.0);
+                summary.box.lower[a] = summary.first[a][a];
+                summary.box.upper[a] = summary.last[a][a];
+            }
+        });
         return summary;
     }
 
@@ -89,7 +124,7 @@ class KokkosPasses final : public PointPasses {
         for (std::size_t k = 0; k < indices.size(); ++k)
             indices[k] = count() <= size ? k : detail::sampled(k, count());
         Collected copies;
-        detail::copy_points(device_, x_, used_weights(), device_.copy_in(indices), nullptr, copies);
+        copy(device_.copy_in(indices), nullptr, copies);
         PointSample sample;
         for (LocalIndex k = 0; k < copies.count(); ++k)
             sample.positions.push_back(copies.position(k));
@@ -98,10 +133,15 @@ class KokkosPasses final : public PointPasses {
     }
 
     std::vector<CellMoments> moments(const SupportMesh& mesh) override {
-        const detail::Weights<W> weights = known_weights();
-        if (!weighs() || heaviest_ > 0) return detail::moments_on(device_, x_, weights, mesh);
-        auto cells = detail::moments_on(device_, x_, detail::Weights<W>{}, mesh);
-        for (CellMoments& cell : cells) cell.moments.weight = 0;
+        learn_heaviest();
+        const bool is_light = weighs() && !(heaviest_ > 0);
+        auto cells = on_points(
+            [&](const auto& x, auto weighs) {
+                return detail::moments_on<weighs.value>(device_, x, given_, mesh);
+            },
+            !is_light);
+        for (CellMoments& cell : cells)
+            if (is_light) cell.moments.weight = 0;
         return cells;
     }
 
@@ -141,7 +181,9 @@ class KokkosPasses final : public PointPasses {
     }
 
     std::vector<Box> boxes(int num_parts) override {
-        return detail::boxes_of_parts(device_, x_, known_parts(), num_parts);
+        Part* const all = known_parts();
+        return detail::with_dimension(
+            x_, [&](const auto& x) { return detail::boxes_of_parts(device_, x, all, num_parts); });
     }
 
     void settle(const Collected& collected, std::span<const Part> parts) override {
@@ -164,11 +206,11 @@ class KokkosPasses final : public PointPasses {
         device_.fence();
     }
 
-    std::vector<Part> parts() const override { return device_.copy_out(parts_); }
+    std::vector<Part> parts() const override { return device_.copy_out(device_parts()); }
 
     void set_parts(std::span<const Part> parts) override {
         known_parts();
-        Kokkos::deep_copy(device_.exec(), parts_, device_.copy_in(parts));
+        Kokkos::deep_copy(device_.exec(), device_parts(), device_.copy_in(parts));
         device_.fence();
     }
 
@@ -180,6 +222,9 @@ class KokkosPasses final : public PointPasses {
 
     void check() const {
         detail::require_kokkos();
+        detail::require_on_device(
+            x_.dimension >= 1 && x_.dimension <= max_dimension,
+            "positions have 1 to 3 axes, not " + std::to_string(x_.dimension));
         detail::require_on_device(x_.are_even, "coordinate arrays must all have the same length");
         const std::size_t num_weights = weight_view_.extent(0);
         detail::require_on_device(
@@ -188,47 +233,66 @@ class KokkosPasses final : public PointPasses {
     }
 
     bool weighs() const { return has_weights() && uses_weights_; }
-    detail::Weights<W> used_weights() const { return weighs() ? given_ : detail::Weights<W>{}; }
 
-    /// Returns the weights that count, relative to the heaviest. A fence at first.
-    detail::Weights<W> known_weights() {
-        if (weighs() && heaviest_ < 0) find_ends(false);
-        return used_weights();
+    /// Returns call(x, whether weights count) with what the compiler can know.
+    template <class Call>
+    auto on_points(const Call& call, bool may_weigh = true) const {
+        return detail::with_dimension(x_, [&](const auto& x) {
+            if constexpr (!std::is_same_v<WeightView, detail::UnitWeights<Memory>>)
+                if (weighs() && may_weigh) return call(x, std::true_type{});
+            return call(x, std::false_type{});
+        });
     }
 
-    /// Reads the weights, and the positions if asked for. A fence.
-    detail::Ends find_ends(bool reads_positions) {
-        const detail::Ends ends = detail::find_ends(device_, x_, used_weights(), reads_positions);
-        if (weighs()) given_.set_heaviest(heaviest_ = ends.heaviest);
-        return ends;
+    /// Reads the weights if the heaviest is not known. A fence at first.
+    void learn_heaviest() {
+        if (!weighs() || heaviest_ >= 0) return;
+        on_points([&](const auto& x, auto weighs) {
+            heaviest_ = detail::find_ends<weighs.value>(device_, x, given_, false).ends.heaviest;
+        });
+        given_.set_heaviest(heaviest_);
     }
 
     Part* known_parts() {
-        if (parts_.extent(0) != count()) parts_ = device_.template allocate<Part>(count());
+        // Memory for a number of points that grows.
+        const std::size_t room = parts_.extent(0) > 0 ? count() / 8 : 0;
+        if (parts_.extent(0) < count())
+            parts_ = device_.template allocate<Part>(std::size_t{count()} + room);
         return parts_.data();
     }
 
     /// Finds parts, unless they are given, marks open points, and counts the others. A fence.
     Assigned find_parts(const detail::PackedCuts& cuts, bool finds, detail::Opens opens,
                         bool counts) {
-        const int num_parts = static_cast<int>(cuts.regions.size());
-        const detail::Weights<W> weights = known_weights();  // with its fence
+        learn_heaviest();  // with its fence
+        const auto num_parts = static_cast<Part>(cuts.regions.size());
         const auto nodes = device_.copy_in(cuts.nodes);
         const auto regions = device_.copy_in(cuts.regions);
-        const detail::Assign<T, W> assign{
-            x_,        weights, nodes.data(), regions.data(), known_parts(),
-            num_parts, finds,   opens,        counts};
-        const std::vector<double> bins =
-            detail::sum_in_bins(device_, x_.count, assign.num_bins(), std::vector{assign});
-        if (bins[assign.bad] > 0) detail::check_coordinates(find_ends(true).coordinates);
-        Assigned found{static_cast<std::size_t>(bins[assign.open]), {}};
-        if (!counts) return found;
-        const auto first = bins.begin() + assign.first;
-        found.settled.counts.assign(first, first + num_parts);
-        found.settled.weights.assign(bins.end() - num_parts, bins.end());
-        if (weighs())
-            for (double& weight : found.settled.weights) weight = given_.from_units(weight);
-        return found;
+        Part* const parts = known_parts();
+        return on_points([&](const auto& x, auto weighs) {
+            using Assign = detail::Assign<std::remove_cvref_t<decltype(x)>, W, weighs.value>;
+            const Assign assign{x,         given_, nodes.data(), regions.data(), parts,
+                                num_parts, finds,  opens,        counts};
+            const std::vector<double> bins =
+                detail::sum_in_bins(device_, x.count, assign.num_bins(), std::vector{assign});
+            if (bins[assign.bad] > 0)
+                detail::check_coordinates(detail::find_faults(device_, x, detail::Weights<W>{}));
+            Assigned found{static_cast<std::size_t>(bins[assign.fields * assign.open]), {}};
+            for (Part part = 0; part < num_parts && counts; ++part) {
+                const auto bin = static_cast<std::size_t>(assign.fields * (assign.first + part));
+                found.settled.counts.push_back(bins[bin]);
+                const double weight = bins[bin + assign.fields - 1];
+                found.settled.weights.push_back(weighs ? given_.from_units(weight) : weight);
+            }
+            return found;
+        });
+    }
+
+    std::vector<Part> copy(const typename Device::template Lent<LocalIndex>& indices, Part* parts,
+                           Collected& to) {
+        return on_points([&](const auto& x, auto weighs) {
+            return detail::copy_points<weighs.value>(device_, x, given_, indices, parts, to);
+        });
     }
 
     /// Moves open points to the host, behind others; returns their parts. A fence.
@@ -237,13 +301,13 @@ class KokkosPasses final : public PointPasses {
         collected.settled = std::move(found.settled);
         if (found.num_open == 0) return {};
         const auto indices = detail::list_marked(device_, count(), found.num_open, parts_.data());
-        return detail::copy_points(device_, x_, used_weights(), indices, parts_.data(), collected);
+        return copy(indices, parts_.data(), collected);
     }
 
-    mutable detail::Device<ExecutionSpace, Memory> device_;
+    mutable Device device_;
     Views views_;
     WeightView weight_view_;
-    detail::Positions<T> x_;
+    decltype(detail::positions_of(std::declval<Views>())) x_;
     detail::Weights<W> given_{};
     bool uses_weights_ = true;
     double heaviest_ = -1;  ///< weight; -1: not known

@@ -14,41 +14,72 @@ KOKKOS_INLINE_FUNCTION bool is_finite(double value) {
     return value >= -DBL_MAX && value <= DBL_MAX;
 }
 
-/// A position in a kernel; 0 beyond the dimension.
+/// A position in a kernel.
+template <int Dimension>
 struct Position {
-    double x[max_dimension];
+    double x[Dimension];
 };
 
-/// Coordinates in the memory of a device, at any stride.
-template <class T>
+/// Coordinates in the memory of a device, at any stride, or at 1. A dimension of 0 is known only in
+/// a run, see with_dimension().
+template <class T, int Dimension, bool IsUnit>
 struct Positions {
+    static constexpr int static_dimension = Dimension;
+
     const T* axes[max_dimension] = {};
     std::int64_t strides[max_dimension] = {};
     std::int64_t count = 0;
-    int dimension = 0;
+    int dimension = Dimension;
     bool are_even = true;  ///< all axes have `count` coordinates
 
     /// Returns a coordinate; -0 as 0, so that minima do not depend on an order.
     KOKKOS_INLINE_FUNCTION double operator()(std::int64_t i, int axis) const {
-        return static_cast<double>(axes[axis][i * strides[axis]]) + 0.0;
+        return static_cast<double>(axes[axis][IsUnit ? i : i * strides[axis]]) + 0.0;
     }
-    KOKKOS_INLINE_FUNCTION Position position(std::int64_t i) const {
-        Position p{};
-        for (int a = 0; a < max_dimension; ++a)
-            if (a < dimension) p.x[a] = (*this)(i, a);
+    KOKKOS_INLINE_FUNCTION Position<Dimension> position(std::int64_t i) const {
+        Position<Dimension> p;
+        for (int a = 0; a < Dimension; ++a) p.x[a] = (*this)(i, a);
         return p;
     }
 };
 
-/// The type of a view in positions: of points by axes, or one of an array for each axis.
+template <class Positions>
+inline constexpr int dimension_of = std::remove_cvref_t<Positions>::static_dimension;
+
+/// Calls call(x) with positions whose dimension the compiler knows.
+template <class T, bool IsUnit, int Dimension, class Call>
+auto with_dimension(const Positions<T, Dimension, IsUnit>& x, const Call& call) {
+    if constexpr (Dimension > 0) {
+        return call(x);
+    } else {
+        const auto fixed = [&]<int D>() {
+            Positions<T, D, IsUnit> same{.count = x.count};
+            std::copy_n(x.axes, D, same.axes);
+            std::copy_n(x.strides, D, same.strides);
+            return same;
+        };
+        if (x.dimension == 1) return call(fixed.template operator()<1>());
+        if (x.dimension == 2) return call(fixed.template operator()<2>());
+        return call(fixed.template operator()<3>());
+    }
+}
+
+/// The views of positions: one of points by axes, or an array with one for each axis.
 template <class Views>
 struct ViewOf {
     using Type = Views;
+    static constexpr auto dimension = static_cast<int>(Views::static_extent(1));
+    static_assert(dimension <= max_dimension, "positions have 1 to 3 axes");
+    static constexpr bool is_unit =
+        std::is_same_v<typename Views::array_layout, Kokkos::LayoutLeft>;
 };
 template <class Axis, std::size_t N>
 struct ViewOf<std::array<Axis, N>> {
-    static_assert(N >= 1 && N <= max_dimension, "give a view for each of 1 to 3 axes");
+    static_assert(N >= 1 && N <= max_dimension, "positions have 1 to 3 axes");
     using Type = Axis;
+    static constexpr auto dimension = static_cast<int>(N);
+    static constexpr bool is_unit =
+        !std::is_same_v<typename Axis::array_layout, Kokkos::LayoutStride>;
 };
 template <class Views>
 using MemoryOf = typename ViewOf<Views>::Type::memory_space;
@@ -56,8 +87,8 @@ template <class Views>
 using ScalarOf = typename ViewOf<Views>::Type::non_const_value_type;
 
 template <class Views>
-Positions<ScalarOf<Views>> positions_of(const Views& views) {
-    Positions<ScalarOf<Views>> x;
+auto positions_of(const Views& views) {
+    Positions<ScalarOf<Views>, ViewOf<Views>::dimension, ViewOf<Views>::is_unit> x;
     const auto add = [&x](int a, const auto& axis) {
         const auto length = static_cast<std::int64_t>(axis.extent(0));
         if (a == 0) x.count = length;
@@ -65,10 +96,7 @@ Positions<ScalarOf<Views>> positions_of(const Views& views) {
         x.axes[a] = axis.data();
         x.strides[a] = static_cast<std::int64_t>(axis.stride(0));
     };
-    if constexpr (Kokkos::is_view<Views>::value)
-        x.dimension = static_cast<int>(views.extent(1));
-    else
-        x.dimension = static_cast<int>(views.size());
+    if constexpr (Kokkos::is_view<Views>::value) x.dimension = static_cast<int>(views.extent(1));
     for (int a = 0; a < std::min(x.dimension, max_dimension); ++a)
         if constexpr (Kokkos::is_view<Views>::value)
             add(a, Kokkos::subview(views, Kokkos::ALL, a));
@@ -133,82 +161,178 @@ struct Faults {
     }
 };
 
-/// Ends of the points in the order across each axis, and of the weights.
+/// Bounds of the points and weights, and where they are.
+template <int Dimension>
 struct Ends {
-    Position positions[2 * max_dimension];  ///< first across each axis, then last
+    static constexpr std::int64_t tied = -1;
+
+    double bounds[2 * Dimension];        ///< least along each axis, then greatest
+    std::int64_t points[2 * Dimension];  ///< at each bound; `tied` if there are several
     double lightest;
     double heaviest;
-    Faults coordinates;
-    Faults weights;
+    std::int64_t faults;
 };
 
-/// Finds the ends of all points; reads weights, and positions if asked for.
-template <class T, class W>
+/// Finds the ends of all points; reads weights if they count, and positions if asked for.
+template <class Positions, class W, bool Weighs>
 struct FindEnds {
-    using value_type = Ends;
+    static constexpr int dimension = Positions::static_dimension;
+    using value_type = Ends<dimension>;
 
-    Positions<T> x;
+    Positions x;
     Weights<W> weights;
     bool reads_positions;
 
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, Ends& ends) const {
-        const double weight = weights(i);
-        if (!(weight >= 0 && is_finite(weight))) ends.weights.add({1, 4 * i});
-        widen(weight, weight, ends);
+    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, value_type& ends) const {
+        if constexpr (Weighs) {
+            const double weight = weights(i);
+            ends.faults += !(weight >= 0 && is_finite(weight));
+            widen(weight, weight, ends);
+        }
         if (!reads_positions) return;
-        const Position p = x.position(i);
-        for (int a = 0; a < max_dimension; ++a)
-            if (!is_finite(p.x[a])) ends.coordinates.add({1, 4 * i + a});
-        for (int k = 0; k < 2 * max_dimension; ++k) widen(k, p, ends);
+        for (int a = 0; a < dimension; ++a) {
+            const double value = x(i, a);
+            ends.faults += !is_finite(value);
+            widen(a, value, i, ends);
+            widen(dimension + a, value, i, ends);
+        }
     }
-    KOKKOS_INLINE_FUNCTION void init(Ends& ends) const {
-        for (int k = 0; k < 2 * max_dimension; ++k)
-            for (double& bound : ends.positions[k].x)
-                bound = k < max_dimension ? HUGE_VAL : -HUGE_VAL;
-        ends.lightest = HUGE_VAL;
-        ends.heaviest = 0;
-        ends.coordinates = ends.weights = {0, INT64_MAX};
+    KOKKOS_INLINE_FUNCTION void init(value_type& ends) const {
+        for (int k = 0; k < 2 * dimension; ++k) {
+            ends.bounds[k] = k < dimension ? HUGE_VAL : -HUGE_VAL;
+            ends.points[k] = value_type::tied;
+        }
+        ends.lightest = Weighs ? HUGE_VAL : 1;
+        ends.heaviest = Weighs ? 0 : 1;
+        ends.faults = 0;
     }
-    KOKKOS_INLINE_FUNCTION void join(Ends& ends, const Ends& others) const {
+    KOKKOS_INLINE_FUNCTION void join(value_type& ends, const value_type& others) const {
         widen(others.lightest, others.heaviest, ends);
-        for (int k = 0; k < 2 * max_dimension; ++k) widen(k, others.positions[k], ends);
-        ends.coordinates.add(others.coordinates);
-        ends.weights.add(others.weights);
+        for (int k = 0; k < 2 * dimension; ++k) widen(k, others.bounds[k], others.points[k], ends);
+        ends.faults += others.faults;
     }
     // For Kokkos before 3.7, which joins values in turns.
-    KOKKOS_INLINE_FUNCTION void join(volatile Ends& ends, const volatile Ends& others) const {
-        join(const_cast<Ends&>(ends), const_cast<const Ends&>(others));
+    KOKKOS_INLINE_FUNCTION void join(volatile value_type& ends,
+                                     const volatile value_type& others) const {
+        join(const_cast<value_type&>(ends), const_cast<const value_type&>(others));
     }
 
   private:
-    KOKKOS_INLINE_FUNCTION static void widen(double lightest, double heaviest, Ends& ends) {
+    KOKKOS_INLINE_FUNCTION static void widen(double lightest, double heaviest, value_type& ends) {
         if (lightest < ends.lightest) ends.lightest = lightest;
         if (heaviest > ends.heaviest) ends.heaviest = heaviest;
     }
-    KOKKOS_INLINE_FUNCTION static void widen(int k, const Position& p, Ends& ends) {
-        Position& end = ends.positions[k];
-        const bool is_first = k < max_dimension;
-        int axis = is_first ? k : k - max_dimension;
-        // Equal ones are compared along the axes in ascending order.
-        for (int a = 0; p.x[axis] == end.x[axis] && a < max_dimension; ++a) axis = a;
-        if (is_first ? p.x[axis] < end.x[axis] : p.x[axis] > end.x[axis]) end = p;
+    KOKKOS_INLINE_FUNCTION static void widen(int k, double value, std::int64_t i,
+                                             value_type& ends) {
+        const bool is_beyond = k < dimension ? value < ends.bounds[k] : value > ends.bounds[k];
+        if (value == ends.bounds[k]) ends.points[k] = value_type::tied;
+        if (is_beyond) ends.bounds[k] = value;
+        if (is_beyond) ends.points[k] = i;
     }
 };
 
-/// Returns the ends of weights, and of positions if `reads_positions`. Throws Error for values that
-/// cannot be used. A fence.
-template <class Device, class T, class W>
-Ends find_ends(Device& device, const Positions<T>& x, const Weights<W>& weights,
-               bool reads_positions) {
-    const auto view = device.template lend<Ends>(1);
-    Kokkos::parallel_reduce("rrcb::summary", device.range(x.count),
-                            FindEnds<T, W>{x, weights, reads_positions},
-                            Kokkos::View<Ends, typename Device::Memory>(view.data()));
-    const Ends ends = device.copy_out(view)[0];
-    require_on_device(ends.weights.count == 0, "weight of point " + ends.weights.point() +
-                                                   " is negative, NaN or infinite" +
-                                                   ends.weights.tally() + "; give 0 or more");
-    return ends;
+/// Positions of the points at the bounds.
+template <int Dimension>
+struct Corners {
+    Position<Dimension> positions[2 * Dimension];
+};
+
+/// Finds, of all points at each bound, the first by their axes in ascending order, or the last.
+template <class Positions>
+struct FindCorners {
+    static constexpr int dimension = Positions::static_dimension;
+    using value_type = Corners<dimension>;
+
+    Positions x;
+    Ends<dimension> ends;
+
+    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, value_type& corners) const {
+        const Position<dimension> p = x.position(i);
+        for (int k = 0; k < 2 * dimension; ++k)
+            if (p.x[k % dimension] == ends.bounds[k]) widen(k, p, corners);
+    }
+    KOKKOS_INLINE_FUNCTION void init(value_type& corners) const {
+        for (int k = 0; k < 2 * dimension; ++k)
+            for (double& bound : corners.positions[k].x)
+                bound = k < dimension ? HUGE_VAL : -HUGE_VAL;
+    }
+    KOKKOS_INLINE_FUNCTION void join(value_type& corners, const value_type& others) const {
+        for (int k = 0; k < 2 * dimension; ++k) widen(k, others.positions[k], corners);
+    }
+    KOKKOS_INLINE_FUNCTION void join(volatile value_type& corners,
+                                     const volatile value_type& others) const {
+        join(const_cast<value_type&>(corners), const_cast<const value_type&>(others));
+    }
+
+  private:
+    KOKKOS_INLINE_FUNCTION static void widen(int k, const Position<dimension>& p,
+                                             value_type& corners) {
+        Position<dimension>& end = corners.positions[k];
+        bool is_before = false;
+        for (int a = dimension; a-- > 0;)
+            if (p.x[a] != end.x[a]) is_before = p.x[a] < end.x[a];
+        if (is_before == (k < dimension)) end = p;
+    }
+};
+
+/// Reduces the points of a functor to a value in the memory of the device.
+template <class Device, class Functor>
+void reduce(const Device& device, std::int64_t count, const Functor& functor,
+            typename Functor::value_type* value) {
+    const auto lock = lock_scratch<typename Device::Execution>();
+    Kokkos::parallel_reduce(
+        "rrcb::reduce", device.range(count), functor,
+        Kokkos::View<typename Functor::value_type, typename Device::Memory>(value));
+}
+
+/// Bounds of the points and weights, the positions at the bounds, and bad coordinates.
+template <int Dimension>
+struct Found {
+    Ends<Dimension> ends;
+    Corners<Dimension> corners;
+    Faults coordinates;
+};
+
+/// Finds values that cannot be used.
+template <class Positions, class W>
+struct FindFaults {
+    struct value_type {
+        Faults coordinates;
+        Faults weights;
+    };
+    Positions x;
+    Weights<W> weights;
+
+    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, value_type& faults) const {
+        const double weight = weights(i);
+        if (!(weight >= 0 && is_finite(weight))) faults.weights.add({1, 4 * i});
+        for (int a = 0; a < Positions::static_dimension; ++a)
+            if (!is_finite(x(i, a))) faults.coordinates.add({1, 4 * i + a});
+    }
+    KOKKOS_INLINE_FUNCTION void init(value_type& faults) const {
+        faults.coordinates = faults.weights = {0, INT64_MAX};
+    }
+    KOKKOS_INLINE_FUNCTION void join(value_type& faults, const value_type& others) const {
+        faults.coordinates.add(others.coordinates);
+        faults.weights.add(others.weights);
+    }
+    KOKKOS_INLINE_FUNCTION void join(volatile value_type& faults,
+                                     const volatile value_type& others) const {
+        join(const_cast<value_type&>(faults), const_cast<const value_type&>(others));
+    }
+};
+
+/// Returns the coordinates that are not finite; throws Error for a bad weight. A fence.
+template <class Device, class Positions, class W>
+Faults find_faults(Device& device, const Positions& x, const Weights<W>& weights) {
+    using Functor = FindFaults<Positions, W>;
+    const auto view = device.template lend<typename Functor::value_type>(1);
+    reduce(device, x.count, Functor{x, weights}, view.data());
+    const auto faults = device.copy_out(view)[0];
+    require_on_device(faults.weights.count == 0, "weight of point " + faults.weights.point() +
+                                                     " is negative, NaN or infinite" +
+                                                     faults.weights.tally() + "; give 0 or more");
+    return faults.coordinates;
 }
 
 /// Throws Error if a coordinate is not finite.
@@ -218,16 +342,54 @@ inline void check_coordinates(const Faults& faults) {
                                              " is NaN or infinite" + faults.tally());
 }
 
+/// Returns the ends of weights, and of positions if `reads_positions`. Throws Error for a bad
+/// weight. A fence, with points that share a bound two.
+template <bool Weighs, class Device, class Positions, class W>
+Found<Positions::static_dimension> find_ends(Device& device, const Positions& x,
+                                             const Weights<W>& weights, bool reads_positions) {
+    constexpr int num_bounds = 2 * Positions::static_dimension;
+    using Result = Found<Positions::static_dimension>;
+    auto view = device.template lend<Result>(1);
+    Result* const result = view.data();
+    reduce(device, x.count, FindEnds<Positions, W, Weighs>{x, weights, reads_positions},
+           &result->ends);
+    if (reads_positions)
+        Kokkos::parallel_for(
+            "rrcb::corners", device.range(num_bounds), KOKKOS_LAMBDA(const std::int64_t k) {
+                const std::int64_t i = result->ends.points[k];
+                if (i >= 0) result->corners.positions[k] = x.position(i);
+            });
+    Result found = device.copy_out(view)[0];
+    found.coordinates = {0, 0};
+    if (found.ends.faults > 0)
+        found.coordinates = find_faults(device, x, Weighs ? weights : Weights<W>{});
+    const auto* const points = found.ends.points;
+    if (!reads_positions || std::all_of(points, points + num_bounds, [](auto i) { return i >= 0; }))
+        return found;
+    view = device.template lend<Result>(1);
+    reduce(device, x.count, FindCorners<Positions>{x, found.ends}, &view.data()->corners);
+    found.corners = device.copy_out(view)[0].corners;
+    return found;
+}
+
+/// Weights of points.
+template <class W>
+struct AddWeights {
+    static constexpr int fields = 1;
+    static constexpr std::int64_t num_bins = 64;  // as many as threads may meet
+
+    Weights<W> weights;
+
+    KOKKOS_INLINE_FUNCTION Row<1> operator()(std::int64_t i) const {
+        return {i / run_length % num_bins, {weights.units(i)}};
+    }
+};
+
 /// Returns the sum of weights whose heaviest is set; throws Error if it overflows. A fence.
 template <class Device, class W>
 double total_weight(Device& device, std::int64_t count, const Weights<W>& weights) {
-    // As many bins as threads may meet.
-    constexpr int num_bins = 64;
-    const auto add =
-        KOKKOS_LAMBDA(const std::int64_t i, const Bins<typename Device::Execution>& bins) {
-        bins.add(i % num_bins, weights.units(i));
-    };
-    const std::vector<double> sums = sum_in_bins(device, count, num_bins, std::vector{add});
+    const std::vector<double> sums =
+        sum_in_bins(device, count, AddWeights<W>::num_bins, std::vector{AddWeights<W>{weights}});
     const double total = weights.from_units(std::accumulate(sums.begin(), sums.end(), 0.0));
     require_on_device(std::isfinite(total), "the sum of the weights overflows; scale them down");
     return total;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/detail/sample.hpp>
+#include <rrcb/kokkos/ends.hpp>
 #include <rrcb/kokkos/moments.hpp>
 #include <rrcb/kokkos/parts.hpp>
 

@@ -17,6 +17,7 @@
 //   prepare    checks options and points, and allocates memory for all messages
 //   estimate   rank 0 bisects the cells of all ranks, or weighs the parts of earlier cuts, or only
 //              adds up the points if many ranks make the parts
+//   turn?      if the ranks hold a bisection, do cuts across other axes leave far fewer ghosts?
 //   keep?      are the parts that the ranks hold, or those of the earlier cuts, even enough?
 //   settle     if not, the cuts move by counts of all ranks
 //   report     imbalance, and the weight of each part
@@ -62,10 +63,37 @@ void keep(Call& call, Participant& self) {
     report.kept = is_in_order(cuts, decision.parts);
     report_measured(decision.verdict.kept_imbalance, call.options.imbalance_tolerance, report);
     report.part_weights = std::move(decision.part_weights);
-    report.details.coincident_cuts = static_cast<int>(
-        std::ranges::count_if(cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
+    // A search has counted those that would divide points kept together.
+    if (is_known || call.options.coincident == Coincident::divide)
+        report.details.coincident_cuts = static_cast<int>(
+            std::ranges::count_if(cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
     const Part part = decision.parts[mpi::rank_of(self.comm)];
     self.attempt([&] { call.points.renumber(std::span(&part, 1)); });
+}
+
+/// Turns the cuts across other axes than those between the ranks, if that leaves far fewer points
+/// near them; then the ranks' present parts are not kept. Collective: a reduction.
+void turn_if_better(Call& call, Participant& self) {
+    Decision& decision = call.decision;
+    Verdict& verdict = decision.verdict;
+    const double reach = wide_reach(verdict.box, verdict.num_points);
+    Bisection& turned = decision.turned;
+    if (!has_far_fewer_near(turned.cuts, call.result.cuts, reach, call.points, self)) return;
+    call.result.cuts = std::move(turned.cuts);
+    decision.brackets = std::move(turned.brackets);
+    verdict.near = verdict.turned_near;
+    verdict.kept_imbalance = not_kept;
+    call.result.report.details.estimated_imbalance = verdict.turned_imbalance;
+}
+
+/// Returns true if the new parts are not worth moving points out of the ranks' present parts.
+bool keeps_after_all(const Call& call) {
+    const Verdict& verdict = call.decision.verdict;
+    const Report& report = call.result.report;
+    if (call.options.refine == Refine::exact)
+        return are_as_exact(call.decision.part_weights, report.part_weights, call.result.cuts,
+                            verdict.balanced_heaviest(), call.options);
+    return !is_worth_moving(verdict.kept_imbalance, report.imbalance, call.options);
 }
 
 }  // namespace
@@ -75,12 +103,13 @@ Balance balance_from_scratch(PointPasses& points, const Options& given, bool may
     Call call(points, given.observer, self);
     self.attempt([&] { prepare(given, may_keep, call, self); });
     estimate(call, self);
+    if (call.decision.verdict.may_turn != 0) turn_if_better(call, self);
     const Options& options = call.options;
     const double kept = call.decision.verdict.kept_imbalance;
-    bool is_kept = keeps_at_once(kept, options.imbalance_tolerance);
+    bool is_kept = keeps_at_once(kept, options);
     if (!is_kept) {
         settle(call, kept < not_kept, self);
-        is_kept = kept < not_kept && !is_worth_moving(kept, call.result.report.imbalance, options);
+        is_kept = kept < not_kept && keeps_after_all(call);
     }
     if (is_kept) keep(call, self);
     if (call.is_spread) hold_cuts(call, self);

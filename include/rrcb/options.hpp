@@ -14,7 +14,8 @@ enum class Refine {
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the counted imbalance is within `imbalance_tolerance`
     exact       ///< to the weighted median: each cut to within the weight of one point, which goes
-                ///< where it makes the side less too heavy, or further to fill parts of equal size
+                ///< where it makes the side less too heavy, or further to fill parts of equal size;
+                ///< a bisection that the ranks hold already is kept if its cuts are as exact
 };
 
 /// Treatment of coincident points at a balanced cut.

@@ -176,10 +176,13 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
 }  // namespace
 
 double share_below(std::span<const double> sizes, int num_below) {
+    constexpr double least = 0x1p-50;
     const auto middle = sizes.begin() + num_below;
     const double below = std::accumulate(sizes.begin(), middle, 0.0);
-    const double all = below + std::accumulate(middle, sizes.end(), 0.0);
-    return all > 0 ? below / all : 0;
+    const double above = std::accumulate(middle, sizes.end(), 0.0);
+    const double all = below + above;
+    if (!(below > least * all)) return 0;
+    return above > least * all ? below / all : 1;
 }
 
 double expected_error(int depth) {

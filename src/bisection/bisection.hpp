@@ -5,7 +5,7 @@
 namespace rrcb {
 
 /// Returns the share of a node's weight below its cut: the sizes of its first `num_below` parts
-/// over all `sizes`.
+/// over all `sizes`. A side too small for sums of weights to resolve gets nothing.
 double share_below(std::span<const double> sizes, int num_below);
 
 /// Returns the expected error of an estimated cut, as a share of the node's weight. It grows with

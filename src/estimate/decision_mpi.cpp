@@ -65,17 +65,18 @@ double least_imbalance(const Verdict& verdict, int num_parts, std::span<const do
 }
 
 /// Returns the arrays of the answer, as bytes.
-std::array<std::span<std::byte>, 3> arrays_of(Decision& decision) {
+std::array<std::span<std::byte>, 5> arrays_of(Decision& decision) {
     const auto bytes = [](auto& array) { return std::as_writable_bytes(std::span(array)); };
-    switch (decision.verdict.answer) {
-        case Answer::cuts:
-            return {bytes(decision.cuts.tree), bytes(decision.brackets)};
-        case Answer::weights:
-            return {bytes(decision.part_weights)};
-        case Answer::kept:
-            break;
-    }
-    return {bytes(decision.cuts.tree), bytes(decision.part_weights), bytes(decision.parts)};
+    const Verdict& verdict = decision.verdict;
+    if (verdict.answer == Answer::weights) return {bytes(decision.part_weights)};
+    if (verdict.answer == Answer::kept)
+        return {bytes(decision.cuts.tree), bytes(decision.part_weights), bytes(decision.parts)};
+    std::array arrays{bytes(decision.cuts.tree), bytes(decision.brackets),
+                      bytes(decision.part_weights), bytes(decision.turned.cuts.tree),
+                      bytes(decision.turned.brackets)};
+    if (!(verdict.kept_imbalance < not_kept)) arrays[2] = {};
+    if (verdict.may_turn == 0) arrays[3] = arrays[4] = {};
+    return arrays;
 }
 
 std::size_t num_bytes(Decision& decision) {
@@ -115,9 +116,9 @@ void keep(Decision& decision) {
     decision.parts = std::move(decision.held->parts);
 }
 
-Bisection bisect_gathered(const Contribution& all, const Options& options, int dimension,
-                          bool with_brackets) {
-    StatisticalDomain domain = build_domain(all, dimension);
+Bisection bisect_gathered(StatisticalDomain domain, const Contribution& all,
+                          const Options& options) {
+    const bool with_brackets = is_refined(options);
     if (are_cuts_limited(options) && all.summary.num_points > 0)
         return bisect_within(all.summary.box, std::move(domain), options, with_brackets);
     return bisect(std::move(domain), options, with_brackets, all.summary.num_points);
@@ -148,26 +149,34 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
 }
 
-/// Returns true if new cuts might be across the axes of the cuts between the ranks.
-bool crosses_good_axes(const Cuts& kept, const Cuts& estimate, const Contribution& all,
-                       const Options& options) {
-    return options.axes.order.is_longest() || axes_of(kept.tree) == axes_of(estimate.tree) ||
-           are_axes_good(build_domain(all, estimate.dimension), kept, estimate.near);
+/// Reads the ranks' present parts from the extents of their points; nullopt if they are no
+/// bisection of so many parts.
+std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
+                                  const Options& options) {
+    std::vector<PointSummary> extents = read_extents(all.extents, estimate.dimension);
+    if (extents.empty() || all.summary.num_points == 0) return {};
+    if (Verdict{all.summary}.is_counted())
+        for (PointSummary& extent : extents) extent.weight = static_cast<double>(extent.count);
+    return read_kept_tree(extents, estimate, options);
 }
 
-/// Reads the ranks' present parts from the extents of their points.
-void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
-    const Cuts& estimate = decision.cuts;
-    std::vector<PointSummary> extents = read_extents(all.extents, estimate.dimension);
-    if (extents.empty() || extents.size() != decision.parts.size()) return;
-    if (all.summary.num_points == 0) return;
-    if (decision.verdict.is_counted())
-        for (PointSummary& extent : extents) extent.weight = static_cast<double>(extent.count);
-    auto held = read_kept_tree(extents, estimate, options);
-    if (!held || !crosses_good_axes(held->cuts, estimate, all, options)) return;
-    decision.verdict.kept_imbalance = held->imbalance;
-    decision.held = std::move(held);
-    if (keeps_at_once(decision.verdict.kept_imbalance, options.imbalance_tolerance)) keep(decision);
+/// Bisects the cells of all ranks, and reads what the ranks hold. If that is a bisection, the cuts
+/// are across its axes; otherwise points at rest might turn in every call. Cuts across other axes
+/// which seem to be better come as well, because the estimate depends on what the ranks hold.
+Bisection make_cuts(const Contribution& all, const Options& options, Decision& decision) {
+    const StatisticalDomain domain = build_domain(all, decision.cuts.dimension);
+    Bisection made = bisect_gathered(domain, all, options);
+    decision.held = read_held(all, made.cuts, options);
+    if (!decision.held) return made;
+    const std::vector<int> axes = axes_of(decision.held->cuts.tree);
+    if (axes == axes_of(made.cuts.tree)) return made;
+    Options along = options;
+    along.axes.order = AxisOrder::given(axes);
+    Bisection across = bisect_gathered(domain, all, along);
+    if (!options.axes.order.is_longest() &&
+        !are_axes_good(domain, decision.held->cuts, made.cuts.near))
+        decision.turned = std::move(made);
+    return across;
 }
 
 }  // namespace
@@ -242,10 +251,12 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
     if (may_keep) {
         decision.part_weights.resize(num_parts);
         decision.parts.resize(num_parts);
+        decision.turned.cuts = cuts;
+        decision.turned.brackets = decision.brackets;
     }
+    const std::size_t of_cuts = num_cuts * sizeof(Cut) + decision.brackets.size() * sizeof(Bracket);
     make_message(
-        num_cuts * sizeof(Cut) + std::max(decision.brackets.size() * sizeof(Bracket),
-                                          decision.parts.size() * (sizeof(double) + sizeof(Part))),
+        (may_keep ? 2 : 1) * of_cuts + decision.parts.size() * (sizeof(double) + sizeof(Part)),
         decision);
 }
 
@@ -255,8 +266,7 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
     std::vector<double> estimated;
     if (answer == Answer::cuts) {
         const std::size_t num_brackets = decision.brackets.size();
-        Bisection made =
-            bisect_gathered(all, options, decision.cuts.dimension, is_refined(options));
+        Bisection made = make_cuts(all, options, decision);
         decision.cuts = std::move(made.cuts);
         decision.brackets = std::move(made.brackets);
         decision.brackets.resize(num_brackets);
@@ -266,7 +276,17 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
     verdict = verdict_of(all.summary, decision.cuts.near, estimated, options.part_sizes);
     verdict.answer = answer;
     if (answer == Answer::weights) weigh_parts(all, options, decision);
-    weigh_kept(all, options, decision);
+    if (!decision.held) return;
+    verdict.kept_imbalance = decision.held->imbalance;
+    decision.part_weights = decision.held->part_weights;
+    const Bisection& turned = decision.turned;
+    verdict.may_turn = turned.part_weights.empty() ? 0 : 1;
+    if (verdict.may_turn == 0) {
+        if (keeps_at_once(verdict.kept_imbalance, options)) keep(decision);
+        return;
+    }
+    verdict.turned_imbalance = imbalance(turned.part_weights, options.part_sizes);
+    verdict.turned_near = turned.cuts.near;
 }
 
 void broadcast(Decision& decision, Participant& self) {

@@ -37,6 +37,9 @@ struct Verdict : Totals {
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
     NearCuts near{};                        ///< of the new cuts, or counted for the earlier ones
     double near_per_cut = 0;                ///< of the earlier cuts, see NearCuts::share
+    std::int32_t may_turn = 0;              ///< 1: other cuts seem to have fewer points near them
+    double turned_imbalance = not_known;    ///< estimated of those
+    NearCuts turned_near{};                 ///< of those
 
     /// Returns true if points are counted, because all have the same weight or none.
     bool is_counted() const { return weight == 0 || lightest == heaviest; }
@@ -52,15 +55,18 @@ struct Verdict : Totals {
 
 /// Decision of rank 0: a verdict, and the arrays of its answer.
 ///
-/// cuts:    the cuts, with brackets if they may move
+/// cuts:    the cuts, with brackets if they may move; if the ranks' present parts may be kept,
+/// their
+///          weights, and perhaps cuts across other axes
 /// weights: of the parts of `cuts`, which all ranks have, if counted
 /// kept:    the cuts, weights and parts of the ranks' points
 struct Decision {
     Verdict verdict;
     Cuts cuts{};                         ///< to assign by, or to start from
     std::vector<Bracket> brackets{};     ///< one per movable cut
-    std::vector<double> part_weights{};  ///< counted
+    std::vector<double> part_weights{};  ///< counted, or of the ranks' present parts
     std::vector<Part> parts{};           ///< of each rank's points
+    Bisection turned{};                  ///< cuts across other axes than `cuts`, if these may turn
     std::optional<KeptTree> held{};      ///< what the ranks hold, on rank 0 if that may be kept
     std::vector<std::byte> message{};    ///< verdict and arrays, as sent
 };

@@ -1,9 +1,14 @@
 #include "estimate/keeping_mpi.hpp"
 
+#include "arithmetic/part_share.hpp"
+#include "bisection/bisection.hpp"
 #include "collective/communicator.hpp"
+#include "cuts/tree.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "estimate/earlier_cuts.hpp"
 #include "options/call_kind.hpp"
+
+#include <rrcb/quality.hpp>
 
 #include <algorithm>
 #include <array>
@@ -34,14 +39,105 @@ bool saves_ghosts(const Cuts& reused, const Cuts& anew, const PointSample& sampl
     return static_cast<double>(after) < fewer * static_cast<double>(before);
 }
 
+namespace {
+
+/// Returns how near a position is to the cuts above it: 1 for each that it is on, falling off to 0
+/// at `reach`. Of even layers of points the sum depends little on where between two a cut is.
+double nearness(const Cuts& cuts, const Vector& position, double reach) {
+    double sum = 0;
+    for (Descent at = root_of(cuts); !at.is_part();) {
+        const Cut& cut = cuts.tree[at.node];
+        const double distance = std::abs(position[cut.axis] - cut.at[cut.axis]) / reach;
+        if (distance < 1) sum += (1 - distance * distance) * (1 - distance * distance);
+        at = is_above(cut, position, cuts.dimension) ? at.upper() : at.lower();
+    }
+    return sum;
+}
+
+}  // namespace
+
+double wide_reach(const Box& box, std::int64_t num_points) {
+    constexpr double spacings = 6;
+    double sum = 0;
+    int num_axes = 0;
+    for (std::size_t a = 0; a < max_dimension; ++a) {
+        const double half = box.upper[a] / 2 - box.lower[a] / 2;
+        if (!(half > 0)) continue;
+        sum += std::log(half);
+        ++num_axes;
+    }
+    if (num_axes == 0) return 0;
+    return 2 * spacings * std::exp((sum - std::log(static_cast<double>(num_points))) / num_axes);
+}
+
+bool has_far_fewer_near(const Cuts& turned, const Cuts& held, double reach, PointPasses& points,
+                        Participant& self) {
+    constexpr double enough = 0.85;
+    constexpr double digits = 1024;
+    std::array<std::int64_t, 2> near{};
+    self.attempt([&] {
+        const PointSample sample = points.sample(sample_size(1 << 14, mpi::size_of(self.comm)));
+        const auto size = static_cast<double>(sample.positions.size());
+        const auto count = [&](const Cuts& cuts) {
+            double sum = 0;
+            for (const Vector& position : sample.positions) sum += nearness(cuts, position, reach);
+            return std::llround(digits * sum / size * static_cast<double>(points.count()));
+        };
+        if (size > 0) near = {count(turned), count(held)};
+    });
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, near.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
+               "MPI_Allreduce");
+    return static_cast<double>(near[0]) < enough * static_cast<double>(near[1]);
+}
+
 bool reads_kept_tree(const Options& options, int num_ranks) {
     // As many as rank 0 divides by default.
     return num_ranks > 1 && num_ranks <= Tuning{}.central_parts && options.num_parts == num_ranks &&
-           options.refine != Refine::exact && !are_cuts_limited(options);
+           !are_cuts_limited(options);
 }
 
-bool keeps_at_once(double kept, double tolerance) {
-    return kept - 1 <= (tolerance - 1) / 10;
+bool keeps_at_once(double kept, const Options& options) {
+    return options.refine != Refine::exact && kept - 1 <= (options.imbalance_tolerance - 1) / 10;
+}
+
+namespace {
+
+/// A node of the tree: its weight, and how much heavier than by its share the heavier side is,
+/// times the share of the other side.
+struct NodeWeight {
+    double all;
+    double excess;
+};
+
+NodeWeight weight_at(const Descent& at, std::span<const double> part_weights,
+                     const Options& options) {
+    const auto of_parts = [&](std::span<const double> all) {
+        return all.subspan(at.first_part, at.num_parts);
+    };
+    const double share = share_below(of_parts(options.part_sizes), at.lower_parts());
+    const double all = sum_of(of_parts(part_weights));
+    const double missing = share * all - sum_of(of_parts(part_weights).first(at.lower_parts()));
+    return {all, missing > 0 ? share * missing : (share - 1) * missing};
+}
+
+}  // namespace
+
+bool are_as_exact(std::span<const double> kept, std::span<const double> found, const Cuts& cuts,
+                  double heaviest, const Options& options) {
+    constexpr double rounding = 1e-12;
+    if (std::ranges::count(kept, 0.0) > std::ranges::count(found, 0.0)) return false;
+    if (imbalance(kept, options.part_sizes) > imbalance(found, options.part_sizes) * (1 + rounding))
+        return false;
+    const auto is_as_exact = [&](const auto& self, const Descent& at) -> bool {
+        if (at.is_part()) return true;
+        const NodeWeight now = weight_at(at, kept, options);
+        const NodeWeight then = weight_at(at, found, options);
+        // The order of the points decides how near a division of coincident ones comes.
+        const double of_order = cuts.tree[at.node].divides != 0 ? heaviest / 2 : 0;
+        return now.excess <= then.excess + of_order + rounding * std::max(now.all, then.all) &&
+               self(self, at.lower()) && self(self, at.upper());
+    };
+    return is_as_exact(is_as_exact, root_of(cuts));
 }
 
 bool is_worth_moving(double kept, double offered, const Options& options) {

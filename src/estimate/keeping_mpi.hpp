@@ -4,6 +4,7 @@
 
 #include <rrcb/passes.hpp>
 
+#include <cstdint>
 #include <span>
 
 // When points stay in their parts.
@@ -16,7 +17,14 @@ namespace rrcb {
 bool reads_kept_tree(const Options& options, int num_ranks);
 
 /// Returns true if no better parts are searched for.
-bool keeps_at_once(double kept, double tolerance);
+bool keeps_at_once(double kept, const Options& options);
+
+/// Returns true if exact cuts, with parts of the weights `found`, are not worth moving points out
+/// of parts of the weights `kept`: these are as even, and at every cut as near to its share, but
+/// for round-off, and for a point if the cut divides coincident ones, of which `heaviest` is a
+/// bound.
+bool are_as_exact(std::span<const double> kept, std::span<const double> found, const Cuts& cuts,
+                  double heaviest, const Options& options);
 
 /// Returns true if parts of the imbalance `offered` are worth moving points out of parts of the
 /// imbalance `kept`.
@@ -42,6 +50,16 @@ double reference(double chosen, double share_now, bool are_moved);
 /// Returns true if the new cuts are worth moving points. Collective.
 bool saves_ghosts(const Cuts& reused, const Cuts& anew, const PointSample& sample, LocalIndex count,
                   const Participant& self);
+
+/// Returns the distance from a cut within which has_far_fewer_near() counts: some spacings of
+/// points that fill their box. It is the same whichever ranks hold the points.
+double wide_reach(const Box& box, std::int64_t num_points);
+
+/// Returns true if far fewer points are near the cuts `turned` than near `held`. By counts, because
+/// an estimate depends on which ranks hold the points, and might turn the cuts in every call.
+/// Collective: a reduction.
+bool has_far_fewer_near(const Cuts& turned, const Cuts& held, double reach, PointPasses& points,
+                        Participant& self);
 
 /// Returns the better balance: that from scratch if its balance is worth moving points, or if
 /// there is a sample and much fewer points of it are near its cuts; otherwise the points get back

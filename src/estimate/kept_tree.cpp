@@ -1,6 +1,7 @@
 #include "estimate/kept_tree.hpp"
 
 #include "arithmetic/infinity.hpp"
+#include "arithmetic/middle.hpp"
 #include "arithmetic/position_order.hpp"
 #include "cuts/tree.hpp"
 #include "estimate/cell_records.hpp"
@@ -16,6 +17,19 @@
 namespace rrcb {
 
 namespace {
+
+/// Returns the cut in the middle between two positions, `last` below it and `first` above.
+Cut cut_between_positions(const Vector& last, const Vector& first, int axis, int dimension) {
+    Cut cut = plane(axis, first[axis]);
+    for (int k = 0; k < dimension; ++k) {
+        const std::size_t a = ordering_axis(axis, k);
+        cut.at[a] = first[a];
+        if (last[a] == first[a]) continue;
+        cut.at[a] = middle_of(last[a], first[a]);
+        break;
+    }
+    return cut;
+}
 
 class Reader {
   public:
@@ -100,17 +114,17 @@ class Reader {
         if (above.count == 0) return plane(axis, infinity);
         const Vector& last = below.last[axis];
         const Vector& first = above.first[axis];
-        const double middle = std::midpoint(last[axis], first[axis]);
-        Cut cut = plane(axis, middle > last[axis] ? middle : first[axis]);
-        if (last[axis] < first[axis]) return cut;
-        const PositionOrder is_before(axis, 0, estimate_.dimension);
+        const PositionOrder is_before(axis, 0, options_.axes.plain ? 1 : estimate_.dimension);
+        if (is_before(last, first))
+            return cut_between_positions(last, first, axis, estimate_.dimension);
         if (options_.axes.plain || is_before(first, last)) return std::nullopt;
-        cut.divides = is_before(last, first) ? 0 : 1;
+        Cut cut = plane(axis, first[axis]);
+        cut.divides = 1;
         std::copy_n(first.begin(), estimate_.dimension, cut.at.begin());
         const bool may_divide = by_number && options_.tree.dealt == 0 &&
                                 options_.coincident == Coincident::divide &&
                                 options_.refine != Refine::none;
-        if (cut.divides != 0 && !may_divide) return std::nullopt;
+        if (!may_divide) return std::nullopt;
         return cut;
     }
 

@@ -1,6 +1,7 @@
 #include "search/cut_search.hpp"
 
 #include "arithmetic/infinity.hpp"
+#include "arithmetic/middle.hpp"
 #include "arithmetic/position_order.hpp"
 
 #include <algorithm>
@@ -202,12 +203,6 @@ Division best_division(std::span<const Candidate> sorted, const PositionOrder& b
     return best;
 }
 
-/// Returns the middle of two coordinates, or `above` if no double is between them.
-double middle_of(double below, double above) {
-    const double middle = below / 2 + above / 2;
-    return middle > below ? middle : above;
-}
-
 }  // namespace
 
 void move_behind(CutSearch& search) {
@@ -229,7 +224,9 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
                     std::span<const double> histogram) {
     const auto weights = weights_in(histogram, layout);
     const auto counts = counts_in(histogram, layout);
-    if (!(target.target > 0))
+    // Points below the first bracket may be settled there; then they are candidates first.
+    const bool may_end_below = search.stage != CutSearch::over_points || !(counts[0] > 0);
+    if (!(target.target > 0) && (may_end_below || !target.places.all()))
         return target.places.all() ? finish(search, -infinity, 0)
                                    : finish(search, search.lower, weights[0]);
     const Chosen chosen = choose(target, weights, counts);

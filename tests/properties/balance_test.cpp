@@ -21,6 +21,7 @@ namespace rrcb::test {
 namespace {
 
 constexpr int num_cases = 100;
+constexpr int many_cases = 1000;  // some faults show in one case of a hundred
 
 /// A case, this rank's points of it, and the answer.
 struct Answer {
@@ -98,7 +99,7 @@ TEST(Balance, gives_every_point_one_part_that_look_ups_find) {
                              fault_of_look_ups(answer.cloud, answer.parts, answer.result.cuts),
                              fault_of_report(answer)});
         },
-        num_cases);
+        many_cases);
 }
 
 TEST(Balance, is_within_the_tolerance_or_one_object) {
@@ -114,7 +115,8 @@ TEST(Balance, is_within_the_tolerance_or_one_object) {
         num_cases);
 }
 
-/// What each part may miss of its share: half of the heaviest point at each cut above it.
+/// What each part may miss of its share: half of the heaviest point at each cut above it, and more
+/// if a point weighs less on the other side, of another size.
 std::string fault_of_shares(const Answer& answer) {
     const Options& options = answer.options;
     const auto num_parts = static_cast<std::size_t>(options.num_parts);
@@ -126,9 +128,10 @@ std::string fault_of_shares(const Answer& answer) {
     const bool by_count =
         answer.result.report.details.all_weights_zero || answer.cloud.weights.empty();
     const double heaviest = by_count ? 1 : std::ranges::max(answer.cloud.weights);
+    const double at_cut = options.part_sizes.empty() ? heaviest / 2 : heaviest;
     const int levels = static_cast<int>(std::bit_width(num_parts - 1));
     for (std::size_t p = 0; p < num_parts; ++p)
-        if (std::abs(weights[p] - total * (sizes[p] / size)) > levels * heaviest / 2 + 1e-9 * total)
+        if (std::abs(weights[p] - total * (sizes[p] / size)) > levels * at_cut + 1e-9 * total)
             return "part " + std::to_string(p) + " has " + std::to_string(weights[p]) + " of " +
                    std::to_string(total);
     return {};

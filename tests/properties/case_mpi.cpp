@@ -48,6 +48,13 @@ double weight(Weights weights, std::int32_t number, bool is_first) {
             return std::pow(10.0, 60 * (number / one) - 30);
         case Weights::one_giant:
             return is_first ? 1e6 : 1 + number % 3;
+        case Weights::passive:
+            return number % 2 == 0 ? 1 : 1e-20;
+        case Weights::many_decades:
+            return std::pow(10.0, 600 * (number / one) - 300);
+        case Weights::subnormal:
+            return number % 3 == 0 ? 1e-300
+                                   : number % 1000 * std::numeric_limits<double>::denorm_min();
     }
     return 0;
 }
@@ -58,6 +65,24 @@ std::int32_t displaced(std::int32_t number, std::int32_t copy, std::uint32_t sal
     const auto mixed = static_cast<std::uint32_t>(number) * 2654435761U +
                        static_cast<std::uint32_t>(copy) * (40503U + 2 * salt);
     return static_cast<std::int32_t>((mixed >> 7) % (1U << bits));
+}
+
+double size(Sizes sizes, std::int32_t number, std::int32_t part) {
+    if (number == 0) return 0;
+    const double share = displaced(number, part + 1, 5) / one;
+    switch (sizes) {
+        case Sizes::few_values:
+            return number;
+        case Sizes::tiny:
+            return number < 3 ? 1e-5 : 1;
+        case Sizes::decades:
+            return std::pow(10.0, -6 * share);
+        case Sizes::many_decades:
+            return std::pow(10.0, 600 * share - 300);
+        case Sizes::subnormal:
+            return number < 4 ? 100 * number * std::numeric_limits<double>::denorm_min() : 1;
+    }
+    return 0;
 }
 
 void append(Cloud& cloud, const Case& input, const Seed& seed, std::int32_t copy) {
@@ -93,7 +118,9 @@ void broadcast(std::vector<T>& list, MPI_Comm comm) {
 Options Case::options() const {
     Options options;
     options.num_parts = shape.num_parts;
-    options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
+    for (const std::int32_t number : part_sizes)
+        options.part_sizes.push_back(
+            size(shape.sizes, number, static_cast<std::int32_t>(options.part_sizes.size())));
     options.refine = shape.refine;
     options.tuning.support_mesh = shape.support_mesh;
     if (shape.central_parts != 0) options.tuning.central_parts = shape.central_parts;
@@ -106,7 +133,7 @@ Options Case::options() const {
 PaperOptions Case::paper_options() const {
     PaperOptions options;
     options.num_parts = shape.num_parts;
-    options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
+    options.part_sizes = this->options().part_sizes;
     options.domain = shape.choice % 2 == 0 ? PaperDomain::sampled : PaperDomain::points;
     options.cut_rule = shape.choice / 2 % 4 == 0 ? CutRule::midpoint : CutRule::weighted_fraction;
     options.plain_cuts = shape.plain_cuts != 0;
@@ -121,7 +148,7 @@ std::ostream& operator<<(std::ostream& out, const Case& input) {
     out << "dimension " << shape.dimension << ", spaces " << name(shape.spaces[0])
         << name(shape.spaces[1]) << name(shape.spaces[2]) << ", weights " << name(shape.weights)
         << ", owners " << name(shape.owners) << ", copies " << shape.copies << ", parts "
-        << shape.num_parts << " of sizes {";
+        << shape.num_parts << " of sizes, kind " << name(shape.sizes) << ", {";
     for (const int size : input.part_sizes) out << ' ' << size;
     out << " }, refine " << name(shape.refine) << ", mesh " << shape.support_mesh
         << ", central parts " << shape.central_parts << ", tolerance " << shape.tolerance

@@ -22,7 +22,25 @@ enum class Space : std::int32_t {
     flat       ///< one value
 };
 
-enum class Weights : std::int32_t { none, zero, few_values, decades, one_giant };
+enum class Weights : std::int32_t {
+    none,
+    zero,
+    few_values,
+    decades,  ///< 1e-30 ... 1e30
+    one_giant,
+    passive,       ///< 1 or 1e-20
+    many_decades,  ///< 1e-300 ... 1e300
+    subnormal      ///< 0, subnormal numbers, or 1e-300
+};
+
+/// How numbers from 0 to 4 become sizes of parts; 0 stays 0.
+enum class Sizes : std::int32_t {
+    few_values,
+    tiny,          ///< 1e-5 or 1
+    decades,       ///< 1e-6 ... 1
+    many_decades,  ///< 1e-300 ... 1e300
+    subnormal      ///< subnormal numbers, or 1
+};
 
 enum class Owners : std::int32_t { scattered, blocks, one_rank };
 
@@ -40,6 +58,7 @@ struct Case {
         std::int32_t copies = 1;  ///< of each point, displaced
         std::array<Space, 3> spaces{};
         Weights weights = Weights::none;
+        Sizes sizes = Sizes::few_values;
         Owners owners = Owners::scattered;
         std::int32_t num_parts = 1;
         Refine refine = Refine::tolerance;

@@ -15,6 +15,7 @@ constexpr double rounding = 1e-12;
 
 struct Tally {
     std::vector<double> part_weights;
+    std::vector<double> counts;  ///< of points in the parts
     std::vector<double> sizes;
     TreeShape tree;
     double total = 0;
@@ -25,8 +26,11 @@ Tally tally(const Cloud& cloud, const std::vector<Part>& parts, const Options& o
     Tally result;
     const std::vector<double> weights = balanced_weights(cloud);
     result.part_weights.resize(static_cast<std::size_t>(options.num_parts));
-    for (LocalIndex i = 0; i < parts.size(); ++i)
+    result.counts.resize(result.part_weights.size());
+    for (LocalIndex i = 0; i < parts.size(); ++i) {
         result.part_weights[static_cast<std::size_t>(parts[i])] += weights[i];
+        result.counts[static_cast<std::size_t>(parts[i])] += 1;
+    }
     result.sizes = options.part_sizes;
     result.tree = options.tree;
     if (result.sizes.empty()) result.sizes.assign(result.part_weights.size(), 1.0);
@@ -37,6 +41,16 @@ Tally tally(const Cloud& cloud, const std::vector<Part>& parts, const Options& o
 
 double sum(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Returns true if a side of a cut has so few points, for parts of equal size, that their number
+/// may decide where it is.
+bool fills_a_side(std::size_t first, std::size_t last, std::size_t num_below, const Tally& tally) {
+    const std::span<const double> sizes = std::span(tally.sizes).subspan(first, last - first);
+    const std::span<const double> counts = std::span(tally.counts).subspan(first, last - first);
+    return std::ranges::min(sizes) == std::ranges::max(sizes) &&
+           (sum(counts.first(num_below)) < 2.0 * static_cast<double>(num_below) ||
+            sum(counts.subspan(num_below)) < 2.0 * static_cast<double>(counts.size() - num_below));
 }
 
 std::string fault_of_node(std::size_t first, std::size_t last, const Tally& tally) {
@@ -50,7 +64,8 @@ std::string fault_of_node(std::size_t first, std::size_t last, const Tally& tall
     const double share = all_sizes > 0 ? sum(sizes.subspan(first, num_below)) / all_sizes : 0;
     const double below = sum(weights.subspan(first, num_below));
     const double allowed = share > 0 && share < 1 ? tally.object : 0;
-    if (std::abs(below - share * all) > allowed + rounding * tally.total) {
+    const bool is_wrong = std::abs(below - share * all) > allowed + rounding * tally.total;
+    if (is_wrong && !fills_a_side(first, last, num_below, tally)) {
         std::ostringstream text;
         text << "parts " << first << " to " << last - 1 << " weigh " << all << ", " << below
              << " of it below the cut, not " << share * all << "; an object weighs at most "
@@ -106,9 +121,9 @@ std::string fault_of_exact_cuts(const Cloud& cloud, const std::vector<Part>& par
 std::string fault_of_heaviest_part(const Cloud& cloud, const std::vector<Part>& parts,
                                    const Options& options, double tolerance) {
     const Tally result = tally(cloud, parts, options);
-    const double share = result.total / sum(result.sizes);
+    const double all_sizes = sum(result.sizes);
     for (std::size_t p = 0; p < result.sizes.size(); ++p) {
-        const double most = tolerance * share * result.sizes[p] +
+        const double most = tolerance * result.total * (result.sizes[p] / all_sizes) +
                             num_levels(options.tree, options.num_parts) * result.object +
                             rounding * result.total;
         if (result.part_weights[p] <= most) continue;

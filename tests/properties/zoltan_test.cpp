@@ -40,6 +40,15 @@ bool is_own_method(const Case& input) {
     return domain_of(input) == std::string_view("ANALYTIC");
 }
 
+/// The case with numbers that floats can hold.
+Case told(Case input) {
+    Case::Shape& shape = input.shape;
+    shape.sizes = Sizes::few_values;
+    if (shape.weights == Weights::many_decades || shape.weights == Weights::subnormal)
+        shape.weights = Weights::decades;
+    return input;
+}
+
 /// The points as the callbacks tell them: weights are floats.
 Cloud told_cloud(const Case& input) {
     Cloud cloud = cloud_of(input, num_ranks());
@@ -79,7 +88,7 @@ void set_parameters(Program& program, const Case& input) {
 /// A program with this rank's objects of a case.
 struct Caller {
     explicit Caller(const Case& input)
-        : cloud(told_cloud(input)), program(cloud.dimension), options(input.options()) {
+        : cloud(told_cloud(told(input))), program(cloud.dimension), options(told(input).options()) {
         const Cloud mine = cloud.of_rank(rank());
         const Points points = mine.points();
         for (LocalIndex i = 0; i < mine.size(); ++i) {

@@ -46,11 +46,23 @@ TEST(CountInBins, ends_at_the_edge_that_is_near_enough) {
 }
 
 TEST(CountInBins, ends_at_once_where_nothing_belongs_below) {
+    for (const auto stage : {CutSearch::over_points, CutSearch::over_candidates}) {
+        CutSearch search = search_in(stage);
+        CutTarget target = target_of(0);
+        std::vector<double> histogram = histogram_of(slot_weights, many);
+        histogram[layout.first_count()] = 0;
+        decide_by_bins(search, target, layout, histogram);
+        EXPECT_EQ(search.stage, CutSearch::done);
+        EXPECT_EQ(search.cut.at[0], -infinity);
+    }
+}
+
+TEST(CountInBins, goes_on_below_the_bracket_where_points_are_settled_there) {
     CutSearch search = search_in(CutSearch::over_points);
     CutTarget target = target_of(0);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
-    EXPECT_EQ(search.stage, CutSearch::done);
-    EXPECT_EQ(search.cut.at[0], -infinity);
+    EXPECT_EQ(search.stage, CutSearch::over_candidates);
+    EXPECT_EQ(search.chosen, 0);
 }
 
 TEST(Narrow, goes_on_in_the_slot_of_the_target) {

@@ -269,13 +269,13 @@ TEST(KeptTree, may_lie_across_another_axis_that_is_nearly_as_long) {
     EXPECT_FALSE(read(halves(0.9), across({0}, 2), given));
 }
 
-TEST(KeptTree, are_cut_in_the_middle_of_a_gap_and_at_the_first_point_above_where_there_is_none) {
+TEST(KeptTree, are_cut_in_the_middle_of_a_gap_along_the_first_axis_that_has_one) {
     const auto gap = read({{{0, 5}, {1, 5}}, {{4, 0}}}, across({0}, 2));
     ASSERT_TRUE(gap);
     EXPECT_EQ(gap->cuts.tree[0].at, (Vector{2.5, -infinity, -infinity}));
     const auto tie = read({{{0, 5}, {1, 2}}, {{1, 3}, {4, 0}}}, across({0}, 2));
     ASSERT_TRUE(tie);
-    EXPECT_EQ(tie->cuts.tree[0].at, (Vector{1, 3, -infinity}));
+    EXPECT_EQ(tie->cuts.tree[0].at, (Vector{1, 2.5, -infinity}));
     Options plain = options_for(2);
     plain.axes.plain = true;
     EXPECT_FALSE(read({{{0, 5}, {1, 2}}, {{1, 3}, {4, 0}}}, across({0}, 2), plain));

@@ -156,6 +156,9 @@ ByteColumn byte_column(const WritableColumn<Array>& column) {
 RRCB_API void move(const Plan& plan, std::span<const ByteColumn> columns,
                    const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
 
+/// Moves columns whose results are their own arrays. Collective.
+RRCB_API void move_in_place(const Plan& plan, std::span<const ByteColumn> columns, MPI_Comm comm);
+
 /// Moves columns by a plan for which there is a `move` as above. Collective.
 template <class AnyPlan, class... T>
 std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column<T>...>& columns,
@@ -205,6 +208,24 @@ template <class Columns>
 [[nodiscard]] auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
                             const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::moved(plan, columns, comm, limits, report);
+}
+
+/// Moves points along a plan within the vectors that hold them. Collective.
+///
+///     rrcb::transfer_in_place(moves, comm, rrcb::column(xyz, 3), rrcb::column(mass));
+///
+/// Only points that move are copied: first the arriving ones, in the order of the import lists, to
+/// the end; then the last ones to the places of leaving ones, each in ascending order. Other points
+/// keep their indices, which transfer() changes. The same in separate calls.
+/// @param plan    of the points of this rank
+/// @param comm    of the plan, or a congruent one
+/// @param columns of different vectors, of the same types in the same order on every rank
+/// Throws Error as transfer(); then vectors are unchanged, unless a message fails. Cost: as
+/// transfer(), but no time for points that stay, except when a vector grows beyond its capacity.
+template <class... Vectors>
+void transfer_in_place(const Plan& plan, MPI_Comm comm, const WritableColumn<Vectors>&... columns) {
+    const std::array<detail::ByteColumn, sizeof...(Vectors)> each{detail::byte_column(columns)...};
+    detail::move_in_place(plan, each, comm);
 }
 
 }  // namespace rrcb

@@ -225,13 +225,16 @@ Delivered deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
         stream->allocate(delivery.to, delivery.from, mpi::rank_of(self.comm),
                          mpi::size_of(self.comm));
         lanes = make_results(columns, delivery.num_kept + total(delivery.from));
+        if (delivery.is_in_place)
+            for (Lane& lane : lanes) lane.from = lane.to;
     });
     std::array shared{Shared{"the type of a column", hash_of_columns(columns)},
                       Shared{"TransferLimits::bytes", limits.bytes}};
     const std::size_t differing = find_difference(self, shared);
     if (differing == 0) refuse_types(columns, self);
     if (differing < shared.size()) refuse(shared[differing], self);
-    for (const Lane& lane : lanes) keep(delivery, lane);
+    if (!delivery.is_in_place)
+        for (const Lane& lane : lanes) keep(delivery, lane);
     run(*stream, delivery, lanes, self);
     if (report != nullptr)
         *report = {stream->num_bytes(), point_bytes * total(delivery.to), stream->num_messages()};

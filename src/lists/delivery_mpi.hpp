@@ -20,6 +20,7 @@ struct Delivery {
     std::span<const RankCount> to{};        ///< number for each rank, ascending
     std::span<const RankCount> from{};
     std::uint64_t overtaking = 0;  ///< number of a transfer; if the same on all ranks, refused
+    bool is_in_place = false;      ///< results are the columns themselves, all of which are kept
 };
 
 /// Memory for the result of a column whose type is not known.

@@ -25,6 +25,10 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self);
 void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
 
+/// As transfer_in_place(), for columns without their types.
+void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns,
+                   Participant& self);
+
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                  Participant& self);
 Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,

@@ -8,6 +8,7 @@
 #include "options/rejection.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <memory>
 
@@ -34,37 +35,96 @@ void check_lists(const Plan& plan, int num_ranks) {
 
 }  // namespace
 
-void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
-          const TransferLimits& limits, TransferReport* report, Participant& self) {
-    Delivery delivery;
+namespace {
+
+/// Lists of a transfer that outlive it.
+struct Lists {
     std::vector<LocalIndex> sent;
     std::vector<RankCount> to;
     std::vector<RankCount> from;
     TransferLog* log = nullptr;
-    self.attempt([&] {
-        const int num_ranks = mpi::size_of(self.comm);
-        mpi::require_group(plan.group, "the plan", self);
-        check_lists(plan, num_ranks);
-        RankOrder order(plan.export_ranks, num_ranks);
-        sent.resize(plan.export_indices.size());
-        order.for_each(
-            [&](std::size_t k, std::size_t place) { sent[place] = plan.export_indices[k]; });
-        to = order.counts();
-        from = count_ascending(plan.import_ranks);
-        const LocalIndex num_kept = plan.num_points - plan.export_indices.size();
-        delivery = {plan.num_points, num_kept, plan.export_indices, sent, to, from};
-        log = mpi::Attribute<TransferLog>::find(self.comm);
-        if (log == nullptr)
-            log = mpi::Attribute<TransferLog>::keep(std::make_unique<TransferLog>(), self.comm);
-    });
+};
+
+/// Makes the lists. Throws Error if the plan is inconsistent.
+Delivery make_lists(const Plan& plan, Lists& lists, Participant& self) {
+    const int num_ranks = mpi::size_of(self.comm);
+    mpi::require_group(plan.group, "the plan", self);
+    check_lists(plan, num_ranks);
+    RankOrder order(plan.export_ranks, num_ranks);
+    lists.sent.resize(plan.export_indices.size());
+    order.for_each(
+        [&](std::size_t k, std::size_t place) { lists.sent[place] = plan.export_indices[k]; });
+    lists.to = order.counts();
+    lists.from = count_ascending(plan.import_ranks);
+    lists.log = mpi::Attribute<TransferLog>::find(self.comm);
+    if (lists.log == nullptr)
+        lists.log = mpi::Attribute<TransferLog>::keep(std::make_unique<TransferLog>(), self.comm);
+    const LocalIndex num_kept = plan.num_points - plan.export_indices.size();
+    return {plan.num_points, num_kept, plan.export_indices, lists.sent, lists.to, lists.from};
+}
+
+/// Removes rows: moves the last ones, ascending, to the places of removed ones.
+void remove_rows(std::byte* rows, std::size_t row_bytes, LocalIndex num_left,
+                 std::span<const LocalIndex> removed) {
+    auto last = std::ranges::lower_bound(removed, num_left);
+    const auto places = std::span(removed.begin(), last);
+    LocalIndex from = num_left;
+    for (const LocalIndex place : places) {
+        for (; last != removed.end() && *last == from; ++last) ++from;
+        std::memcpy(rows + place * row_bytes, rows + from * row_bytes, row_bytes);
+        ++from;
+    }
+}
+
+}  // namespace
+
+void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
+          const TransferLimits& limits, TransferReport* report, Participant& self) {
+    Delivery delivery;
+    Lists lists;
+    self.attempt([&] { delivery = make_lists(plan, lists, self); });
     const Delivered delivered = deliver(delivery, columns, limits, report, self);
-    log->add(plan, delivered.moves, delivered.is_like_before);
+    lists.log->add(plan, delivered.moves, delivered.is_like_before);
+}
+
+void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns,
+                   Participant& self) {
+    Delivery delivery;
+    Lists lists;
+    self.attempt([&] {
+        delivery = make_lists(plan, lists, self);
+        delivery.is_in_place = true;
+        delivery.num_kept = plan.num_points;
+        delivery.removed = {};
+    });
+    Delivered delivered;
+    try {
+        delivered = deliver(delivery, columns, {}, nullptr, self);
+    } catch (...) {
+        for (const detail::ByteColumn& column : columns)
+            column.resize(column.result, column.num_values);
+        throw;
+    }
+    const LocalIndex num_all = plan.num_points + plan.import_ranks.size();
+    const LocalIndex num_left = num_all - plan.export_indices.size();
+    for (const detail::ByteColumn& column : columns) {
+        std::byte* rows = column.resize(column.result, num_all * column.components);
+        remove_rows(rows, column.components * column.value_bytes, num_left, plan.export_indices);
+        column.resize(column.result, num_left * column.components);
+    }
+    // The points before are no more.
+    lists.log->add(plan, delivered.moves, true);
 }
 
 void detail::move(const Plan& plan, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
     Participant self = mpi::enter(user, CallName::transfer);
     rrcb::move(plan, columns, limits, report, self);
+}
+
+void detail::move_in_place(const Plan& plan, std::span<const ByteColumn> columns, MPI_Comm user) {
+    Participant self = mpi::enter(user, CallName::transfer);
+    rrcb::move_in_place(plan, columns, self);
 }
 
 }  // namespace rrcb

@@ -29,6 +29,7 @@ ONLY_CPP = {
     "balance_into": "rrcb_balance keeps memory with the balancer",
     "column": "rrcb_column is a struct",
     "columns": "an array of rrcb_column",
+    "transfer_in_place": "changes the length of vectors",
     "member_points": "rrcb_points has a stride in bytes",
     "view_points": "takes the views of C++ libraries",
     "is_whole": "rrcb_get_cuts refuses cuts that are not",

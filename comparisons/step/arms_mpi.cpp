@@ -13,8 +13,8 @@ namespace comparisons {
 
 namespace {
 
-constexpr std::pair<std::string_view, Arm (*)(const Flow&)> arms[] = {{"loop", loop},
-                                                                      {"by-hand", by_hand}};
+constexpr std::pair<std::string_view, Arm (*)(const Flow&)> arms[] = {
+    {"loop", loop}, {"neighbours", neighbours}, {"by-hand", by_hand}};
 
 }  // namespace
 
@@ -64,6 +64,28 @@ Arm loop(const Flow& flow) {
          [=](Particles& p) {
              p.forces =
                  rrcb::accumulate(state->near, p.column(p.ghost_forces), p.column(p.forces), comm);
+         }},
+    };
+}
+
+Arm neighbours(const Flow& flow) {
+    using rrcb::column;
+    const auto near = std::make_shared<rrcb::Neighbours>(
+        flow.cuts(), rrcb::NeighbourOptions{.radius = flow.radius(), .travel = flow.travel()},
+        flow.comm());
+    const std::size_t width = static_cast<std::size_t>(flow.dimension());
+    return {
+        {"migrate",
+         [=](Particles& p) { near->migrate(column(p.x, width), column(p.v, width), p.ids); }},
+        {"find_ghosts", [=](const Particles& p) { near->find_ghosts(column(p.x, width)); }},
+        {"fetch",
+         [=](Particles& p) {
+             near->fetch(rrcb::ghosts_of(p.ghost_x, p.ghost_v, p.ghost_ids), column(p.x, width),
+                         column(p.v, width), p.ids);
+         }},
+        {"accumulate",
+         [=](Particles& p) {
+             near->accumulate(column(p.ghost_forces, width), column(p.forces, width));
          }},
     };
 }

@@ -30,6 +30,9 @@ Arm make_arm(std::string_view name, const Flow& flow);
 /// The calls of the library that take points from any rank to any other.
 Arm loop(const Flow& flow);
 
+/// The exchanges of the library with the ranks nearby.
+Arm neighbours(const Flow& flow);
+
 /// A step as its author would write it for one program: the neighbours are known from the boxes,
 /// each gets one message in each stage with the columns side by side, and buffers are kept.
 Arm by_hand(const Flow& flow);

@@ -69,6 +69,10 @@ void Flow::move(Particles& particles, int step) const {
     }
 }
 
+void Flow::jump(Particles& particles) const {
+    for (std::size_t axis = 0; axis < particles.width(); ++axis) particles.x[axis] = cubes_[axis];
+}
+
 void Flow::push(Particles& particles) const {
     const auto write = [&](double scale, const std::vector<double>& x, const std::vector<double>& v,
                            std::vector<double>& forces) {

@@ -33,6 +33,9 @@ class Flow {
     /// Moves the points of this rank, which reflect at the sides of the box. Not collective.
     void move(Particles& particles, int step) const;
 
+    /// Moves the first point to the upper corner of the box. Not collective.
+    void jump(Particles& particles) const;
+
     /// Writes forces on points and ghosts that depend on these and on this rank. Not collective.
     void push(Particles& particles) const;
 

@@ -6,12 +6,15 @@
 //       the stages in the order of their calls; Callgrind counts within rrcb_step_stage()
 //   ... rrcb_step clock DIMENSION POINTS STEPS ROUND ARM ...
 //       seconds of a step, the arms in an order drawn for the round, then backwards
+//   ... rrcb_step jump DIMENSION POINTS
+//       calls after which each rank knows of a point that has passed all neighbours of rank 0
 //
 // POINTS are those of a rank. An arm may be named twice. comparisons/studies/run step makes tables.
 #include "arms_mpi.hpp"
 #include "counter_random.hpp"
 #include "counts_mpi.hpp"
 #include "failure.hpp"
+#include "far_jump_mpi.hpp"
 #include "flow_mpi.hpp"
 #include "text.hpp"
 
@@ -128,14 +131,25 @@ void print_times(const Flow& flow, int steps, int round, const Words& arms) {
                             write_number(seconds_of(arms[k], flow, steps)));
 }
 
+void print_discoveries(const Flow& flow) {
+    print(flow, "rank,calls,points,text");
+    int rank = 0;
+    for (const Discovery& found : jump_far(flow))
+        print(flow, std::to_string(rank++) + ',' + std::to_string(found.calls) + ',' +
+                        std::to_string(found.points) + ",\"" + found.text + '"');
+}
+
 void measure(const Words& words) {
+    const bool jumps = !words.empty() && words[0] == "jump";
     const std::size_t num_numbers = !words.empty() && words[0] == "clock" ? 5 : 4;
-    if (words.size() <= num_numbers) throw Failure("more arguments are needed; see the source");
+    if (words.size() < 3 || (!jumps && words.size() <= num_numbers))
+        throw Failure("more arguments are needed; see the source");
     const int dimension = std::stoi(words[1]);
-    const int steps = std::stoi(words[3]);
-    if (dimension < 2 || dimension > 3 || steps < 1)
-        throw Failure("the dimension must be 2 or 3, and steps 1 or more");
+    if (dimension < 2 || dimension > 3) throw Failure("the dimension must be 2 or 3");
     const Flow flow(dimension, std::stoll(words[2]), MPI_COMM_WORLD);
+    if (jumps) return print_discoveries(flow);
+    const int steps = std::stoi(words[3]);
+    if (steps < 1) throw Failure("steps must be 1 or more");
     const Words arms(words.begin() + static_cast<std::ptrdiff_t>(num_numbers), words.end());
     if (words[0] == "counts")
         print_counts(flow, steps, arms);

@@ -22,8 +22,9 @@ from document import CORES, markdown_table
 from driver import OUT, PROGRAMS, build, on_ranks
 from intervals import median_of
 
-ARMS = ("loop", "by-hand")
+ARMS = ("loop", "neighbours", "by-hand")
 CASES = ((2, 4), (2, 8), (3, 4), (3, 8))  # dimension, ranks
+JUMPS = (8, 16)  # ranks, in 2-D
 BY_CAUSE = ("loop", "ghosts")
 CASE = ["dim", "ranks"]
 # Most instructions a point and step, of stages or whole arms, which --hold checks.
@@ -31,8 +32,9 @@ BOUNDS = {
     (2, 4): {"loop ghosts": 78, "loop": 125, "by-hand": 44},
     (3, 8): {"loop ghosts": 135, "loop": 215, "by-hand": 132},
 }
+MOST_OF_BY_HAND = 1.2  # the library's step over that by hand
 TIMED_RANKS = 2
-TIMED = ("loop", "by-hand", "by-hand")  # one arm against itself
+TIMED = ("loop", "neighbours", "by-hand", "by-hand")  # one arm against itself
 STYLES = {"assign_all": "#CC79A7", "plan": "#E69F00", "transfer, migrate": "#D55E00",
           "ghosts, find_ghosts": "#0072B2", "fetch": "#009E73", "accumulate": "#000000"}  # fmt: skip
 COLOURS = {stage: colour for stages, colour in STYLES.items() for stage in stages.split(", ")}
@@ -129,7 +131,23 @@ def excesses(rows: pd.DataFrame) -> list[str]:
         numbers |= {f"{row.arm} {row.stage}": row.instructions for row in of_case.itertuples()}
         found += [f"{case_name(*case)}: {name} takes {numbers[name]:.1f} instructions a point, not {bound}"
                   for name, bound in bounds.items() if numbers[name] > bound]  # fmt: skip
+        ratio = numbers["neighbours"] / numbers["by-hand"]
+        if ratio > MOST_OF_BY_HAND:
+            found.append(f"{case_name(*case)}: neighbours take {ratio:.2f} of by-hand, not {MOST_OF_BY_HAND}")
     return found
+
+
+def jump_table(program: Path) -> list[list[str]]:
+    """Calls after which ranks know of a point that has passed all neighbours."""
+    lines = [["far jump", "neighbours of the rank fail in call", "all ranks fail by call", "points before", "after"]]
+    for ranks in JUMPS:
+        rows = on_ranks(ranks, program, "jump", "2", "1000", stdout=subprocess.PIPE, text=True, check=True).stdout
+        found = pd.read_csv(StringIO(rows))
+        if found["text"].isna().any():
+            sys.exit(f"{ranks} ranks: some rank knows nothing of a point that has passed all neighbours")
+        lines.append([f"{ranks} ranks", f"{found['calls'].min()}", f"{found['calls'].max()}", f"{1000 * ranks}",
+                      f"{found['points'].sum()}"])  # fmt: skip
+    return lines
 
 
 def count_all(program: Path, out: Path, points: int, steps: int, cases=CASES) -> pd.DataFrame:
@@ -144,6 +162,8 @@ def count_all(program: Path, out: Path, points: int, steps: int, cases=CASES) ->
         rows = pd.concat([rows, found], ignore_index=True)
     rows.to_csv(out / "step.csv", index=False)
     tables = [cost_table(rows)]
+    if cases is CASES:
+        tables.append(jump_table(program))
     if causes:
         tables = [stage_table(rows), *tables, cause_table(causes)]
         draw(rows, out / "step.png")

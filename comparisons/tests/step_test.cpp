@@ -1,5 +1,6 @@
 #include "../../tests/support/ranks.hpp"
 #include "counts_mpi.hpp"
+#include "far_jump_mpi.hpp"
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -51,6 +52,17 @@ TEST_P(Step, moves_the_same_points_and_ghosts_and_adds_the_same_forces_in_each_a
     EXPECT_GT(ghosts, 0U);
 }
 
+TEST_P(Step, with_neighbours_sends_three_messages_to_each_and_two_if_nothing_moves) {
+    const StageCounts moves = total("neighbours", flow_, false);
+    EXPECT_EQ(moves.collectives, 0);
+    EXPECT_EQ(moves.messages, 3 * mean_neighbours(GetParam()));
+    EXPECT_LE(moves.allocations, 4);
+    const StageCounts keeps = total("neighbours", flow_, true);
+    EXPECT_EQ(keeps.collectives, 0);
+    EXPECT_EQ(keeps.messages, 2 * mean_neighbours(GetParam()));
+    EXPECT_EQ(keeps.allocations, 0);
+}
+
 TEST_P(Step, by_hand_sends_three_messages_to_each_neighbour_and_two_if_nothing_moves) {
     const StageCounts moves = total("by-hand", flow_, false);
     EXPECT_EQ(moves.collectives, 0);
@@ -71,6 +83,19 @@ TEST_P(Step, of_calls_for_points_that_go_anywhere_takes_six_collectives) {
     EXPECT_LE(keeps.collectives, 2);
     EXPECT_LE(keeps.messages, 20);
     EXPECT_LE(keeps.allocations, 70);
+}
+
+TEST_P(Step, of_a_point_that_passes_all_neighbours_fails_on_every_rank_and_loses_no_point) {
+    // Otherwise all ranks are neighbours, and the point arrives.
+    const bool passes = mean_neighbours(GetParam()) < rrcb::test::num_ranks() - 1;
+    std::size_t points = 0;
+    for (const Discovery& found : jump_far(flow_)) {
+        points += found.points;
+        EXPECT_EQ(found.text.empty(), !passes);
+        if (!passes) continue;
+        EXPECT_LE(found.calls, 3);  // the graph is so wide
+    }
+    EXPECT_EQ(points, 1000U * static_cast<std::size_t>(rrcb::test::num_ranks()));
 }
 
 }  // namespace

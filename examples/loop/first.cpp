@@ -6,6 +6,7 @@
 #include <mpi.h>
 
 #include <cstdio>
+#include <optional>
 #include <vector>
 
 int main(int argc, char** argv) {
@@ -19,29 +20,30 @@ int main(int argc, char** argv) {
     double pairs = 0;
     {
         rrcb::Controller controller(comm);
-        rrcb::Balance balance;
+        rrcb::Cuts cuts;
+        std::optional<rrcb::Neighbours> neighbours;
+        std::vector<double> ghosts;
         for (int step = 0; step < 100; ++step) {
-            const rrcb::Points points = rrcb::interleaved_points(positions, 2);
-            const double start = MPI_Wtime();
-            const bool is_due = step == 0 || controller.due();
-            if (is_due)
-                balance = rrcb::balance(points, {}, balance.cuts, comm);
-            else
-                balance.parts = rrcb::assign_all(balance.cuts, points, comm);
-            const rrcb::Plan plan = rrcb::plan(balance, comm);
-            positions = rrcb::transfer(plan, rrcb::column(positions, 2), comm);
-            if (is_due) controller.rebalanced(balance.report, MPI_Wtime() - start);
-
-            const rrcb::Points mine = rrcb::interleaved_points(positions, 2);
-            const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, mine, {.radius = radius}, comm);
-            const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(positions, 2), comm);
+            if (step == 0 || controller.due()) {
+                const double start = MPI_Wtime();
+                const rrcb::Points points = rrcb::interleaved_points(positions, 2);
+                const rrcb::Balance balance = rrcb::balance(points, {}, cuts, comm);
+                const rrcb::Plan plan = rrcb::plan(balance, comm);
+                positions = rrcb::transfer(plan, rrcb::column(positions, 2), comm);
+                cuts = balance.cuts;
+                neighbours = rrcb::Neighbours(cuts, {.radius = radius, .travel = travel}, comm);
+                controller.rebalanced(balance.report, MPI_Wtime() - start);
+            } else {
+                neighbours->migrate(rrcb::column(positions, 2));
+            }
+            neighbours->find_ghosts(rrcb::column(positions, 2));
+            neighbours->fetch(rrcb::ghosts_of(ghosts), rrcb::column(positions, 2));
 
             const double began = MPI_Wtime();
             pairs += sum_of(count_neighbours(positions, ghosts));  // your step
             move(positions);
             const double seconds = MPI_Wtime() - began;
-            const double count = static_cast<double>(mine.count);
-            controller.step(seconds, count);
+            controller.step(seconds, static_cast<double>(positions.size() / 2));
         }
     }
     MPI_Allreduce(MPI_IN_PLACE, &pairs, 1, MPI_DOUBLE, MPI_SUM, comm);

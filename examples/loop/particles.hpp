@@ -9,6 +9,7 @@
 #include <vector>
 
 constexpr double radius = 0.01;
+constexpr double travel = 0.005;  // the furthest that move() takes a particle
 
 // A unit square of 200 x 200 particles, a strip of it on each rank.
 inline std::vector<double> strip_of(int rank, int num_ranks) {

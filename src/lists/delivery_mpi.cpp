@@ -174,7 +174,7 @@ LocalIndex total(std::span<const RankCount> counts) {
     return sum;
 }
 
-void check_column(const ByteColumn& column, LocalIndex count, const std::string& entries) {
+void check_column(const ByteColumn& column, LocalIndex count, std::string_view entries) {
     const std::size_t components = column.components;
     if (components == 0)
         reject("components of a column must be 1 or more; leave out columns without values");
@@ -183,7 +183,7 @@ void check_column(const ByteColumn& column, LocalIndex count, const std::string&
     if (count > 0 && column.num_values > 0 && column.num_values % count == 0)
         fix += ", or column(values, " + std::to_string(column.num_values / count) + ')';
     reject("a column has " + std::to_string(column.num_values) + " values for " +
-           std::to_string(count) + " " + entries + fix);
+           std::to_string(count) + " " + std::string(entries) + fix);
 }
 
 void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int num_ranks) {

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace rrcb {
@@ -47,7 +47,7 @@ LocalIndex total(std::span<const RankCount> counts);
 void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_ranks);
 
 /// Throws Error unless a column holds its components for each of `count` points or other `entries`.
-void check_column(const detail::ByteColumn& column, LocalIndex count, const std::string& entries);
+void check_column(const detail::ByteColumn& column, LocalIndex count, std::string_view entries);
 
 /// Result of deliver().
 struct Delivered {

@@ -22,13 +22,14 @@ struct NearPoints {
     RankLists& lists;
     double reach = reaches != nullptr ? reaches->greatest() : -infinity;
 
-    /// Calls check(i) for each point outside the quiet boxes before it is listed.
+    /// Calls check(i, position) for each point outside the quiet boxes before it is listed.
     template <class Check>
     void list(const QuietBoxes& quiet, Check&& check) {
         const auto list_in = [&](auto dimension) {
             quiet.for_each_outside(points, [&](LocalIndex i) {
-                check(i);
-                add<dimension>(i);
+                const Vector x = points.position(i);
+                check(i, x);
+                add<dimension>(i, x);
             });
         };
         if (points.dimension == 1) return list_in(std::integral_constant<int, 1>{});
@@ -38,8 +39,8 @@ struct NearPoints {
 
   private:
     template <int dimension>
-    void add(LocalIndex point) {
-        const Ball ball(points.position(point), radii.of_sender(point));
+    void add(LocalIndex point, const Vector& position) {
+        const Ball ball(position, radii.of_sender(point));
         if (images == nullptr) return add<dimension>(point, ball, Shift{});
         images->for_each(ball.widened(reach), [&](const Shift& shift, const Vector& centre) {
             add<dimension>(point, ball.moved_to(centre), shift);

@@ -106,8 +106,7 @@ void Neighbours::State::find_ghosts(const Points& points, const Radii& radii) {
         NearPoints near_points{
             points,           radii, *near, territory.images(), reaches ? &*reaches : nullptr,
             territory.rank(), *lists};
-        near_points.list(*quiet, [&](LocalIndex i) {
-            const Vector x = points.position(i);
+        near_points.list(*quiet, [&](LocalIndex i, const Vector& x) {
             if (territory.is_at_home(x)) return;
             territory.check_position(points, i);
             if (!territory.is_within_reach(x, radii.of(i)))

@@ -136,7 +136,7 @@ void Neighbours::fetch_columns(std::span<const ByteColumn> columns) {
         s.set_types(columns);
         s.require_ghosts(State::Stage::found);
         for (const ByteColumn& column : columns)
-            check_column(column, s.ghosts.num_points, "points of the ghosts");
+            check_column(column, s.ghosts.num_points, "points");
         for (std::size_t n = 0; n < exchange.ranks().size(); ++n) {
             const std::span<const LocalIndex> points = s.sent_to(n);
             std::byte* const place = exchange.message_to(n, points.size(), bytes_of(points.size()));
@@ -188,7 +188,7 @@ void Neighbours::accumulate_columns(std::span<const SumColumn> columns) {
                 type_of(column.ghosts) == type_of(column.points),
                 "columns of ghosts must have the type and the components of those of the points");
             check_column(column.ghosts, s.num_ghosts, "ghosts");
-            check_column(column.points, s.ghosts.num_points, "points of the ghosts");
+            check_column(column.points, s.ghosts.num_points, "points");
             s.of_ghosts.push_back(column.ghosts);
         }
         s.set_types(s.of_ghosts);

@@ -16,11 +16,11 @@ LIMITS = {"where": 2.6, "what": 0.8, "tell|tells|told": 0.5}
 LONGEST = 30
 LONG_SHARE = 0.03
 # Words as `wc -w` counts them. Others may have 250; all but examples/mpm together TOTAL.
-TOTAL = 17600
+TOTAL = 17750
 BUDGETS = {
     "README.md": 890, "CHANGELOG.md": 405, "CONTRIBUTING.md": 480, "comparisons/README.md": 710,
     "comparisons/columns.md": 950, "docs/choosing.md": 1130, "docs/hard_cases.md": 440,
-    "docs/errors.md": 830, "docs/first_program.md": 395, "docs/hosts.md": 640,
+    "docs/errors.md": 940, "docs/first_program.md": 395, "docs/hosts.md": 640,
     "docs/install.md": 640, "docs/kokkos.md": 970, "docs/loop.md": 610, "docs/machines.md": 490,
     "docs/parameters.md": 930, "docs/performance.md": 730, "docs/python.md": 415,
     "docs/rebalancing.md": 400,

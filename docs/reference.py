@@ -17,15 +17,15 @@ CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "t
        "kokkos", "kokkos/passes", "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
        "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters",
        "teuchos/time_monitor")
-C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/groups", "c/controller",
+C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/neighbours", "c/groups", "c/controller",
      "c/quality", "zoltan/rrcb_zoltan", "zoltan/optional_functions")
-FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "groups.f90",
+FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "arrays.F90", "neighbours.f90", "groups.f90",
            "controllers.F90", "functions.f90")
 # What a header is for, in the lists of headers.
 TASKS = {"points": "describe points", "views": "describe views", "kokkos": "divide on a device", "options": "choose", "balance": "divide",
          "cuts": "look up", "plan": "plan a move", "transfer": "move columns", "balancer": "divide, look up, move",
          "balancers": "divide, look up, move", "ghosts": "find neighbours and answer queries",
-         "neighbours": "exchange in each step", "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure",
+         "neighbours": "exchange in each step", "arrays": "hold arrays that grow", "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure",
          "controller": "decide when to rebalance", "controllers": "decide when to rebalance",
          "cost": "learn weights", "restart": "save and load", "error": "handle errors", "paper": "compare"}
 

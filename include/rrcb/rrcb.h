@@ -13,6 +13,7 @@
 #include <rrcb/c/controller.h>
 #include <rrcb/c/ghosts.h>
 #include <rrcb/c/groups.h>
+#include <rrcb/c/neighbours.h>
 #include <rrcb/c/quality.h>
 #include <rrcb/version.h>
 

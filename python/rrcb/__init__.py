@@ -15,6 +15,7 @@ from ._cuts import Cuts
 from ._ghosts import Ghosts, Verification
 from ._groups import Groups, groups, join_keys
 from ._library import Error
+from ._neighbours import Neighbours
 
 __all__ = [
     "Balance",
@@ -25,6 +26,7 @@ __all__ = [
     "Error",
     "Ghosts",
     "Groups",
+    "Neighbours",
     "Plan",
     "Report",
     "Verification",

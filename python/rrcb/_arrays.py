@@ -225,6 +225,32 @@ class Columns:
         """Returns the columns as the library takes them, to be added."""
         return self._columns([(NUMBERS[a.dtype], row_length(a)) for a in self.arrays])
 
+    def as_arrays(self) -> tuple[int, Any]:
+        """Returns the results as arrays that the library makes longer or shorter."""
+        made = []
+        for k, a in enumerate(self.results):
+            kind = NUMBERS.get(a.dtype, BYTES)
+            size = row_length(a) * (a.itemsize if kind == BYTES else 1)
+            if size == 0:
+                raise c.Error(f"column {self.names[k]} has rows without values: leave it out")
+            made.append(c.Array(kind, size, pointer(a), len(a), 0, self._resize_of(k), None))
+        return len(made), (c.Array * len(made))(*made)
+
+    def addresses(self) -> Any:
+        """Returns the addresses of the columns."""
+        return (ctypes.c_void_p * len(self.arrays))(*map(pointer, self.arrays))
+
+    def _resize_of(self, k: int) -> Any:
+        def resize(_: Any, count: int) -> int | None:
+            values = self.results[k]
+            try:
+                values.resize((count, *values.shape[1:]), refcheck=False)
+            except MemoryError:
+                return None
+            return values.ctypes.data
+
+        return c.Resize(resize)
+
     def _columns(self, types: list[tuple[int, int]]) -> tuple[int, Any]:
         made = [
             c.Column(kind, size, pointer(a), pointer(result))

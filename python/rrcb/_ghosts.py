@@ -87,9 +87,7 @@ class Ghosts:
         fetched = self._fetch(x, lambda: self._require_positions(x))
         if self._box is None or self.count == 0:
             return fetched
-        images = np.ascontiguousarray(np.stack(axes_of(fetched), axis=1))
-        c.call("ghosts_apply_shifts", self._own, Points(images))
-        return tuple(images.T) if isinstance(x, tuple) else images.reshape(fetched.shape)
+        return shifted("ghosts_apply_shifts", self._own, x, fetched)
 
     def reply(self, data: Any) -> Any:
         """Returns rows that the ranks of the ghosts send back, such as answers. Collective.
@@ -171,14 +169,26 @@ class Ghosts:
         shares = [shown.receive[k] for k in range(shown.num_receive_ranks)]
         counts = [share.count for share in shares]
         self.ranks = np.repeat(np.array([share.rank for share in shares], dtype=np.int32), counts)
-        rows = copied(shown.send_indices, (shown.num_sent,), np.uintp)
-        needs = [shown.send[k] for k in range(shown.num_send_ranks)]
-        ends = np.cumsum([need.count for need in needs], dtype=int)
-        self.sent = {n.rank: rows[end - n.count : end] for n, end in zip(needs, ends)}
+        self.sent = sent_of(shown)
         shifts = np.zeros((self.count, 3), dtype=np.int32)
         if shown.shifts and self.count:
             ctypes.memmove(shifts.ctypes.data, shown.shifts, shifts.nbytes)
         self.shifts = shifts[:, :dimension].copy()
+
+
+def sent_of(shown: c.GhostPlan) -> dict[int, Array]:
+    """Returns the rows of the points that each rank needs."""
+    rows = copied(shown.send_indices, (shown.num_sent,), np.uintp)
+    needs = [shown.send[k] for k in range(shown.num_send_ranks)]
+    ends = np.cumsum([need.count for need in needs], dtype=int)
+    return {n.rank: rows[end - n.count : end] for n, end in zip(needs, ends)}
+
+
+def shifted(function: str, own: c.Handle, x: Any, fetched: Any) -> Any:
+    """Returns fetched positions, moved to those of the periodic images, of the kind of `x`."""
+    images = np.ascontiguousarray(np.stack(axes_of(fetched), axis=1))
+    c.call(function, own, Points(images))
+    return tuple(images.T) if isinstance(x, tuple) else images.reshape(fetched.shape)
 
 
 def numbers_of(data: Any, rows: int, rows_after: int) -> Columns:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ctypes import (
+    CFUNCTYPE,
     POINTER,
     Structure,
     c_char_p,
@@ -72,6 +73,35 @@ class GhostOptions(Structure):
     _fields_ = members(
         radius=c_double, radii=c_void_p, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
         num_parts=c_size_t, needs=c_int
+    )
+
+
+class NeighbourOptions(Structure):
+    """rrcb_neighbour_options."""
+
+    _fields_ = members(
+        radius=c_double, travel=c_double, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
+        num_parts=c_size_t, needs=c_int
+    )
+
+
+Resize = CFUNCTYPE(c_void_p, c_void_p, c_size_t)
+
+
+class Array(Structure):
+    """rrcb_array."""
+
+    _fields_ = members(
+        type=c_int, components=c_size_t, values=c_void_p, count=c_size_t, capacity=c_size_t,
+        resize=Resize, owner=c_void_p
+    )
+
+
+class SharedEntries(Structure):
+    """rrcb_shared_entries."""
+
+    _fields_ = members(
+        num_ranks=c_size_t, ranks=c_void_p, num_indices=c_size_t, indices=c_void_p
     )
 
 
@@ -156,6 +186,15 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "groups_sums": (c_void_p, c_size_t, Address, Address),
     "join_keys": (c_void_p, c_size_t, c_size_t, Address, Address),
     "ghosts_apply_shifts": (c_void_p, POINTER(Points)),
+    "neighbours_create": (c_void_p, POINTER(NeighbourOptions), HANDLE),
+    "neighbours_migrate": (c_void_p, POINTER(Points), c_size_t, c_void_p),
+    "neighbours_find_ghosts": (c_void_p, POINTER(Points), Address),
+    "neighbours_fetch": (c_void_p, c_size_t, c_void_p, c_void_p),
+    "neighbours_accumulate": (c_void_p, c_size_t, c_void_p),
+    "neighbours_sum": (c_void_p, POINTER(SharedEntries), c_size_t, c_size_t, c_void_p),
+    "neighbours_ghosts": (c_void_p, POINTER(GhostPlan)),
+    "neighbours_apply_shifts": (c_void_p, POINTER(Points)),
+    "neighbours_ranks": (c_void_p, POINTER(c_size_t), POINTER(c_void_p)),
     "controller_create_fortran": (c_int, HANDLE),
     "controller_step": (c_void_p, c_double, POINTER(c_int)),
     "controller_step_weight": (c_void_p, c_double, c_double, POINTER(c_int)),
@@ -172,4 +211,4 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "cost_model_costs": (c_void_p, c_size_t, Address),
     "cost_model_uses_costs": (c_void_p, POINTER(c_int)),
 }
-DESTROYED = ("destroy", "ghosts_destroy", "groups_destroy", "controller_destroy", "cost_model_destroy")
+DESTROYED = ("destroy", "ghosts_destroy", "groups_destroy", "neighbours_destroy", "controller_destroy", "cost_model_destroy")

@@ -1,4 +1,5 @@
 #include "c/columns.hpp"
+#include "c/domain.hpp"
 #include "c/handle_mpi.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
@@ -43,27 +44,9 @@ struct KeptOptions {
         options.radius = from->radius;
         options.needs = static_cast<Needs>(from->needs);
         if (from->radii != nullptr) options.radii = view(from->radii, num_points);
-        if (from->lower != nullptr || from->upper != nullptr) {
-            require(from->lower, "lower");
-            require(from->upper, "upper");
-            options.periodic.emplace();
-            std::copy_n(from->lower, max_dimension, options.periodic->lower.begin());
-            std::copy_n(from->upper, max_dimension, options.periodic->upper.begin());
-        }
-        require_array(from->num_parts, from->ranks_of_parts, "ranks_of_parts");
-        if (from->ranks_of_parts == nullptr) return;
-        for (const rrcb_rank_range& given : view(from->ranks_of_parts, from->num_parts))
-            ranks.push_back({given.first_rank, given.count});
-        options.ranks_of_parts = ranks;
+        read_domain(*from, options, ranks);
     }
 };
-
-const rrcb_rank_count* counts_at(const std::vector<RankCount>& counts) {
-    // Both are a rank and a number.
-    static_assert(sizeof(rrcb_rank_count) == sizeof(RankCount) &&
-                  offsetof(rrcb_rank_count, count) == offsetof(RankCount, count));
-    return reinterpret_cast<const rrcb_rank_count*>(counts.data());
-}
 
 void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
                  const rrcb_ghost_options* given_options, rrcb_ghosts** ghosts, Participant& self) {
@@ -169,16 +152,7 @@ void rrcb_ghosts_destroy(rrcb_ghosts** ghosts) {
 int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {
     return guarded(ghosts, [&](const auto& own) {
         rrcb::c::require(plan, "plan");
-        const rrcb::GhostPlan& from = own.plan;
-        *plan = {from.num_points,
-                 rrcb::total(from.receive),
-                 from.send.size(),
-                 rrcb::c::counts_at(from.send),
-                 from.send_indices.size(),
-                 from.send_indices.data(),
-                 from.receive.size(),
-                 rrcb::c::counts_at(from.receive),
-                 from.shifts.empty() ? nullptr : from.shifts.front().data()};
+        *plan = rrcb::c::view_of(own.plan);
     });
 }
 

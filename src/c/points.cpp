@@ -19,7 +19,7 @@ std::size_t bytes_of(rrcb_type type) {
 
 // Types by which the Fortran module reports arrays that do not fit together; `stride` is then the
 // extent that does not.
-enum FortranFault { wrong_weights = 11, wrong_axis = 12, wrong_shape = 13 };
+enum FortranFault { wrong_weights = 11, wrong_axis = 12, wrong_shape = 13, wrong_radii = 14 };
 
 /// Throws Error for points the Fortran module could not make.
 void check_fortran(const rrcb_points& from) {
@@ -31,6 +31,9 @@ void check_fortran(const rrcb_points& from) {
                    " points; give one for each, or no weights");
         case wrong_axis:
             reject("x, y and z must have one length, not " + count + " and " + extent);
+        case wrong_radii:
+            reject("radii has " + extent + " entries for " + count +
+                   " points; give one for each, or none");
         case wrong_shape:
             reject("coordinates has the shape (" + extent + ", " + count +
                    "); give (dimension, points) with a dimension of 1, 2 or 3, or call "

@@ -56,6 +56,11 @@ module rrcb_c_functions
       type(c_ptr), intent(out) :: bytes
       integer(c_size_t), intent(out) :: length
     end function
+    integer(c_int) function shift(handle, positions) bind(c)
+      import
+      type(c_ptr), value :: handle
+      type(rrcb_points), intent(in) :: positions
+    end function
     integer(c_int) function ask(handle, answer) bind(c)
       import
       type(c_ptr), value :: handle
@@ -71,6 +76,7 @@ module rrcb_c_functions
   procedure(free), bind(c, name="rrcb_destroy") :: c_destroy
   procedure(free), bind(c, name="rrcb_ghosts_destroy") :: c_ghosts_destroy
   procedure(free), bind(c, name="rrcb_groups_destroy") :: c_groups_destroy
+  procedure(free), bind(c, name="rrcb_neighbours_destroy") :: c_neighbours_destroy
   procedure(free), bind(c, name="rrcb_controller_destroy") :: c_controller_destroy
   procedure(free), bind(c, name="rrcb_cost_model_destroy") :: c_cost_model_destroy
   procedure(divide), bind(c, name="rrcb_balance") :: c_balance
@@ -84,6 +90,8 @@ module rrcb_c_functions
   procedure(move), bind(c, name="rrcb_ghosts_reply") :: c_ghosts_reply
   procedure(move), bind(c, name="rrcb_ghosts_accumulate") :: c_ghosts_accumulate
   procedure(move), bind(c, name="rrcb_groups_fetch") :: c_groups_fetch
+  procedure(shift), bind(c, name="rrcb_ghosts_apply_shifts") :: c_ghosts_apply_shifts
+  procedure(shift), bind(c, name="rrcb_neighbours_apply_shifts") :: c_neighbours_apply_shifts
   procedure(measure), bind(c, name="rrcb_imbalance") :: c_imbalance
   procedure(measure), bind(c, name="rrcb_worst_load_unbalance_percent") :: c_worst_load_unbalance_percent
   procedure(save_state), bind(c, name="rrcb_save_cuts") :: c_save_cuts
@@ -222,11 +230,61 @@ module rrcb_c_functions
       type(c_verify_options), intent(in) :: options
       type(c_verification), intent(inout) :: seen
     end function
-    integer(c_int) function c_ghosts_apply_shifts(handle, positions) &
-      bind(c, name="rrcb_ghosts_apply_shifts")
+    integer(c_int) function c_neighbours_create(balancer, options, handle) &
+      bind(c, name="rrcb_neighbours_create")
+      import
+      type(c_ptr), value :: balancer
+      type(c_neighbour_options), intent(in) :: options
+      type(c_ptr), value :: handle
+    end function
+    integer(c_int) function c_neighbours_migrate(handle, positions, num_columns, columns) &
+      bind(c, name="rrcb_neighbours_migrate")
       import
       type(c_ptr), value :: handle
       type(rrcb_points), intent(in) :: positions
+      integer(c_size_t), value :: num_columns
+      type(c_array), intent(inout) :: columns(*)
+    end function
+    integer(c_int) function c_neighbours_find_ghosts(handle, points, radii) &
+      bind(c, name="rrcb_neighbours_find_ghosts")
+      import
+      type(c_ptr), value :: handle, radii
+      type(rrcb_points), intent(in) :: points
+    end function
+    integer(c_int) function c_neighbours_fetch(handle, num_columns, columns, ghosts) &
+      bind(c, name="rrcb_neighbours_fetch")
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: num_columns
+      type(c_ptr), intent(in) :: columns(*)
+      type(c_array), intent(inout) :: ghosts(*)
+    end function
+    integer(c_int) function c_neighbours_accumulate(handle, num_columns, columns) &
+      bind(c, name="rrcb_neighbours_accumulate")
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: num_columns
+      type(c_column), intent(in) :: columns(*)
+    end function
+    integer(c_int) function c_neighbours_sum(handle, shared, num_entries, num_columns, columns) &
+      bind(c, name="rrcb_neighbours_sum")
+      import
+      type(c_ptr), value :: handle
+      type(c_shared_entries), intent(in) :: shared
+      integer(c_size_t), value :: num_entries, num_columns
+      type(c_column), intent(in) :: columns(*)
+    end function
+    integer(c_int) function c_neighbours_ghosts(handle, plan) bind(c, name="rrcb_neighbours_ghosts")
+      import
+      type(c_ptr), value :: handle
+      type(c_ghost_plan), intent(inout) :: plan
+    end function
+    integer(c_int) function c_neighbours_ranks(handle, count, ranks) &
+      bind(c, name="rrcb_neighbours_ranks")
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), intent(out) :: count
+      type(c_ptr), intent(out) :: ranks
     end function
     integer(c_int) function c_groups_create(balancer, points, keys, place, handle) &
       bind(c, name="rrcb_groups_create")

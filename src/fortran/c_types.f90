@@ -36,6 +36,29 @@ module rrcb_c_types
     type(c_ptr) :: receive = c_null_ptr, shifts = c_null_ptr
   end type
 
+  type, bind(c) :: c_neighbour_options
+    real(c_double) :: radius = 0, travel = 0
+    type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
+    integer(c_size_t) :: num_parts = 0
+    integer(c_int) :: needs = 0
+  end type
+
+  type, bind(c) :: c_array
+    integer(c_int) :: type = 0
+    integer(c_size_t) :: components = 0
+    type(c_ptr) :: values = c_null_ptr
+    integer(c_size_t) :: count = 0, capacity = 0
+    type(c_funptr) :: resize = c_null_funptr
+    type(c_ptr) :: owner = c_null_ptr
+  end type
+
+  type, bind(c) :: c_shared_entries
+    integer(c_size_t) :: num_ranks = 0
+    type(c_ptr) :: ranks = c_null_ptr
+    integer(c_size_t) :: num_indices = 0
+    type(c_ptr) :: indices = c_null_ptr
+  end type
+
   type, bind(c) :: c_verify_options
     integer(c_size_t) :: sample = 1000
     real(c_double) :: radius = 0

@@ -7,6 +7,7 @@ module rrcb_ghost_lists
   use rrcb_balancers
   implicit none
   private
+  public :: copy_lists
 
   !> Needs of radii that do not fit the points, see src/c/ghosts_mpi.cpp: they fail on all ranks.
   integer(c_int), parameter :: wrong_radii = -1
@@ -80,8 +81,15 @@ contains
     type(rrcb_ghost_plan), intent(inout) :: plan
     integer, intent(out), optional :: error
     type(c_ghost_plan) :: from
-    type(c_rank_count), pointer :: send(:), receive(:)
     call settle(c_ghosts_get_plan(self%handle, from), error)
+    call copy_lists(from, plan)
+  end subroutine
+
+  !> Copies the lists that C shows.
+  subroutine copy_lists(from, plan)
+    type(c_ghost_plan), intent(in) :: from
+    type(rrcb_ghost_plan), intent(inout) :: plan
+    type(c_rank_count), pointer :: send(:), receive(:)
     call c_f_pointer(from%send, send, [from%num_send_ranks])
     call c_f_pointer(from%receive, receive, [from%num_receive_ranks])
     plan%num_points = from%num_points

@@ -17,6 +17,8 @@ module rrcb
     rrcb_worst_load_unbalance_percent
   use rrcb_balancers, only: rrcb_balancer
   use rrcb_ghost_lists, only: rrcb_ghosts
+  use rrcb_arrays, only: rrcb_array
+  use rrcb_neighbour_lists, only: rrcb_neighbours
   use rrcb_group_lists, only: rrcb_groups, rrcb_join_keys
   use rrcb_controllers, only: rrcb_controller, rrcb_cost_model
 end module rrcb

@@ -10,9 +10,10 @@ module rrcb_types
   integer(c_int), parameter, public :: rrcb_float = 3, rrcb_double = 4
   !> Whose radius counts, if points have different ones.
   integer(c_int), parameter, public :: rrcb_needs_sender = 0, rrcb_needs_receiver = 1, rrcb_needs_either = 2
-  integer(c_int), parameter :: type_int32 = 1, type_int64 = 2, type_byte = 5
+  integer(c_int), parameter, public :: type_int32 = 1, type_int64 = 2
+  integer(c_int), parameter :: type_byte = 5
   !> Types of points whose arrays do not fit together, see src/c/points.cpp: they fail on all ranks.
-  integer(c_int), parameter :: wrong_weights = 11, wrong_axis = 12, wrong_shape = 13
+  integer(c_int), parameter :: wrong_weights = 11, wrong_axis = 12, wrong_shape = 13, wrong_radii = 14
 
   !> View of the points of this rank; coordinate a of point i is at axes(a) + (i - 1)*stride bytes.
   !> If your points are derived types, set axes(a) to c_loc(points(1)%x(a)), and `type` to
@@ -128,7 +129,7 @@ module rrcb_types
   end interface
 
   public :: rrcb_interleaved_points, rrcb_column_points, address_of, place_of, room_for, &
-    columns_in_c, indices_at, numbers_at
+    columns_in_c, indices_at, numbers_at, check_number
 
 contains
 
@@ -259,6 +260,13 @@ contains
     if (points%type >= wrong_weights) return
     points%type = fault
     points%stride = extent
+  end subroutine
+
+  !> Makes calls with these points fail unless there are as many radii.
+  pure subroutine check_number(count, points)
+    integer(c_size_t), intent(in) :: count
+    type(rrcb_points), intent(inout) :: points
+    if (count /= points%count) call note_fault(wrong_radii, count, points)
   end subroutine
 
   !> Adds an axis of as many coordinates.

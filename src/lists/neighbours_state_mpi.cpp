@@ -18,6 +18,12 @@ namespace rrcb {
 using detail::ByteColumn;
 using detail::SumColumn;
 
+void detail::NeighbourAccess::fail(Neighbours& neighbours, CallName call, const Failure& failure) {
+    NeighbourExchange& exchange = *Neighbours::State::of(neighbours).exchange;
+    exchange.begin(call);
+    exchange.attempt([&] { throw Error(failure.code, failure.text.data()); });
+}
+
 void Neighbours::State::open(std::vector<int> ranks, std::shared_ptr<CallLog> log) {
     exchange = std::make_unique<NeighbourExchange>(std::move(ranks), std::move(log));
     const std::size_t number = own() + 1;

@@ -38,6 +38,8 @@ struct detail::NeighbourAccess {
                     std::span<const SumColumn> columns) {
         neighbours.sum_columns(shared, columns);
     }
+    /// Makes a call fail that has not begun, here and on the neighbours. Throws Error.
+    static void fail(Neighbours& neighbours, CallName call, const Failure& failure);
 };
 
 struct Neighbours::State {

@@ -18,11 +18,11 @@ LONG_SHARE = 0.03
 # Words as `wc -w` counts them. Others may have 250; all but examples/mpm together TOTAL.
 TOTAL = 17750
 BUDGETS = {
-    "README.md": 890, "CHANGELOG.md": 405, "CONTRIBUTING.md": 480, "comparisons/README.md": 710,
+    "README.md": 890, "CHANGELOG.md": 408, "CONTRIBUTING.md": 480, "comparisons/README.md": 710,
     "comparisons/columns.md": 950, "docs/choosing.md": 1130, "docs/hard_cases.md": 440,
     "docs/errors.md": 940, "docs/first_program.md": 395, "docs/hosts.md": 640,
     "docs/install.md": 640, "docs/kokkos.md": 970, "docs/loop.md": 610, "docs/machines.md": 490,
-    "docs/parameters.md": 930, "docs/performance.md": 730, "docs/python.md": 415,
+    "docs/parameters.md": 930, "docs/performance.md": 730, "docs/python.md": 436,
     "docs/rebalancing.md": 400,
     "docs/weights.md": 700, "docs/zoltan.md": 1115, "docs/design/how_it_works.md": 900,
     "docs/design/many_ranks.md": 500, "docs/design/paper.md": 870,

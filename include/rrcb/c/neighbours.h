@@ -1,0 +1,141 @@
+#ifndef RRCB_C_NEIGHBOURS_H
+#define RRCB_C_NEIGHBOURS_H
+
+#include <rrcb/c/ghosts.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The ranks near this one, and memory for exchanges with them, as rrcb::Neighbours.
+ *
+ * Its functions wait only for neighbours. If one fails on a rank, it fails on the neighbours in the
+ * same call, on theirs in the next; then all ranks destroy their neighbours and create others. A
+ * null handle or array of columns on one rank is such a failure too. */
+typedef struct rrcb_neighbours rrcb_neighbours;
+
+/** Distances within which ranks are neighbours, one of them above 0, and the ranks of the parts; as
+ * rrcb::NeighbourOptions. The same on every rank. */
+typedef struct rrcb_neighbour_options {
+    double radius; /**< cut-off of ghosts, in the unit of the coordinates; the greatest of radii */
+    double travel; /**< that a point may move between two calls of rrcb_neighbours_migrate */
+    const double* lower;                   /**< of the periodic box, of length 3; null: none */
+    const double* upper;                   /**< of the same box */
+    const rrcb_rank_range* ranks_of_parts; /**< as in rrcb_ghost_options */
+    size_t num_parts;                      /**< length of `ranks_of_parts`, 0 if that is null */
+    int needs;                             /**< an rrcb_needs */
+} rrcb_neighbour_options;
+
+/** An array that calls make longer or shorter, as a std::vector. If it has no room for the points
+ * that arrive, the call makes room: no point is lost unless there is no memory. */
+typedef struct rrcb_array {
+    rrcb_type type;    /**< of the values, the same on every rank */
+    size_t components; /**< values of a point; its bytes for RRCB_BYTE */
+    void* values;      /**< of malloc() or null; the call moves it by realloc(), you free() it */
+    size_t count;      /**< points that it holds; set by the call */
+    size_t capacity;   /**< points that it has room for, `count` or more; set by the call */
+    /** Null: realloc(). Otherwise called instead, with `owner`, if `count` changes: keeps the first
+     * values and returns their address, or null if there is no memory. `capacity` is then unused.
+     */
+    void* (*resize)(void* owner, size_t count);
+    void* owner; /**< of the array, for `resize` */
+} rrcb_array;
+
+/** Entries that ranks have in common, as rrcb::SharedEntries. */
+typedef struct rrcb_shared_entries {
+    size_t num_ranks;             /**< length of `ranks` */
+    const rrcb_rank_count* ranks; /**< number shared with each neighbour, by ascending rank */
+    size_t num_indices;           /**< length of `indices` */
+    const size_t* indices;        /**< of the entries for the first rank, then for the next */
+} rrcb_shared_entries;
+
+/** Finds the neighbours by the cuts of a balancer. Collective.
+ *
+ * @param balancer   with all cuts; not needed afterwards, but its communicator is
+ * @param options    distances, periodic box, ranks of the parts
+ * @param neighbours as for rrcb_create */
+RRCB_API int rrcb_neighbours_create(const rrcb_balancer* balancer,
+                                    const rrcb_neighbour_options* options,
+                                    rrcb_neighbours** neighbours);
+
+/** Frees neighbours and their lists. Not collective.
+ *
+ * @param neighbours as for rrcb_destroy */
+RRCB_API void rrcb_neighbours_destroy(rrcb_neighbours** neighbours);
+
+/** Sends points that have left the parts of this rank to their ranks, and takes theirs, in place;
+ * as rrcb::Neighbours::migrate. With all neighbours.
+ *
+ * @param neighbours  whose ghosts end if a point moves
+ * @param positions   view of the points, which are also in `columns`
+ * @param num_columns the same on every rank
+ * @param columns     each has as many points as `positions`, and gets the new number of them
+ * Fails for a point in a part of no neighbour, which all arrays still hold. */
+RRCB_API int rrcb_neighbours_migrate(rrcb_neighbours* neighbours, const rrcb_points* positions,
+                                     size_t num_columns, rrcb_array* columns);
+
+/** Finds the points that other ranks need, as rrcb::Neighbours::find_ghosts. Without messages,
+ * except with RRCB_NEEDS_RECEIVER or RRCB_NEEDS_EITHER.
+ *
+ * @param neighbours get the lists
+ * @param points     of this rank
+ * @param radii      one for each point, at most `radius` of the options; null: that one */
+RRCB_API int rrcb_neighbours_find_ghosts(rrcb_neighbours* neighbours, const rrcb_points* points,
+                                         const double* radii);
+
+/** Fetches columns of the ghosts, as rrcb::Neighbours::fetch. With all neighbours.
+ *
+ * @param neighbours  with ghosts
+ * @param num_columns the same on every rank
+ * @param columns     addresses of columns of the points, of the types of `ghosts`
+ * @param ghosts      an array for each column; gets the number of ghosts */
+RRCB_API int rrcb_neighbours_fetch(rrcb_neighbours* neighbours, size_t num_columns,
+                                   const void* const* columns, rrcb_array* ghosts);
+
+/** Adds values of ghosts to those of their points, as rrcb::Neighbours::accumulate. With all
+ * neighbours.
+ *
+ * @param neighbours  whose ghosts were fetched
+ * @param num_columns the same on every rank
+ * @param columns     as for rrcb_ghosts_accumulate */
+RRCB_API int rrcb_neighbours_accumulate(rrcb_neighbours* neighbours, size_t num_columns,
+                                        const rrcb_column* columns);
+
+/** Replaces shared entries by the sums of all ranks that list them, as rrcb::Neighbours::sum. With
+ * all neighbours.
+ *
+ * @param neighbours  that share entries
+ * @param shared      lists of entries
+ * @param num_entries of this rank, shared or not
+ * @param num_columns the same on every rank
+ * @param columns     `to` has the entries, `from` is not used; no type is RRCB_BYTE */
+RRCB_API int rrcb_neighbours_sum(rrcb_neighbours* neighbours, const rrcb_shared_entries* shared,
+                                 size_t num_entries, size_t num_columns,
+                                 const rrcb_column* columns);
+
+/** Shows the lists of the ghosts; `receive` and `shifts` since they were fetched. Not collective.
+ *
+ * @param neighbours own the lists, until the next call
+ * @param plan       gets a view of them */
+RRCB_API int rrcb_neighbours_ghosts(const rrcb_neighbours* neighbours, rrcb_ghost_plan* plan);
+
+/** Moves fetched positions to those of the images, as rrcb_ghosts_apply_shifts. Not collective.
+ *
+ * @param neighbours that the positions were fetched from
+ * @param positions  one for each ghost; the arrays are changed */
+RRCB_API int rrcb_neighbours_apply_shifts(const rrcb_neighbours* neighbours,
+                                          const rrcb_points* positions);
+
+/** Shows the ranks of the neighbours. Not collective.
+ *
+ * @param neighbours own the ranks
+ * @param count      gets their number
+ * @param ranks      gets their address; they ascend */
+RRCB_API int rrcb_neighbours_ranks(const rrcb_neighbours* neighbours, size_t* count,
+                                   const int** ranks);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

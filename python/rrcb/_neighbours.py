@@ -1,0 +1,203 @@
+"""Exchanges with the ranks near this one, in each step of a simulation."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from typing import Any, Callable
+
+import numpy as np
+from mpi4py import MPI
+
+from . import _library as c
+from ._agreement import communicator, prepare
+from ._arrays import Array, Columns, Points, as_array, copied, numbers_in, split
+from ._balance import Distribution, cuts_from
+from ._cuts import Cuts
+from ._ghosts import NEEDS, box_of, numbers_of, radius_of, ranges_of, sent_of, shifted
+
+
+class Neighbours:
+    """The ranks near this one, by the cuts of a balance: made once for each balance.
+
+        neighbours = rrcb.Neighbours(balance, radius=0.1, travel=0.02)
+        here = neighbours.migrate(here["x"], here)  # in each step
+        neighbours.find_ghosts(here["x"])
+        near = neighbours.fetch_positions(here["x"])
+        force += neighbours.accumulate(force_of_ghosts)
+
+    `radius` is the cut-off of ghosts, the greatest if points have radii; `travel` the distance that a
+    point may move between two migrate(). `period` and `needs` as for Distribution.ghosts(). The
+    constructor is collective over `comm`, that of the balance by default. The other calls wait only
+    for neighbours, in the same order on every rank. If one raises Error on a rank, it does on its
+    neighbours in the same call, on theirs in the next: then all ranks make other Neighbours.
+    """
+
+    ranks: Array  #: of the neighbours, ascending
+
+    def __init__(
+        self,
+        cuts: Distribution | Cuts,
+        radius: float = 0.0,
+        travel: float = 0.0,
+        period: Any = None,
+        needs: str = "sender",
+        comm: MPI.Comm | None = None,
+    ) -> None:
+        own_comm = cuts.comm if comm is None and isinstance(cuts, Distribution) else comm
+        self.comm = communicator(own_comm)
+        balancer = c.OwnedHandle("create_fortran", "destroy", self.comm.py2f())
+
+        def local() -> c.NeighbourOptions:
+            given = cuts_from(cuts)
+            given.give(balancer)
+            if needs not in NEEDS:
+                raise c.Error(f"needs must be one of {', '.join(NEEDS)}, not {needs!r}")
+            options = c.NeighbourOptions(
+                float(numbers_in(radius, "radius")), float(numbers_in(travel, "travel"))
+            )
+            options.needs = NEEDS.index(needs)
+            self._box = box_of(period, given.dimension)
+            if self._box is not None:
+                options.lower, options.upper = (side.ctypes.data for side in self._box)
+            numbers = cuts.numbers if isinstance(cuts, Distribution) else None
+            if numbers is not None:
+                self._ranges = ranges_of(numbers, self.comm.Get_size())
+                options.ranks_of_parts = ctypes.addressof(self._ranges)
+                options.num_parts = len(numbers)
+            return options
+
+        options = prepare(self.comm, local)
+        self._own = c.OwnedHandle("neighbours_create", "neighbours_destroy", balancer, options)
+        number, ranks = ctypes.c_size_t(), ctypes.c_void_p()
+        c.call("neighbours_ranks", self._own, number, ranks)
+        self.ranks = copied(ranks, (number.value,), np.int32)
+
+    def __repr__(self) -> str:
+        return f"<rrcb.Neighbours: {len(self.ranks)} ranks>"
+
+    @property
+    def count(self) -> int:
+        """Ghosts of the latest fetch; 0 between find_ghosts() and that."""
+        return int(self._lists().num_ghosts)
+
+    @property
+    def sent(self) -> dict[int, Array]:
+        """Rows of the points that each rank needs, by find_ghosts()."""
+        return sent_of(self._lists())
+
+    def migrate(self, x: Any, data: Any) -> Any:
+        """Returns data of the points that are now on this rank, of the kind of `data`.
+
+        `x` are the positions on this rank, which `data` contains too. Points that left the parts of
+        this rank go to their ranks; arriving points take their rows, then the end. With all
+        neighbours. Raises Error if a point is in a part of no neighbour; `data` stay as they are.
+        """
+
+        def local() -> tuple[Columns, tuple[Any, ...]]:
+            points = Points(x)
+            columns = Columns(data, points.count, "points", 0)
+            columns.results = [np.array(a, order="C") for a in columns.arrays]
+            number, arrays = columns.as_arrays()
+            return columns, (points, number, arrays)
+
+        return self._exchange("migrate", local, (None, 0, None))
+
+    def find_ghosts(self, x: Any, radius: Any = None) -> None:
+        """Finds the points that other ranks need, for fetch(); after migrate(), on every rank.
+
+        `radius` has one for each point, at most that of these neighbours; None: that one. Without
+        messages, except with `needs` "receiver" or "either".
+        """
+
+        def local() -> tuple[None, tuple[Any, ...]]:
+            points = Points(x)
+            if radius is None:
+                return None, (points, None)
+            each = np.broadcast_to(radius_of(radius, points.count), (points.count,))
+            return None, (points, np.ascontiguousarray(each))
+
+        self._exchange("find_ghosts", local, (None, None))
+
+    def fetch(self, data: Any) -> Any:
+        """Returns data of the ghosts, a row each, of the kind of `data`. With all neighbours.
+
+        `data` has a row for each point of this rank, as for Plan.distribute().
+        """
+
+        def local() -> tuple[Columns, tuple[Any, ...]]:
+            columns = Columns(data, int(self._lists().num_points), "points", 0)
+            number, arrays = columns.as_arrays()
+            return columns, (number, columns.addresses(), arrays)
+
+        return self._exchange("fetch", local, (1, None, None))
+
+    def fetch_positions(self, x: Any) -> Any:
+        """Returns positions of the ghosts, moved to those of the periodic images."""
+        fetched = self.fetch(x)
+        if self._box is None or self.count == 0:
+            return fetched
+        return shifted("neighbours_apply_shifts", self._own, x, fetched)
+
+    def accumulate(self, data: Any) -> Any:
+        """Returns the sum of the ghosts' values for each point of this rank. With all neighbours.
+
+        `data` has a row for each ghost, of int32, int64, float32 or float64: forces += returned.
+        """
+
+        def local() -> tuple[Columns, tuple[Any, ...]]:
+            lists = self._lists()
+            columns = numbers_of(data, int(lists.num_ghosts), int(lists.num_points))
+            return columns, columns.as_numbers()
+
+        return self._exchange("accumulate", local, (1, None))
+
+    def sum(self, shared: Mapping[int, Any], data: Any) -> Any:
+        """Returns data whose shared rows are the sums over the ranks. With all neighbours.
+
+        `shared` has, for each neighbour in common, the rows of `data` that it has too, such as nodes
+        at the faces of parts: the same entries in the same order on both ranks.
+        """
+
+        def local() -> tuple[Columns, tuple[Any, ...]]:
+            rows = len(split(data)[0][0][1])
+            columns = numbers_of(data, rows, rows)
+            columns.results = [np.array(a, order="C") for a in columns.arrays]
+            lists = [as_array(shared[rank]) for rank in sorted(shared)]
+            if any(each.dtype.kind not in "iu" or each.size and each.min() < 0 for each in lists):
+                raise c.Error("shared rows must be integers, 0 or more")
+            indices = np.concatenate([np.empty(0, np.uintp), *lists]).astype(np.uintp)
+            counts = (c.RankCount * len(lists))(
+                *[c.RankCount(rank, len(shared[rank])) for rank in sorted(shared)]
+            )
+            self._kept = (counts, indices)
+            entries = c.SharedEntries(
+                len(lists), ctypes.addressof(counts), len(indices), indices.ctypes.data
+            )
+            return columns, (entries, rows, *columns.as_numbers())
+
+        return self._exchange("sum", local, (None, 0, 0, None))
+
+    def _exchange(
+        self,
+        function: str,
+        local: Callable[[], tuple[Columns | None, tuple[Any, ...]]],
+        nothing: tuple[Any, ...],
+    ) -> Any:
+        """Returns the result of a call; if local() fails, it fails on the neighbours too."""
+        communicator(self.comm)
+        try:
+            columns, arguments = local()
+        except Exception:
+            try:
+                c.call("neighbours_" + function, self._own, *nothing)
+            except c.Error:
+                pass
+            raise
+        c.call("neighbours_" + function, self._own, *arguments)
+        return None if columns is None else columns.result()
+
+    def _lists(self) -> c.GhostPlan:
+        shown = c.GhostPlan()
+        c.call("neighbours_ghosts", self._own, shown)
+        return shown

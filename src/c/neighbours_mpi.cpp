@@ -1,0 +1,258 @@
+#include "c/columns.hpp"
+#include "c/domain.hpp"
+#include "c/handle_mpi.hpp"
+#include "lists/neighbours_state_mpi.hpp"
+#include "options/rejection.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+#include <optional>
+#include <string>
+
+struct rrcb_neighbours {
+    static constexpr const char* name = "neighbours";
+    MPI_Comm comm = MPI_COMM_NULL;
+    std::optional<rrcb::Neighbours> all{};
+};
+
+namespace rrcb::c {
+
+namespace {
+
+using Access = detail::NeighbourAccess;
+
+/// Options of a call, with the memory they borrow.
+struct KeptOptions {
+    NeighbourOptions options{};
+    std::vector<RankRange> ranks{};
+
+    void read(const rrcb_neighbour_options* from) {
+        require(from, "options");
+        if (from->radius == 0 && from->travel == 0)
+            reject("radius and travel are both 0; give one of them");
+        options.radius = from->radius;
+        options.travel = from->travel;
+        options.needs = static_cast<Needs>(from->needs);
+        read_domain(*from, options, ranks);
+    }
+};
+
+std::unique_ptr<rrcb_neighbours> make(const rrcb_balancer& own, const rrcb_neighbour_options* given,
+                                      rrcb_neighbours** neighbours) {
+    KeptOptions kept;
+    const auto check = [&] {
+        require_cuts(own);
+        kept.read(given);
+        if (given->ranks_of_parts != nullptr) require_parts(own, given->num_parts);
+    };
+    std::unique_ptr<rrcb_neighbours> made;
+    {
+        Participant self = mpi::enter(own.comm, CallName::neighbours);
+        made = make_handle(self, neighbours, {}, check);
+        self.throw_failed_message();
+    }
+    made->comm = own.comm;
+    made->all.emplace(own.cuts, kept.options, own.comm);
+    return made;
+}
+
+/// Runs a call with neighbours. If reading its arguments fails, it fails on the neighbours too.
+template <class Read, class Body>
+int with_neighbours(CallName call, rrcb_neighbours* handle, Read&& read, Body&& body) noexcept {
+    return guarded(handle, [&](rrcb_neighbours& own) {
+        const Failure failure = attempt([&] { read(own); });
+        if (failure.failed) Access::fail(*own.all, call, failure);
+        body(*own.all);
+    });
+}
+
+std::size_t bytes_of_point(const rrcb_array& array) {
+    std::size_t bytes = 0;
+    visit_type(array.type, [&]<class T>(T) { bytes = array.components * sizeof(T); });
+    return bytes;
+}
+
+/// Makes room in an array for another number of values.
+std::byte* resize(void* given, std::size_t num_values) {
+    rrcb_array& array = *static_cast<rrcb_array*>(given);
+    const std::size_t count = num_values / array.components;
+    void* moved = array.values;
+    if (array.resize != nullptr) {
+        if (count != array.count) moved = array.resize(array.owner, count);
+    } else if (count > array.capacity) {
+        const std::size_t capacity = std::max(count, array.capacity + array.capacity / 2);
+        moved = std::realloc(array.values, capacity * bytes_of_point(array));
+        if (moved != nullptr) array.capacity = capacity;
+    }
+    if (moved == nullptr && count > 0) throw std::bad_alloc();
+    array.values = moved;
+    array.count = count;
+    return static_cast<std::byte*>(moved);
+}
+
+void require_array(const rrcb_array& array, std::size_t k) {
+    const std::string which = "array " + std::to_string(k) + " (the first is 0)";
+    if (array.components == 0)
+        reject("components of " + which +
+               " is 0; leave it out (in Fortran: let it take an array before)");
+    if (array.count > 0 && array.values == nullptr) reject("values of " + which + " is null");
+    if (array.resize == nullptr && array.capacity < array.count)
+        reject("capacity of " + which +
+               " is below its count; set it to the points that values has "
+               "room for");
+}
+
+/// Returns columns of `num_points` at the addresses `from`, or their own, with arrays as results.
+std::vector<detail::ByteColumn> arrays_in(std::span<rrcb_array> arrays, const void* const* from,
+                                          LocalIndex num_points) {
+    std::vector<detail::ByteColumn> columns;
+    for (rrcb_array& array : arrays) {
+        require_array(array, columns.size());
+        const void* const values = from == nullptr ? array.values : from[columns.size()];
+        c::require_array(num_points, values, "a column of the type of its array of ghosts");
+        visit_type(array.type, [&]<class T>(T) {
+            columns.push_back({static_cast<const std::byte*>(values),
+                               (from == nullptr ? array.count : num_points) * array.components,
+                               detail::kind_of<T>, sizeof(T), array.components, &array, resize});
+        });
+    }
+    return columns;
+}
+
+/// Returns columns of ghosts, and of points to which they are added.
+std::vector<detail::SumColumn> sums_of(const rrcb_column* given, std::size_t num_columns,
+                                       LocalIndex num_ghosts, LocalIndex num_points) {
+    const std::span<const rrcb_column> columns = given_columns(given, num_columns);
+    std::vector<detail::SumColumn> sums;
+    for (const detail::ByteColumn& ghosts : columns_of(columns, num_ghosts, num_points)) {
+        detail::SumColumn& sum = sums.emplace_back(detail::SumColumn{ghosts, ghosts, nullptr});
+        sum.points.from = static_cast<const std::byte*>(ghosts.result);
+        sum.points.num_values = num_points * ghosts.components;
+        visit_type(columns[sums.size() - 1].type, [&]<class T>(T) {
+            if constexpr (std::is_same_v<T, std::byte>)
+                reject("columns of RRCB_BYTE cannot be added; give a type of numbers");
+            else
+                sum.add = detail::add_values<T>;
+        });
+    }
+    return sums;
+}
+
+SharedEntries entries_of(const rrcb_shared_entries* given) {
+    require(given, "shared");
+    c::require_array(given->num_ranks, given->ranks, "ranks");
+    c::require_array(given->num_indices, given->indices, "indices");
+    SharedEntries shared;
+    for (const rrcb_rank_count& one : view(given->ranks, given->num_ranks))
+        shared.ranks.push_back({one.rank, one.count});
+    const std::span<const LocalIndex> indices = view(given->indices, given->num_indices);
+    shared.indices.assign(indices.begin(), indices.end());
+    return shared;
+}
+
+}  // namespace
+
+}  // namespace rrcb::c
+
+using rrcb::CallName;
+using rrcb::Neighbours;
+using rrcb::c::Access;
+using rrcb::c::guarded;
+using rrcb::c::with_neighbours;
+
+int rrcb_neighbours_create(const rrcb_balancer* balancer, const rrcb_neighbour_options* options,
+                           rrcb_neighbours** neighbours) {
+    const auto body = [&] {
+        rrcb::c::require_handle(balancer, rrcb_balancer::name);
+        *neighbours = rrcb::c::make(*balancer, options, neighbours).release();
+    };
+    return guarded(body, {rrcb::c::origin_in(balancer).comm, rrcb::c::patience_together});
+}
+
+void rrcb_neighbours_destroy(rrcb_neighbours** neighbours) {
+    rrcb::c::destroy(neighbours);
+}
+
+int rrcb_neighbours_migrate(rrcb_neighbours* neighbours, const rrcb_points* positions,
+                            size_t num_columns, rrcb_array* columns) {
+    rrcb::Points points;
+    std::vector<rrcb::detail::ByteColumn> moved;
+    const auto read = [&](const rrcb_neighbours&) {
+        points = rrcb::c::points_of(positions);
+        rrcb::c::require_array(num_columns, columns, "columns");
+        moved = rrcb::c::arrays_in({columns, num_columns}, nullptr, 0);
+    };
+    return with_neighbours(CallName::migrate, neighbours, read,
+                           [&](Neighbours& all) { Access::migrate(all, points, moved); });
+}
+
+int rrcb_neighbours_find_ghosts(rrcb_neighbours* neighbours, const rrcb_points* points,
+                                const double* radii) {
+    rrcb::Points found;
+    std::optional<std::span<const double>> each;
+    const auto read = [&](const rrcb_neighbours&) {
+        found = rrcb::c::points_of(points);
+        if (radii != nullptr) each = rrcb::c::view(radii, found.count);
+    };
+    return with_neighbours(CallName::find_ghosts, neighbours, read,
+                           [&](Neighbours& all) { Access::find_ghosts(all, found, each); });
+}
+
+int rrcb_neighbours_fetch(rrcb_neighbours* neighbours, size_t num_columns,
+                          const void* const* columns, rrcb_array* ghosts) {
+    std::vector<rrcb::detail::ByteColumn> fetched;
+    const auto read = [&](const rrcb_neighbours& own) {
+        rrcb::c::require_array(num_columns, columns, "columns");
+        rrcb::c::require_array(num_columns, ghosts, "ghosts");
+        fetched = rrcb::c::arrays_in({ghosts, num_columns}, columns, own.all->ghosts().num_points);
+    };
+    return with_neighbours(CallName::fetch_of_neighbours, neighbours, read,
+                           [&](Neighbours& all) { Access::fetch(all, fetched); });
+}
+
+int rrcb_neighbours_accumulate(rrcb_neighbours* neighbours, size_t num_columns,
+                               const rrcb_column* columns) {
+    std::vector<rrcb::detail::SumColumn> sums;
+    const auto read = [&](const rrcb_neighbours& own) {
+        const rrcb::GhostPlan& ghosts = own.all->ghosts();
+        sums =
+            rrcb::c::sums_of(columns, num_columns, rrcb::total(ghosts.receive), ghosts.num_points);
+    };
+    return with_neighbours(CallName::accumulate_of_neighbours, neighbours, read,
+                           [&](Neighbours& all) { Access::accumulate(all, sums); });
+}
+
+int rrcb_neighbours_sum(rrcb_neighbours* neighbours, const rrcb_shared_entries* shared,
+                        size_t num_entries, size_t num_columns, const rrcb_column* columns) {
+    rrcb::SharedEntries entries;
+    std::vector<rrcb::detail::SumColumn> sums;
+    const auto read = [&](const rrcb_neighbours&) {
+        entries = rrcb::c::entries_of(shared);
+        sums = rrcb::c::sums_of(columns, num_columns, 0, num_entries);
+    };
+    return with_neighbours(CallName::sum, neighbours, read,
+                           [&](Neighbours& all) { Access::sum(all, entries, sums); });
+}
+
+int rrcb_neighbours_ghosts(const rrcb_neighbours* neighbours, rrcb_ghost_plan* plan) {
+    return guarded(neighbours, [&](const auto& own) {
+        rrcb::c::require(plan, "plan");
+        *plan = rrcb::c::view_of(own.all->ghosts());
+    });
+}
+
+int rrcb_neighbours_apply_shifts(const rrcb_neighbours* neighbours, const rrcb_points* positions) {
+    return guarded(neighbours, [&](const auto& own) {
+        rrcb::detail::apply_shifts(own.all->ghosts(), rrcb::c::points_of(positions));
+    });
+}
+
+int rrcb_neighbours_ranks(const rrcb_neighbours* neighbours, size_t* count, const int** ranks) {
+    return guarded(neighbours, [&](const auto& own) {
+        rrcb::c::require(count, "count");
+        rrcb::c::require(ranks, "ranks");
+        *count = own.all->ranks().size();
+        *ranks = own.all->ranks().data();
+    });
+}

@@ -1,3 +1,4 @@
+#include "arithmetic/non_stop.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/column_type.hpp"
 #include "collective/communicator.hpp"
@@ -89,6 +90,7 @@ std::span<const int> Neighbours::ranks() const {
 }
 
 void Neighbours::migrate_columns(const Points& positions, std::span<const ByteColumn> columns) {
+    const NonStop arithmetic;
     State& s = State::of(*this);
     NeighbourExchange& exchange = *s.exchange;
     exchange.begin(CallName::migrate);
@@ -113,6 +115,7 @@ void Neighbours::migrate_columns(const Points& positions, std::span<const ByteCo
 
 void Neighbours::find_ghosts_of(const Points& points,
                                 const std::optional<std::span<const double>>& radii) {
+    const NonStop arithmetic;
     State& s = State::of(*this);
     s.exchange->begin(CallName::find_ghosts);
     const Radii all{radii ? 0 : s.radius, radii, s.needs};

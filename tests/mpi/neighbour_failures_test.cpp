@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -150,6 +151,57 @@ TEST_F(Row, other_calls_are_named) {
     EXPECT_NE(number, -1);
     EXPECT_NE(text.find("Neighbours::fetch"), std::string::npos) << text;
     EXPECT_NE(text.find("Neighbours::accumulate"), std::string::npos) << text;
+}
+
+TEST_F(Row, a_balance_among_neighbour_calls_is_named) {
+    if (num_ranks() < 2) return;
+    step();
+    const auto [number, text] = steps_before_error([&] {
+        if (rank() == 0)
+            balance(interleaved_points(x_, 1), {}, cuts_, world);
+        else
+            step();
+    });
+    EXPECT_NE(number, -1);
+    EXPECT_NE(text.find("rank 0 calls balance, rank 1 calls Neighbours::migrate"),
+              std::string::npos)
+        << text;
+    neighbours_.emplace(cuts_, NeighbourOptions{.radius = 0.3, .travel = 0.3}, world);
+    step();
+    expect_all_points();
+}
+
+TEST_F(Row, a_rank_in_a_collective_call_hears_of_a_failure) {
+    if (num_ranks() < 4) return;
+    step();
+    if (rank() == 0) x_[0] = num_ranks() - 0.5;
+    std::string text;
+    try {
+        neighbours_->migrate(column(x_), ids_, column(load_, words_));
+        balance(interleaved_points(x_, 1), {}, cuts_, world);
+    } catch (const Error& error) {
+        text = error.what();
+    }
+    EXPECT_NE(text.find("rank 0: point 0 (the first is 0) at ("), std::string::npos) << text;
+    const Balance next = balance(interleaved_points(x_, 1), {}, cuts_, world);
+    EXPECT_EQ(next.parts.size(), x_.size());
+}
+
+TEST_F(Row, entries_in_common_are_summed_in_one_order) {
+    // Each rank has a node at either end of its part, and one of its own.
+    SharedEntries shared;
+    for (int other = std::max(0, rank() - 1); other < std::min(num_ranks(), rank() + 2); ++other) {
+        if (other == rank()) continue;
+        shared.ranks.push_back({other, 1});
+        shared.indices.push_back(other < rank() ? 0 : 1);
+    }
+    std::vector<double> values{0.1 + rank(), 1e16, 3 + 0.7 * rank()};
+    std::vector<int> counts{1, 1, 1};
+    neighbours_->sum(shared, values, counts);
+    EXPECT_EQ(values[0], rank() > 0 ? 1e16 + (0.1 + rank()) : 0.1);
+    EXPECT_EQ(values[1], rank() + 1 < num_ranks() ? 1e16 + (1.1 + rank()) : 1e16);
+    EXPECT_EQ(values[2], 3 + 0.7 * rank());
+    EXPECT_EQ(counts, (std::vector<int>{rank() > 0 ? 2 : 1, rank() + 1 < num_ranks() ? 2 : 1, 1}));
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include "../support/same_error.hpp"
 #include "neighbours_cases.hpp"
 
+#include <array>
 #include <cstddef>
+#include <cstdlib>
 
 namespace rrcb {
 namespace {
@@ -60,6 +62,40 @@ TEST(Neighbours, keep_divided_coincident_points) {
 TEST(Neighbours, may_lack_points) {
     EXPECT_EQ(NeighbourRun<double>({.num_points = 3}).run(), "");
     EXPECT_EQ(NeighbourRun<double>({.num_points = 0}).run(), "");
+}
+
+NeighbourCase random_case(unsigned seed) {
+    std::mt19937_64 engine(seed);
+    const auto one_of = [&](auto... values) {
+        const std::array all{values...};
+        return all[engine() % all.size()];
+    };
+    NeighbourCase input{.seed = seed};
+    input.dimension = one_of(1, 2, 3);
+    input.num_points =
+        one_of(std::size_t{0}, std::size_t{1}, std::size_t{20}, std::size_t{300}, std::size_t{800});
+    input.num_parts = one_of(0, 0, 1, num_ranks() + 2, 4 * num_ranks());
+    input.radius = one_of(0.0, 1e-3, 0.05, 0.2, 1.5);
+    input.travel = one_of(0.0, 0.01, 0.1, 2.0);
+    input.has_radii = one_of(false, true);
+    input.is_periodic = one_of(false, true);
+    input.has_lattice = input.travel > 0.3 && one_of(false, false, true);
+    input.turns_parts = one_of(false, false, true);
+    input.needs = one_of(Needs::sender, Needs::sender, Needs::receiver, Needs::either);
+    input.num_steps = 3;
+    return input;
+}
+
+// RRCB_TEST_CASES=1000 tries more.
+TEST(Neighbours, agree_in_random_cases) {
+    const char* const number = std::getenv("RRCB_TEST_CASES");
+    const unsigned num_cases = number != nullptr ? static_cast<unsigned>(std::atoi(number)) : 15;
+    for (unsigned seed = 1; seed <= num_cases; ++seed) {
+        const NeighbourCase input = random_case(seed + 1000 * static_cast<unsigned>(num_ranks()));
+        const std::string fault =
+            seed % 3 == 0 ? NeighbourRun<float>(input).run() : NeighbourRun<double>(input).run();
+        ASSERT_EQ(fault, "") << test::text_of(input);
+    }
 }
 
 }  // namespace

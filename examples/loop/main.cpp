@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 // Loads and the cost of a rebalance count pairs of neighbours, so that all runs are alike; a
@@ -49,32 +50,35 @@ int main(int argc, char** argv) {
                                           : rrcb::CostModel(controller, 2);
         if (continues && rank == 0)
             std::printf("continued at step %d: %s\n", run.step, model.report().c_str());
-        rrcb::Balance balance;
-        bool is_divided = !run.cuts.empty();
-        if (is_divided) balance.cuts = rrcb::load<rrcb::Cuts>(run.cuts);
+        rrcb::Cuts cuts;
+        std::optional<rrcb::Neighbours> neighbours;
+        const rrcb::NeighbourOptions options{.radius = radius, .travel = travel};
+        if (!run.cuts.empty()) {
+            cuts = rrcb::load<rrcb::Cuts>(run.cuts);
+            neighbours = rrcb::Neighbours(cuts, options, comm);
+        }
+        std::vector<double> ghosts;
         for (; run.step < num_steps; ++run.step) {
-            if (!is_divided || controller.due()) {
+            if (!neighbours || controller.due()) {
                 const std::vector<double> weights = model.weights(rows);
                 const rrcb::Points points = rrcb::interleaved_points(positions, 2, weights);
-                balance = rrcb::balance(points, {}, balance.cuts, comm);
+                const rrcb::Balance balance = rrcb::balance(points, {}, cuts, comm);
+                const rrcb::Plan plan = rrcb::plan(balance, comm);
+                positions = rrcb::transfer(plan, rrcb::column(positions, 2), comm);
+                cuts = balance.cuts;
+                neighbours = rrcb::Neighbours(cuts, options, comm);
                 controller.rebalanced(balance.report, cost);
                 ++run.rebalances;
-                is_divided = true;
             } else {
-                const rrcb::Points points = rrcb::interleaved_points(positions, 2);
-                balance.parts = rrcb::assign_all(balance.cuts, points, comm);
+                neighbours->migrate(rrcb::column(positions, 2));
             }
-            const rrcb::Plan plan = rrcb::plan(balance, comm);
-            positions = rrcb::transfer(plan, rrcb::column(positions, 2), comm);
-
-            const rrcb::Points mine = rrcb::interleaved_points(positions, 2);
-            const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, mine, {.radius = radius}, comm);
-            const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(positions, 2), comm);
-            const std::vector<double> neighbours = count_neighbours(positions, ghosts);
+            neighbours->find_ghosts(rrcb::column(positions, 2));
+            neighbours->fetch(rrcb::ghosts_of(ghosts), rrcb::column(positions, 2));
+            const std::vector<double> counts = count_neighbours(positions, ghosts);
             move(positions);
-            rows = rows_of(neighbours);
-            const double load = sum_of(neighbours);
-            model.step(load, {{static_cast<double>(mine.count), load}});
+            rows = rows_of(counts);
+            const double load = sum_of(counts);
+            model.step(load, {{static_cast<double>(counts.size()), load}});
 
             double all[] = {load, load};
             MPI_Allreduce(MPI_IN_PLACE, &all[0], 1, MPI_DOUBLE, MPI_MAX, comm);
@@ -85,7 +89,7 @@ int main(int argc, char** argv) {
         if (argc > 2) {
             run.controller = save(controller);
             run.model = save(model);
-            run.cuts = save(balance.cuts);
+            run.cuts = save(cuts);
             write_run(argv[2], run, comm);
         }
     }

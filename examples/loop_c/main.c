@@ -11,6 +11,7 @@
 
 enum { cells_per_axis = 101 };
 static const double radius = 0.01;
+static const double travel = 0.005;  // the furthest that a particle moves in a step
 static const double cost = 100000;
 
 // Ends all ranks if a call fails; an error is the same on each.
@@ -61,10 +62,15 @@ static double count_in_cell(const double* here, const double* x, size_t i, const
     return count;
 }
 
-// Rows of columns, 1 and how many of `all` particles lie within the radius of each of the first
-// `count`; returns their sum.
-static double count_neighbours(const double* all, size_t num_all, size_t count, double* columns) {
+// Rows of columns, 1 and how many particles and ghosts lie within the radius of each particle;
+// returns their sum.
+static double count_neighbours(const rrcb_array* x, const rrcb_array* ghosts, double* columns) {
     static size_t first[cells_per_axis * cells_per_axis];
+    const size_t count = x->count;
+    const size_t num_all = count + ghosts->count;
+    double* all = array_of(2 * num_all);
+    if (count > 0) memcpy(all, x->values, 2 * count * sizeof *all);
+    if (ghosts->count > 0) memcpy(all + 2 * count, ghosts->values, 2 * ghosts->count * sizeof *all);
     size_t* next = malloc((num_all + 1) * sizeof *next);
     fill_cells(all, num_all, first, next);
     double sum = 0;
@@ -81,6 +87,7 @@ static double count_neighbours(const double* all, size_t num_all, size_t count, 
         sum += neighbours;
     }
     free(next);
+    free(all);
     return sum;
 }
 
@@ -88,6 +95,31 @@ static double count_neighbours(const double* all, size_t num_all, size_t count, 
 static void move(double* positions, size_t count) {
     for (size_t i = 0; i < 2 * count; i += 2)
         positions[i] -= 0.02 * positions[i] * (1 - positions[i]);
+}
+
+static rrcb_points points_of(const rrcb_array* x, const double* weights) {
+    return rrcb_interleaved_points(RRCB_DOUBLE, 2, x->count, x->values, weights);
+}
+
+// Balances the particles by the rows of columns, and brings them to the ranks of their parts.
+static void divide(rrcb_balancer* balancer, const rrcb_cost_model* model, const double* columns,
+                   rrcb_array* x) {
+    int32_t* parts = malloc((x->count + 1) * sizeof *parts);
+    double* weights = array_of(x->count);
+    rrcb_plan_lists plan;
+    check(rrcb_cost_model_weights(model, x->count, 2, columns, weights));
+    const rrcb_points points = points_of(x, weights);
+    check(rrcb_balance(balancer, &points, parts));
+    check(rrcb_plan(balancer, x->count, parts));
+    check(rrcb_get_plan(balancer, &plan));
+    double* here = array_of(2 * plan.num_points_after);
+    const rrcb_column moved = {RRCB_DOUBLE, 2, x->values, here};
+    check(rrcb_transfer(balancer, 1, &moved, NULL, NULL));
+    free(parts);
+    free(weights);
+    free(x->values);
+    x->values = here;
+    x->count = x->capacity = plan.num_points_after;
 }
 
 int main(int argc, char** argv) {
@@ -120,55 +152,36 @@ int main(int argc, char** argv) {
         check(rrcb_controller_create(comm, &controller));
         check(rrcb_cost_model_create(comm, controller, 2, &model));
     }
-    int is_divided = run.cuts.size > 0;
-    size_t count = run.count;
-    double* positions = run.positions;
+    const rrcb_neighbour_options options = {.radius = radius, .travel = travel};
+    rrcb_neighbours* neighbours = NULL;
+    if (run.cuts.size > 0) check(rrcb_neighbours_create(balancer, &options, &neighbours));
+    // The calls set the values, and make room for particles that arrive.
+    rrcb_array x = {RRCB_DOUBLE, 2, run.positions, run.count, run.count, NULL, NULL};
+    rrcb_array ghosts = {.type = RRCB_DOUBLE, .components = 2};
     double* columns = run.rows;
     for (; run.numbers[0] < num_steps; ++run.numbers[0]) {
-        int32_t* parts = malloc((count + 1) * sizeof *parts);
-        double* weights = array_of(count);
         int due = 0;
         check(rrcb_controller_due(controller, &due));
-        if (!is_divided || due) {
-            check(rrcb_cost_model_weights(model, count, 2, columns, weights));
-            const rrcb_points points =
-                rrcb_interleaved_points(RRCB_DOUBLE, 2, count, positions, weights);
-            check(rrcb_balance(balancer, &points, parts));
+        if (neighbours == NULL || due) {
+            rrcb_neighbours_destroy(&neighbours);
+            divide(balancer, model, columns, &x);
+            check(rrcb_neighbours_create(balancer, &options, &neighbours));
             rrcb_report report;
             check(rrcb_get_report(balancer, &report));
             check(rrcb_controller_rebalanced(controller, &report, cost));
             ++run.numbers[1];
-            is_divided = 1;
         } else {
-            const rrcb_points points =
-                rrcb_interleaved_points(RRCB_DOUBLE, 2, count, positions, NULL);
-            check(rrcb_assign_all(balancer, &points, parts));
+            const rrcb_points points = points_of(&x, NULL);
+            check(rrcb_neighbours_migrate(neighbours, &points, 1, &x));
         }
-        rrcb_plan_lists plan;
-        check(rrcb_plan(balancer, count, parts));
-        check(rrcb_get_plan(balancer, &plan));
-        double* here = array_of(2 * plan.num_points_after);
-        const rrcb_column moved = {RRCB_DOUBLE, 2, positions, here};
-        check(rrcb_transfer(balancer, 1, &moved, NULL, NULL));
-        free(parts);
-        free(weights);
-        free(positions);
-        count = plan.num_points_after;
-
-        const rrcb_points mine = rrcb_interleaved_points(RRCB_DOUBLE, 2, count, here, NULL);
-        const rrcb_ghost_options options = {.radius = radius};
-        rrcb_ghosts* ghosts = NULL;
-        rrcb_ghost_plan near;
-        check(rrcb_ghosts_create(balancer, &mine, &options, &ghosts));
-        check(rrcb_ghosts_get_plan(ghosts, &near));
-        positions = realloc(here, 2 * (count + near.num_ghosts + 1) * sizeof *here);
-        const rrcb_column fetched = {RRCB_DOUBLE, 2, positions, positions + 2 * count};
-        check(rrcb_ghosts_fetch(ghosts, 1, &fetched, NULL, NULL));
-        columns = realloc(columns, 2 * (count + 1) * sizeof *columns);
-        const double load = count_neighbours(positions, count + near.num_ghosts, count, columns);
-        rrcb_ghosts_destroy(&ghosts);
-        move(positions, count);
-        const double counted[] = {(double)count, load};
+        const rrcb_points points = points_of(&x, NULL);
+        const void* const fetched[] = {x.values};
+        check(rrcb_neighbours_find_ghosts(neighbours, &points, NULL));
+        check(rrcb_neighbours_fetch(neighbours, 1, fetched, &ghosts));
+        columns = realloc(columns, 2 * (x.count + 1) * sizeof *columns);
+        const double load = count_neighbours(&x, &ghosts, columns);
+        move(x.values, x.count);
+        const double counted[] = {(double)x.count, load};
         check(rrcb_cost_model_step(model, load, 2, counted));
 
         double all[] = {load, load};
@@ -177,8 +190,8 @@ int main(int argc, char** argv) {
         run.numbers[2] += all[0];
         run.numbers[3] += all[1];
     }
-    run.count = count;
-    run.positions = positions;
+    run.count = x.count;
+    run.positions = x.values;
     run.rows = columns;
     if (argc > 2) {
         check(rrcb_controller_save(controller, &run.controller.data, &run.controller.size));
@@ -186,11 +199,13 @@ int main(int argc, char** argv) {
         check(rrcb_save_cuts(balancer, &run.cuts.data, &run.cuts.size));
         write_run(argv[2], &run, comm);
     }
+    rrcb_neighbours_destroy(&neighbours);
     rrcb_cost_model_destroy(&model);
     rrcb_controller_destroy(&controller);
     rrcb_destroy(&balancer);
     free(columns);
-    free(positions);
+    free(ghosts.values);
+    free(x.values);
     if (rank == 0) {
         printf("%.0f pairs of neighbours met in %.0f steps\n", run.numbers[3], run.numbers[0]);
         printf("%.0f rebalances, mean imbalance %.9f\n", run.numbers[1],

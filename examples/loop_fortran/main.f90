@@ -7,12 +7,13 @@ program loop
 
   integer, parameter :: dp = c_double, cells_per_axis = 101
   real(dp), parameter :: radius = 0.01_dp, cost = 100000
+  real(dp), parameter :: travel = 0.005_dp ! the furthest that a particle moves in a step
   type(rrcb_balancer) :: balancer
   type(rrcb_controller) :: controller
   type(rrcb_cost_model) :: model
-  type(rrcb_ghosts) :: ghosts
+  type(rrcb_neighbours) :: neighbours
+  type(rrcb_array) :: arrays(1), ghosts(1)
   type(rrcb_plan_lists) :: plan
-  type(rrcb_ghost_plan) :: near
   type(rrcb_report) :: report
   real(dp), allocatable, target :: positions(:, :), moved(:, :), fetched(:, :), weights(:)
   real(dp), allocatable :: columns(:, :)
@@ -54,32 +55,37 @@ program loop
     call controller%create(MPI_COMM_WORLD, error); call check(error)
     call model%create(MPI_COMM_WORLD, controller, 2, error); call check(error)
   end if
+  if (is_divided) then
+    call neighbours%create(balancer, error, radius, travel); call check(error)
+  end if
+  allocate (fetched(2, 0))
   do step = first + 1, num_steps
-    allocate (parts(size(positions, 2)), weights(size(positions, 2)))
     if (.not. is_divided .or. controller%due()) then
+      allocate (parts(size(positions, 2)), weights(size(positions, 2)))
       call model%weights(columns, weights, error); call check(error)
       call balancer%balance(rrcb_interleaved_points(positions, weights), parts, error); call check(error)
+      call balancer%plan(parts, error); call check(error)
+      call balancer%get_plan(plan, error); call check(error)
+      allocate (moved(2, plan%num_points_after))
+      call balancer%transfer([rrcb_column(positions, moved)], error); call check(error)
+      call move_alloc(moved, positions)
+      deallocate (parts, weights)
+      call neighbours%destroy()
+      call neighbours%create(balancer, error, radius, travel); call check(error)
       call balancer%get_report(report, error); call check(error)
       call controller%rebalanced(report, cost, error); call check(error)
       rebalances = rebalances + 1
       is_divided = .true.
     else
-      call balancer%assign_all(rrcb_interleaved_points(positions), parts, error); call check(error)
+      call arrays(1)%take(positions)
+      call neighbours%migrate(arrays, error); call check(error)
+      call arrays(1)%give(positions)
     end if
-    call balancer%plan(parts, error); call check(error)
-    call balancer%get_plan(plan, error); call check(error)
-    allocate (moved(2, plan%num_points_after))
-    call balancer%transfer([rrcb_column(positions, moved)], error); call check(error)
-    call move_alloc(moved, positions)
-    deallocate (parts, weights)
-
-    call ghosts%create(balancer, rrcb_interleaved_points(positions), error, radius); call check(error)
-    call ghosts%get_plan(near, error); call check(error)
-    allocate (fetched(2, near%num_ghosts))
-    call ghosts%fetch([rrcb_column(positions, fetched)], error); call check(error)
-    call ghosts%destroy()
+    call neighbours%find_ghosts(rrcb_interleaved_points(positions), error); call check(error)
+    call ghosts(1)%take(fetched)
+    call neighbours%fetch([rrcb_column(positions, positions)], ghosts, error); call check(error)
+    call ghosts(1)%give(fetched)
     columns = rows_of(count_neighbours(positions, fetched))
-    deallocate (fetched)
     ! All drift to the wall at x = 0, where they crowd.
     positions(1, :) = positions(1, :) - 0.02_dp*positions(1, :)*(1 - positions(1, :))
     load = sum(columns(2, :))
@@ -96,6 +102,7 @@ program loop
     call balancer%save_cuts(of_cuts, error); call check(error)
     call write_run(trim(argument))
   end if
+  call neighbours%destroy()
   call model%destroy()
   call controller%destroy()
   call balancer%destroy()

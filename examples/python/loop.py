@@ -9,6 +9,7 @@ import rrcb
 
 comm = MPI.COMM_WORLD
 RADIUS = 0.01
+TRAVEL = 0.005  # the furthest that a particle moves in a step
 STRIDE = 104  # cells of a row, with empty ones at the ends
 
 # Loads and the cost of a rebalance count pairs of neighbours, so that all runs are alike; a
@@ -80,6 +81,7 @@ if path and os.path.exists(path):
     model = rrcb.CostModel.load(saved[1], controller, comm)
     if saved[2]:
         cuts = rrcb.Cuts.load(saved[2])
+        near = rrcb.Neighbours(cuts, RADIUS, TRAVEL, comm=comm)
     if comm.rank == 0:
         print(f"continued at step {first:.0f}: {model.report()}")
 else:
@@ -92,14 +94,15 @@ with controller, model:
     for step in range(int(first), num_steps):
         if cuts is None or controller.due:
             balance = rrcb.balance(x, weights=model.weights(columns), comm=comm, previous=cuts)
+            x = balance.distribute(x)
+            cuts = balance.cuts
+            near = rrcb.Neighbours(cuts, RADIUS, TRAVEL, comm=comm)
             controller.rebalanced(balance.report, COST)
             rebalances += 1
-            cuts = balance.cuts
         else:
-            balance = rrcb.assign_all(x, cuts, comm)
-        x = balance.distribute(x)
-        ghosts = balance.ghosts(x, RADIUS)
-        neighbours = count_neighbours(np.concatenate([x, ghosts.fetch(x)]), len(x))
+            x = near.migrate(x, x)
+        near.find_ghosts(x)
+        neighbours = count_neighbours(np.concatenate([x, near.fetch(x)]), len(x))
         columns = np.stack([np.ones(len(x)), neighbours], axis=1)
         load = neighbours.sum()
         # All drift to the wall at x = 0, where they crowd.

@@ -11,7 +11,8 @@ extern "C" {
  *
  * Its functions wait only for neighbours. If one fails on a rank, it fails on the neighbours in the
  * same call, on theirs in the next; then all ranks destroy their neighbours and create others. A
- * null handle or array of columns on one rank is such a failure too. */
+ * null array of columns on one rank is such a failure too. A null handle is an error on its rank
+ * only: it names no neighbours, which then wait for the call. */
 typedef struct rrcb_neighbours rrcb_neighbours;
 
 /** Distances within which ranks are neighbours, one of them above 0, and the ranks of the parts; as

@@ -63,24 +63,11 @@ std::string text_of(const CallDifference& difference) {
            "; every rank must make the same calls in the same order";
 }
 
-namespace {
-
-// All tags are below 32,768, which every MPI allows. Ranks are never so many calls apart as to mix
-// them up.
-constexpr int most_kinds = 16;
-constexpr int most_numbers = 2 * CallRecord::num_kept;
-constexpr int first_link_tag = most_kinds * most_call_names * most_numbers;
-constexpr int most_links = (32768 - first_link_tag) / 2;
-
-}  // namespace
-
 int CallLog::tag(int kind) const {
-    const auto number = static_cast<int>(mine.number() % most_numbers);
+    // Below 32,768, which every MPI allows. Ranks are never so many calls apart as to mix them up.
+    constexpr int most_kinds = 16;
+    const auto number = static_cast<int>(mine.number() % (2 * CallRecord::num_kept));
     return kind + most_kinds * (static_cast<int>(mine.latest()) + most_call_names * number);
-}
-
-int CallLog::next_link_tag() {
-    return first_link_tag + 2 * (num_links++ % most_links);
 }
 
 }  // namespace rrcb

@@ -114,7 +114,6 @@ struct CallLog {
     std::shared_ptr<CallLog> ended_before{};  ///< another log that has ended
 
     std::vector<NeighbourLink*> links{};  ///< exchanges between neighbours that exist
-    int num_links = 0;                    ///< that were made, the same on every rank
 
     /// Notes a call that waits in the other messages of its own only.
     void add(CallName call) { mine.add(call); }
@@ -127,9 +126,6 @@ struct CallLog {
 
     /// Returns the tag by which a kind of message meets only those of the same call.
     int tag(int kind) const;
-
-    /// Returns the tag of another link; the one after it is that of its notices.
-    int next_link_tag();
 };
 
 }  // namespace rrcb

@@ -26,7 +26,8 @@ enum Tag : int {
     report_tag,
     verdict_tag,
     printed_tag,
-    notice_tag
+    notice_tag,
+    neighbour_tag
 };
 
 /// Greatest tag that every MPI allows, for a roll call on the caller's communicator. It is used

@@ -43,13 +43,11 @@ std::string at_ranks(const std::string& mine, int rank, const std::string& their
 NeighbourExchange::NeighbourExchange(std::vector<int> ranks, std::shared_ptr<CallLog> log)
     : log_(std::move(log)) {
     const std::size_t number = ranks.size();
-    link_.tag = log_->next_link_tag();
     link_.ranks = std::move(ranks);
     link_.is_over.assign(number, 0);
     link_.outgoing = std::make_shared<LinkMessages>();
     link_.outgoing->messages.resize(number);
     link_.outgoing->requests.assign(number, MPI_REQUEST_NULL);
-    link_.outgoing->notices.assign(number, MPI_REQUEST_NULL);
     incoming_.resize(number);
     log_->links.push_back(&link_);
 }
@@ -64,6 +62,7 @@ void NeighbourExchange::begin(CallName call, std::uint64_t version) {
     if (log_->comm == MPI_COMM_NULL)
         reject("the communicator was freed; free it after its last use");
     log_->add(call);
+    ++num_calls_;
     call_ = call;
     version_ = version;
     types_.clear();
@@ -86,7 +85,7 @@ std::byte* NeighbourExchange::message_to(std::size_t neighbour, std::size_t rows
     mpi::to_int(static_cast<std::int64_t>(begin + bytes));
     message.resize(begin + bytes);
     std::fill_n(message.begin(), begin, std::byte{});
-    const Header header{link_.num_sent, version_, rows, static_cast<std::uint32_t>(call_),
+    const Header header{num_calls_, version_, rows, static_cast<std::uint32_t>(call_),
                         static_cast<std::uint32_t>(types_.size())};
     std::memcpy(message.data(), &header, sizeof header);
     if (!types_.empty())
@@ -121,9 +120,8 @@ void NeighbourExchange::run() {
     LinkMessages& out = *link_.outgoing;
     for (std::size_t n = 0; n < link_.ranks.size(); ++n)
         check(MPI_Isend(out.messages[n].data(), static_cast<int>(out.messages[n].size()), MPI_BYTE,
-                        link_.ranks[n], link_.tag, log_->comm, &out.requests[n]),
+                        link_.ranks[n], mpi::neighbour_tag, log_->comm, &out.requests[n]),
               "MPI_Isend");
-    ++link_.num_sent;
     std::optional<mpi::Watch> watch;
     try {
         while (true) {
@@ -144,55 +142,56 @@ void NeighbourExchange::run() {
 /// Returns whether nothing more is to be expected of a neighbour in this call.
 bool NeighbourExchange::settle(std::size_t neighbour) {
     if (link_.is_over[neighbour] != 0) return true;
-    Incoming& incoming = incoming_[neighbour];
-    if (!incoming.has_arrived) receive(neighbour);
+    const Incoming& incoming = incoming_[neighbour];
     int is_sent = 0;
     check(MPI_Test(&link_.outgoing->requests[neighbour], &is_sent, MPI_STATUS_IGNORE), "MPI_Test");
     if (incoming.has_arrived && is_sent != 0) return true;
-    if (!incoming.has_notice) look_for_notice(neighbour);
-    // Its message of this call is still to come if it has failed later.
-    if (!incoming.has_notice ||
-        (!incoming.has_arrived && incoming.notice.num_sent >= link_.num_sent))
-        return false;
-    link_.is_over[neighbour] = 1;
-    note(incoming.notice.failure);
-    return true;
+    // The next message may be of another call, if it is no notice.
+    if (!incoming.has_arrived || is_notice_next(neighbour)) receive(neighbour);
+    return link_.is_over[neighbour] != 0 || (incoming.has_arrived && is_sent != 0);
 }
 
+bool NeighbourExchange::is_notice_next(std::size_t neighbour) {
+    int is_there = 0;
+    MPI_Status status{};
+    check(MPI_Iprobe(link_.ranks[neighbour], mpi::neighbour_tag, log_->comm, &is_there, &status),
+          "MPI_Iprobe");
+    int bytes = 0;
+    if (is_there != 0) MPI_Get_count(&status, MPI_BYTE, &bytes);
+    return bytes == sizeof(FailureNotice);
+}
+
+/// Receives the next message of a neighbour, if it is there: that of this call, or a notice.
 void NeighbourExchange::receive(std::size_t neighbour) {
     Incoming& incoming = incoming_[neighbour];
     int is_there = 0;
     MPI_Message message = MPI_MESSAGE_NULL;
     MPI_Status status{};
-    check(MPI_Improbe(link_.ranks[neighbour], link_.tag, log_->comm, &is_there, &message, &status),
+    check(MPI_Improbe(link_.ranks[neighbour], mpi::neighbour_tag, log_->comm, &is_there, &message,
+                      &status),
           "MPI_Improbe");
     if (is_there == 0) return;
     int bytes = 0;
     MPI_Get_count(&status, MPI_BYTE, &bytes);
-    const Failure lacks_memory =
-        rrcb::attempt([&] { incoming.bytes.resize(static_cast<std::size_t>(bytes)); });
-    if (lacks_memory.failed) {
-        // Cut short.
-        incoming.bytes.clear();
-        MPI_Mrecv(nullptr, 0, MPI_BYTE, &message, MPI_STATUS_IGNORE);
-        note(of_this_rank(lacks_memory));
+    FailureNotice notice;
+    std::byte* place = reinterpret_cast<std::byte*>(&notice);
+    if (bytes == sizeof notice) {
+        link_.is_over[neighbour] = 1;
     } else {
-        check(MPI_Mrecv(incoming.bytes.data(), bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE),
-              "MPI_Mrecv");
+        const Failure lacks_memory =
+            rrcb::attempt([&] { incoming.bytes.resize(static_cast<std::size_t>(bytes)); });
+        if (lacks_memory.failed) {
+            // Cut short.
+            incoming.bytes.clear();
+            bytes = 0;
+            note(of_this_rank(lacks_memory));
+        }
+        place = incoming.bytes.data();
+        incoming.has_arrived = true;
     }
-    incoming.has_arrived = true;
-}
-
-void NeighbourExchange::look_for_notice(std::size_t neighbour) {
-    Incoming& incoming = incoming_[neighbour];
-    const int rank = link_.ranks[neighbour];
-    int is_there = 0;
-    check(MPI_Iprobe(rank, link_.tag + 1, log_->comm, &is_there, MPI_STATUS_IGNORE), "MPI_Iprobe");
-    if (is_there == 0) return;
-    check(MPI_Recv(&incoming.notice, sizeof incoming.notice, MPI_BYTE, rank, link_.tag + 1,
-                   log_->comm, MPI_STATUS_IGNORE),
-          "MPI_Recv");
-    incoming.has_notice = true;
+    const int code = MPI_Mrecv(place, bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+    if (!failure_.failed) check(code, "MPI_Mrecv");
+    if (link_.is_over[neighbour] != 0) note(notice);
 }
 
 /// Compares the header of a message with this rank's call.
@@ -205,7 +204,7 @@ void NeighbourExchange::compare(std::size_t neighbour) {
         const int rank = mpi::rank_of(log_->comm);
         const int other = link_.ranks[neighbour];
         const auto call = static_cast<CallName>(header.call);
-        if (call != call_ || header.call_number != link_.num_sent - 1)
+        if (call != call_ || header.call_number != num_calls_)
             throw Error(ErrorCode::mpi, text_of(CallDifference{{rank, other}, {call_, call}}));
         if (header.num_columns != types_.size())
             reject(at_ranks(std::to_string(types_.size()) + " columns", rank,

@@ -14,14 +14,15 @@
 namespace rrcb {
 
 /// Exchanges one message with each of some ranks, its neighbours, in each call, which no collective
-/// call precedes. Both ranks of a pair have each other as neighbours, and make the same calls.
+/// call precedes. Both ranks of a pair have each other as neighbours, and make the same calls with
+/// all exchanges in the same order, so that each receives the messages of the other in order.
 ///
 /// A call consists of begin(), attempt() of the steps that write the messages, run(), attempt() of
 /// those that read them, and end(). If it fails, so do the neighbours; see
 /// spread_failure_mpi.hpp. The memory of messages is kept for the next call.
 class NeighbourExchange {
   public:
-    /// Not collective, but all ranks make their exchanges in the same order. Throws std::bad_alloc.
+    /// Not collective. Throws std::bad_alloc.
     NeighbourExchange(std::vector<int> ranks, std::shared_ptr<CallLog> log);
     ~NeighbourExchange();
     NeighbourExchange(const NeighbourExchange&) = delete;
@@ -63,9 +64,7 @@ class NeighbourExchange {
   private:
     struct Incoming {
         detail::Uninitialized<std::byte> bytes{};
-        FailureNotice notice{};
         bool has_arrived = false;
-        bool has_notice = false;  ///< which stays: no message is sent after it
         bool is_valid = false;
     };
     struct Header;
@@ -76,7 +75,7 @@ class NeighbourExchange {
     void check(int code, const char* call);
     bool settle(std::size_t neighbour);
     void receive(std::size_t neighbour);
-    void look_for_notice(std::size_t neighbour);
+    bool is_notice_next(std::size_t neighbour);
     void compare(std::size_t neighbour);
     std::size_t body_begin() const;
 
@@ -86,6 +85,7 @@ class NeighbourExchange {
     std::vector<std::uint64_t> types_;
     CallName call_ = CallName::none;
     std::uint64_t version_ = 0;
+    std::uint64_t num_calls_ = 0;
     Failure failure_{};  ///< first one of this call
 };
 

@@ -13,27 +13,23 @@
 
 namespace rrcb {
 
-/// The last message of a rank that has failed in a call between neighbours.
-struct FailureNotice {
-    Failure failure{};
-    std::uint64_t num_sent = 0;  ///< messages of the link that its sender has sent before
-};
+/// The last message of a rank that has failed in a call between neighbours. By its length it
+/// differs from all others, which are multiples of 16 bytes.
+using FailureNotice = Failure;
+static_assert(sizeof(FailureNotice) % 16 != 0);
 
-/// Messages of a link, with the memory that MPI reads until they are received, which may be never.
+/// Messages to neighbours, with the memory that MPI reads until they are received, which may be
+/// never.
 struct LinkMessages {
     std::vector<detail::Uninitialized<std::byte>> messages{};  ///< one for each neighbour
     std::vector<MPI_Request> requests{};                       ///< of these
-    FailureNotice notice{};
-    std::vector<MPI_Request> notices{};    ///< one for each neighbour
-    std::shared_ptr<LinkMessages> next{};  ///< in CallLog::undelivered
+    std::shared_ptr<LinkMessages> next{};                      ///< in CallLog::undelivered
 };
 
 /// The ranks with which this one exchanges messages outside of collective calls.
 struct NeighbourLink {
     std::vector<int> ranks{};     ///< ascending
-    int tag = 0;                  ///< of the messages; the next one is that of notices
-    std::uint64_t num_sent = 0;   ///< to each of the ranks
-    std::vector<char> is_over{};  ///< whether a rank has failed
+    std::vector<char> is_over{};  ///< whether a rank is known to have failed
     std::shared_ptr<LinkMessages> outgoing{};
 };
 

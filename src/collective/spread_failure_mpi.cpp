@@ -12,32 +12,21 @@ namespace rrcb::mpi {
 
 namespace {
 
-void send(const FailureNotice& notice, int to, int tag, MPI_Comm comm, MPI_Request* request) {
-    MPI_Isend(&notice, sizeof notice, MPI_BYTE, to, tag, comm, request);
-}
-
-/// The memory of the notices to neighbours in the tree is that of the log, which stays.
-void send_along_tree(CallLog& log) {
-    const int rank = rank_of(log.comm);
-    const MergeTree tree{size_of(log.comm)};
-    const auto send_to = [&](int other) {
-        MPI_Request request = MPI_REQUEST_NULL;
-        send(log.notice, other, notice_tag, log.comm, &request);
-        if (request != MPI_REQUEST_NULL) MPI_Request_free(&request);
-    };
-    tree.for_each_child(rank, send_to);
-    if (rank != 0) send_to(tree.parent(rank));
+/// The memory of the notice is that of the log, which stays.
+void send_notice(CallLog& log, int to, int tag) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Isend(&log.notice, sizeof log.notice, MPI_BYTE, to, tag, log.comm, &request);
+    if (request != MPI_REQUEST_NULL) MPI_Request_free(&request);
 }
 
 /// Returns whether no message of this rank is pending.
 bool are_delivered(const CallLog& log) {
-    for (LinkMessages* out = log.undelivered.get(); out != nullptr; out = out->next.get())
-        for (std::vector<MPI_Request>* requests : {&out->requests, &out->notices}) {
-            int is_done = 0;
-            MPI_Testall(static_cast<int>(requests->size()), requests->data(), &is_done,
-                        MPI_STATUSES_IGNORE);
-            if (is_done == 0) return false;
-        }
+    for (LinkMessages* out = log.undelivered.get(); out != nullptr; out = out->next.get()) {
+        int is_done = 0;
+        MPI_Testall(static_cast<int>(out->requests.size()), out->requests.data(), &is_done,
+                    MPI_STATUSES_IGNORE);
+        if (is_done == 0) return false;
+    }
     return true;
 }
 
@@ -60,16 +49,15 @@ void receive_all(MPI_Comm comm, detail::Uninitialized<std::byte>& memory) {
 void spread(const Failure& failure, CallLog& log) {
     log.end = CallLog::End::failed;
     log.is_meeting = false;
-    for (NeighbourLink* link : log.links) {
-        LinkMessages& out = *link->outgoing;
-        out.notice = {failure, link->num_sent};
+    log.notice = failure;
+    for (const NeighbourLink* link : log.links)
         for (std::size_t n = 0; n < link->ranks.size(); ++n)
-            if (link->is_over[n] == 0)
-                send(out.notice, link->ranks[n], link->tag + 1, log.comm, &out.notices[n]);
-    }
+            if (link->is_over[n] == 0) send_notice(log, link->ranks[n], neighbour_tag);
     keep_undelivered(log);
-    log.notice = {failure, 0};
-    send_along_tree(log);
+    const int rank = rank_of(log.comm);
+    const MergeTree tree{size_of(log.comm)};
+    tree.for_each_child(rank, [&](int child) { send_notice(log, child, notice_tag); });
+    if (rank != 0) send_notice(log, tree.parent(rank), notice_tag);
     attempt([&] { log.why = failure.text.data(); });
     throw Error(failure.code, failure.text.data());
 }
@@ -82,7 +70,7 @@ void look_for_failure(CallLog& log) {
     FailureNotice notice;
     MPI_Recv(&notice, sizeof notice, MPI_BYTE, status.MPI_SOURCE, notice_tag, log.comm,
              MPI_STATUS_IGNORE);
-    spread(notice.failure, log);
+    spread(notice, log);
 }
 
 void keep_undelivered(CallLog& log) {

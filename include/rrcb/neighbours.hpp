@@ -145,9 +145,9 @@ ByteColumn resizable_column(Array&& array) {
 ///
 /// A neighbour is a rank with a part at most max(radius, travel) from a part of this rank. Every
 /// rank makes the same calls in the same order. If a call fails on a rank, it also fails on its
-/// neighbours, the next call on theirs, ...: all ranks throw, with the same text, at the latest in
-/// the next collective call; none waits for a rank that has failed. Then make other Neighbours, and
-/// other controllers and ghost plans.
+/// neighbours, the next call on theirs, ...: all ranks throw its text, at the latest in the next
+/// collective call; none waits for a rank that has failed. If several ranks fail, each throws the
+/// text of one of them. Then make other Neighbours, and other controllers and ghost plans.
 class Neighbours {
   public:
     /// Finds the neighbours. Collective.
@@ -177,8 +177,9 @@ class Neighbours {
     /// Arriving points, by ascending rank, take the places of those that left, then the end; places
     /// left over are filled from the end. All other points keep their indices. Coincident points
     /// divided by a cut stay on their rank.
-    /// @param positions column of positions, which moves too, or Points in arrays of `columns`
-    /// @param columns   writable and resizable: vectors, or column(vector, components)
+    /// @param positions column of positions, which moves too, or Points, whose arrays move only if
+    /// they are among `columns`
+    /// @param columns   different vectors, or column(vector, components)
     /// Throws Error as described above: for a point in a part of no neighbour, which all arrays
     /// still contain, or columns that differ between ranks. A rank that fails because of another
     /// has completed its exchange with the other neighbours: no point is lost or doubled, except if
@@ -222,7 +223,7 @@ class Neighbours {
     ///
     /// Ghosts are in the order of fetch(plan, ...): by ascending rank. Positions of images are
     /// those of their points until apply_shifts(neighbours.ghosts(), ghost_x).
-    /// @param ghosts  an array for each column
+    /// @param ghosts  a different array for each column
     /// @param columns of the points that find_ghosts() got, the same types on every rank
     /// Throws Error as described above: for columns that do not fit the points or those of other
     /// ranks, or if points of this rank migrated since find_ghosts().

@@ -109,6 +109,11 @@ std::vector<detail::ByteColumn> arrays_in(std::span<rrcb_array> arrays, const vo
     std::vector<detail::ByteColumn> columns;
     for (rrcb_array& array : arrays) {
         require_array(array, columns.size());
+        const auto is_same = [&](const rrcb_array& other) { return other.values == array.values; };
+        if (array.values != nullptr && array.count + array.capacity > 0 &&
+            std::ranges::any_of(arrays.first(columns.size()), is_same))
+            reject("array " + std::to_string(columns.size()) +
+                   " (the first is 0) has the values of one before it; name each array once");
         const void* const values = from == nullptr ? array.values : from[columns.size()];
         c::require_array(num_points, values, "a column of the type of its array of ghosts");
         visit_type(array.type, [&]<class T>(T) {

@@ -186,6 +186,14 @@ void check_column(const ByteColumn& column, LocalIndex count, std::string_view e
            std::to_string(count) + " " + std::string(entries) + fix);
 }
 
+void check_results(std::span<const ByteColumn> columns) {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+            if (columns[j].result == columns[k].result)
+                reject("columns " + std::to_string(j) + " and " + std::to_string(k) +
+                       " (the first is 0) are the same array; name each array once");
+}
+
 void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int num_ranks) {
     int least = 0;
     for (const RankCount& share : counts) {

@@ -49,6 +49,9 @@ void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_r
 /// Throws Error unless a column holds its components for each of `count` points or other `entries`.
 void check_column(const detail::ByteColumn& column, LocalIndex count, std::string_view entries);
 
+/// Throws Error if two columns have the same array as their result.
+void check_results(std::span<const detail::ByteColumn> columns);
+
 /// Result of deliver().
 struct Delivered {
     bool moves = false;           ///< whether any rank sends points

@@ -98,6 +98,7 @@ void Neighbours::migrate_columns(const Points& positions, std::span<const ByteCo
         s.set_types(columns);
         s.check_positions(positions);
         for (const ByteColumn& column : columns) check_column(column, positions.count, "points");
+        check_results(columns);
         s.migration.find(positions, s.territory, exchange.ranks());
         for (std::size_t n = 0; n < exchange.ranks().size(); ++n) {
             const std::span<const LocalIndex> points = s.migration.leaving_to(n);
@@ -140,6 +141,7 @@ void Neighbours::fetch_columns(std::span<const ByteColumn> columns) {
         s.require_ghosts(State::Stage::found);
         for (const ByteColumn& column : columns)
             check_column(column, s.ghosts.num_points, "points");
+        check_results(columns);
         for (std::size_t n = 0; n < exchange.ranks().size(); ++n) {
             const std::span<const LocalIndex> points = s.sent_to(n);
             std::byte* const place = exchange.message_to(n, points.size(), bytes_of(points.size()));

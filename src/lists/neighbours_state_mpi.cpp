@@ -156,6 +156,7 @@ void Neighbours::State::list_shared(const SharedEntries& shared,
         number =
             columns[0].points.num_values / std::max<std::size_t>(1, columns[0].points.components);
     for (const SumColumn& column : columns) check_column(column.points, number, "entries");
+    if (number > 0) check_results(of_ghosts);
     common.assign(own() + 1, {});
     LocalIndex first = 0;
     for (const RankCount& one : shared.ranks) {

@@ -96,6 +96,7 @@ void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns
         delivery.is_in_place = true;
         delivery.num_kept = plan.num_points;
         delivery.removed = {};
+        check_results(columns);
     });
     Delivered delivered;
     try {

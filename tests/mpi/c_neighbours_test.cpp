@@ -200,6 +200,12 @@ TEST_F(CNeighbours, refuse_room_below_the_count) {
     expect_error([&] { return migrate(); }, "capacity of array 0 (the first is 0) is below");
 }
 
+TEST_F(CNeighbours, refuse_an_array_given_twice) {
+    columns_[1] = columns_[0];
+    expect_error([&] { return migrate(); },
+                 "array 1 (the first is 0) has the values of one before it");
+}
+
 TEST_F(CNeighbours, refuse_types_that_differ) {
     if (num_ranks() == 1) return;
     if (rank() == 0) columns_[1].type = RRCB_DOUBLE;

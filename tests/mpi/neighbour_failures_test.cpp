@@ -137,6 +137,24 @@ TEST_F(Row, other_columns_are_named) {
         << text;
 }
 
+TEST_F(Row, an_array_given_twice_is_named) {
+    const std::vector<double> before = x_;
+    const auto expect_named = [&](const std::function<void()>& call) {
+        const std::string text = steps_before_error(call).second;
+        EXPECT_NE(text.find("columns 0 and 1 (the first is 0) are the same array"),
+                  std::string::npos)
+            << text;
+        neighbours_.emplace(cuts_, NeighbourOptions{.radius = 0.3, .travel = 0.3}, world);
+    };
+    expect_named([&] { neighbours_->migrate(column(x_), x_); });
+    EXPECT_EQ(x_, before);
+    expect_named([&] {
+        neighbours_->find_ghosts(x_);
+        neighbours_->fetch(ghosts_of(ghosts_, ghosts_), x_, x_);
+    });
+    expect_named([&] { neighbours_->sum(SharedEntries{}, x_, x_); });
+}
+
 TEST_F(Row, other_calls_are_named) {
     if (num_ranks() < 2) return;
     step();

@@ -92,5 +92,19 @@ TEST(TransferInPlace, leaves_vectors_unchanged_if_it_is_refused) {
     EXPECT_EQ(rows.values, before.values);
 }
 
+TEST(TransferInPlace, refuses_an_array_given_twice) {
+    const std::vector<Part> parts(10, (rank() + 1) % num_ranks());
+    const Plan lists = plan(parts, num_ranks(), MPI_COMM_WORLD);
+    Rows rows(10);
+    const Rows before = rows;
+    test::expect_same_error(
+        [&] {
+            transfer_in_place(lists, MPI_COMM_WORLD, column(rows.numbers), column(rows.values, 2),
+                              column(rows.numbers));
+        },
+        "columns 0 and 2 (the first is 0) are the same array");
+    EXPECT_EQ(rows.numbers, before.numbers);
+}
+
 }  // namespace
 }  // namespace rrcb

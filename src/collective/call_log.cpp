@@ -42,18 +42,37 @@ std::string_view name_of(CallName call) {
     return names.at(static_cast<std::size_t>(call));
 }
 
-std::optional<CallDifference> find_different_calls(std::span<const CallRecord> known) {
-    const auto [least, most] = std::ranges::minmax(known, {}, &CallRecord::number);
-    std::uint32_t k = most.number() - std::min(most.number(), CallRecord::num_kept);
-    for (; k < least.number(); ++k) {
-        const CallName first = known[0].call(k);
-        const auto other = std::ranges::find_if(
-            known, [&](const CallRecord& one) { return one.call(k) != first; });
-        if (other != known.end())
-            return CallDifference{{0, static_cast<int>(other - known.begin())},
-                                  {first, other->call(k)}};
+namespace {
+
+/// Returns the first difference from the calls of one rank, among those that both records have.
+std::optional<CallDifference> find_difference_from(std::size_t rank,
+                                                   std::span<const CallRecord> known) {
+    const CallRecord& mine = known[rank];
+    std::optional<CallDifference> found;
+    std::uint32_t end = mine.number();
+    for (std::size_t other = 0; other < known.size(); ++other) {
+        const CallRecord& theirs = known[other];
+        const std::uint32_t most = std::max(mine.number(), theirs.number());
+        std::uint32_t k = most - std::min(most, CallRecord::num_kept);
+        for (; k < std::min(end, theirs.number()); ++k) {
+            if (theirs.call(k) == mine.call(k)) continue;
+            found = {{static_cast<int>(rank), static_cast<int>(other)},
+                     {mine.call(k), theirs.call(k)}};
+            end = k;
+        }
     }
-    return std::nullopt;
+    return found;
+}
+
+}  // namespace
+
+std::optional<CallDifference> find_different_calls(std::span<const CallRecord> known) {
+    if (std::ranges::any_of(known, [](const CallRecord& one) { return one.number() == 0; }))
+        return std::nullopt;
+    if (const auto found = find_difference_from(0, known)) return found;
+    // Ranks may have gone on for more calls than are kept, but not the neighbours of the last one.
+    const auto last = std::ranges::min_element(known, {}, &CallRecord::number);
+    return find_difference_from(static_cast<std::size_t>(last - known.begin()), known);
 }
 
 std::string text_of(const CallDifference& difference) {

@@ -82,7 +82,8 @@ struct CallDifference {
 };
 
 /// Returns the first difference between the calls of all ranks: those of rank 0 and of the lowest
-/// rank with another call. Returns nullopt if calls of some rank are not known yet.
+/// rank with another call, or, if there is none, of the rank with the fewest calls. Returns nullopt
+/// if calls of some rank are not known yet.
 std::optional<CallDifference> find_different_calls(std::span<const CallRecord> known);
 
 std::string text_of(const CallDifference& difference);

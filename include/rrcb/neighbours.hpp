@@ -177,8 +177,7 @@ class Neighbours {
     /// Arriving points, by ascending rank, take the places of those that left, then the end; places
     /// left over are filled from the end. All other points keep their indices. Coincident points
     /// divided by a cut stay on their rank.
-    /// @param positions column of positions, which moves too, or Points, whose arrays move only if
-    /// they are among `columns`
+    /// @param positions column of positions, which moves too, or Points in arrays of `columns`
     /// @param columns   different vectors, or column(vector, components)
     /// Throws Error as described above: for a point in a part of no neighbour, which all arrays
     /// still contain, or columns that differ between ranks. A rank that fails because of another

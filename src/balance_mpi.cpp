@@ -8,6 +8,7 @@
 #include "estimate/keeping_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/request.hpp"
+#include "passes/checked_passes.hpp"
 #include "verbose_mpi.hpp"
 
 #include <algorithm>
@@ -165,7 +166,8 @@ void balance_into(Balance& result, const Points& points, const Options& options,
 Balance balance(PointPasses& points, const Options& options, const Cuts& previous, MPI_Comm comm) {
     Participant self = mpi::enter(comm, CallName::balance);
     const double start = MPI_Wtime();
-    Balance result = balance(points, options, given(previous), true, self);
+    CheckedPasses checked(points);
+    Balance result = balance(checked, options, given(previous), true, self);
     print_line(result, options, start, self);
     // The last passes may fail, which no other message carries.
     agree(self);

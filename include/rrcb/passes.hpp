@@ -87,7 +87,8 @@ struct Wanted {
 /// A balance calls these functions on each rank, in any order after summary() or assign(), and does
 /// everything else with their answers. Positions and weights do not change during a call. Parts are
 /// ends of the tree of cuts, in its order, until renumber(). Each function is local: none may
-/// communicate. Each may throw Error or std::bad_alloc, which is thrown on all ranks.
+/// communicate. Each may throw Error or std::bad_alloc, which is thrown on all ranks. Results of
+/// other lengths than asked for are an Error on all ranks as well.
 class RRCB_API PointPasses {
   public:
     /// Ends the passes; the points stay.

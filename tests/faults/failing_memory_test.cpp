@@ -283,6 +283,29 @@ TEST(FailingMemory, in_a_cost_model_whose_controller_goes_on) {
     });
 }
 
+TEST(FailingMemory, in_a_cost_model_of_its_own) {
+    const auto call = [] { return std::optional<CostModel>(std::in_place, MPI_COMM_WORLD, 3); };
+    fail_in(call, [](auto& made) {
+        const std::array columns{1.0, 2.0, 3.0};
+        for (int step = 0; step < 3; ++step) made->step(1, columns);
+        EXPECT_FALSE(made->uses_costs());
+    });
+}
+
+TEST(FailingMemory, in_a_cost_model_on_a_new_communicator) {
+    MPI_Comm comm = MPI_COMM_NULL;
+    FailingMemory(
+        {ok, static_cast<int>(ErrorCode::out_of_memory)},
+        [&] {
+            MPI_Comm_dup(MPI_COMM_WORLD, &comm);
+            const int code = code_of([&] { CostModel(comm, 3); });
+            MPI_Comm_free(&comm);
+            return code;
+        },
+        [] {})
+        .run();
+}
+
 /// Fails each allocation of a call that is not collective; nothing but Error may leave it.
 template <class Call>
 void fail_locally(const char* name, Call&& call) {

@@ -7,10 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -122,6 +125,122 @@ TEST(Passes, that_fail_on_one_rank_fail_on_all) {
     EXPECT_NE(error_of(passes, {}).find("coordinate of point 3"), std::string::npos);
     EXPECT_NE(error_of(passes, {}).find("rank " + std::to_string(num_ranks() - 1)),
               std::string::npos);
+}
+
+/// Passes that answer with one entry too few, or too many, in one function on the last rank.
+class ShortPasses : public test::BrutePasses {
+  public:
+    ShortPasses(const test::BrutePasses& right, std::string function, int surplus)
+        : BrutePasses(right), function_(std::move(function)), surplus_(surplus) {}
+
+    PointSummary summary(bool reads_positions) override {
+        PointSummary summary = BrutePasses::summary(reads_positions);
+        if (fails("summary")) summary.count += static_cast<LocalIndex>(surplus_);
+        return summary;
+    }
+    PointSample sample(LocalIndex size) override {
+        PointSample sample = BrutePasses::sample(size);
+        change("sample", sample.positions);
+        change("sample weights", sample.weights);
+        return sample;
+    }
+    std::vector<CellMoments> moments(const SupportMesh& mesh) override {
+        return changed("moments", BrutePasses::moments(mesh));
+    }
+    PartTotals assign(const Cuts& cuts, bool counts) override {
+        PartTotals totals = BrutePasses::assign(cuts, counts);
+        if (!counts) return totals;
+        change("assign", totals.weights);
+        change("assign counts", totals.counts);
+        return totals;
+    }
+    void collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
+                 Collected& collected) override {
+        BrutePasses::collect(cuts, intervals, has_parts, collected);
+        change("collect", collected.coordinates);
+        change("collect weights", collected.weights);
+        change("collect totals", collected.settled.weights);
+        change("collect counts", collected.settled.counts);
+        if (fails("collect dimension")) collected.dimension += surplus_;
+    }
+    std::vector<std::size_t> collect_more(std::span<const Wanted> wanted,
+                                          Collected& collected) override {
+        auto nodes = changed("collect_more", BrutePasses::collect_more(wanted, collected));
+        if (fails("collect_more nodes"))
+            for (std::size_t& node : nodes) node = wanted.size();
+        change("collect_more totals", collected.settled.counts);
+        return nodes;
+    }
+    std::vector<Box> boxes(int num_parts) override {
+        return changed("boxes", BrutePasses::boxes(num_parts));
+    }
+    std::vector<Part> parts() const override { return changed("parts", BrutePasses::parts()); }
+
+    /// Returns true if the answer was wrong on this rank.
+    bool has_failed() const { return has_failed_; }
+
+  private:
+    bool fails(const std::string& function) const {
+        const bool fails = function == function_ && rank() == num_ranks() - 1;
+        has_failed_ = has_failed_ || fails;
+        return fails;
+    }
+    template <class Values>
+    void change(const std::string& function, Values& values) const {
+        if (values.empty() || !fails(function)) return;
+        values.resize(values.size() + static_cast<std::size_t>(surplus_));
+    }
+    template <class Values>
+    Values changed(const std::string& function, Values values) const {
+        change(function, values);
+        return values;
+    }
+
+    std::string function_;
+    int surplus_;
+    mutable bool has_failed_ = false;
+};
+
+/// Counts the wrong answers of a function; each must be an error on all ranks that names it.
+int num_refused(const std::string& function, int surplus, bool is_lattice) {
+    int num_failed = 0;
+    Cloud cloud(900, 2, 5, is_lattice);
+    Cloud moved = cloud;
+    for (double& x : moved.coordinates) x = x * x;
+    for (std::size_t i = 0; i < 900; ++i) moved.weights.push_back(static_cast<double>(1 + i % 7));
+    for (const Options& options : kinds(std::max(2, num_ranks()))) {
+        const Cuts earlier = balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
+        for (const Cuts& previous : {Cuts{}, earlier}) {
+            ShortPasses passes(moved.passes(), function, surplus);
+            std::string text;
+            try {
+                balance(passes, options, previous, MPI_COMM_WORLD);
+            } catch (const Error& error) {
+                text = error.what();
+            }
+            const std::string name = function.substr(0, function.find(' ')) + "()";
+            int has_failed = passes.has_failed() ? 1 : 0;
+            MPI_Allreduce(MPI_IN_PLACE, &has_failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+            EXPECT_EQ(text.find("PointPasses::" + name) != std::string::npos, has_failed != 0)
+                << function << ": " << text;
+            num_failed += has_failed;
+        }
+    }
+    return num_failed;
+}
+
+TEST(Passes, that_answer_with_other_lengths_are_refused_on_all_ranks) {
+    for (const char* function :
+         {"summary", "sample", "sample weights", "moments", "assign", "assign counts", "collect",
+          "collect weights", "collect totals", "collect counts", "collect dimension",
+          "collect_more", "collect_more nodes", "collect_more totals", "boxes", "parts"})
+        for (const int surplus : {-1, 1}) {
+            const int num =
+                num_refused(function, surplus, false) + num_refused(function, surplus, true);
+            // More points leave no gap that is open, for which boxes are needed.
+            const int least = function == std::string("boxes") && num_ranks() > 2 ? 0 : 1;
+            EXPECT_GE(num, least) << function;
+        }
 }
 
 TEST(Passes, are_refused_if_many_ranks_make_the_parts) {

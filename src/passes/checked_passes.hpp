@@ -1,0 +1,43 @@
+#pragma once
+
+#include <rrcb/passes.hpp>
+
+namespace rrcb {
+
+/// Passes of a caller, with the lengths of all that they return compared with what was asked for.
+///
+/// Each function throws Error if a length is wrong; its text names the function of the passes, the
+/// length returned and the right one.
+class CheckedPasses final : public PointPasses {
+  public:
+    /// Borrows the caller's passes.
+    explicit CheckedPasses(PointPasses& given) : given_(given) {}
+
+    int dimension() const override { return given_.dimension(); }
+    LocalIndex count() const override { return given_.count(); }
+    bool has_weights() const override { return given_.has_weights(); }
+    void use_weights(bool are_used) override;
+    PointSummary summary(bool reads_positions) override;
+    PointSample sample(LocalIndex size) override;
+    std::vector<CellMoments> moments(const SupportMesh& mesh) override;
+    PartTotals assign(const Cuts& cuts, bool counts) override;
+    void collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
+                 Collected& collected) override;
+    std::vector<std::size_t> collect_more(std::span<const Wanted> wanted,
+                                          Collected& collected) override;
+    std::vector<Box> boxes(int num_parts) override;
+    void settle(const Collected& collected, std::span<const Part> parts) override {
+        given_.settle(collected, parts);
+    }
+    void renumber(std::span<const Part> numbers) override { given_.renumber(numbers); }
+    std::vector<Part> parts() const override;
+    void set_parts(std::span<const Part> parts) override { given_.set_parts(parts); }
+    std::int64_t most_cells() const override { return given_.most_cells(); }
+
+  private:
+    PointPasses& given_;
+    bool are_weights_used_ = true;
+    PointSummary summary_{};  ///< with weights
+};
+
+}  // namespace rrcb

@@ -23,7 +23,7 @@ namespace {
 using Access = detail::NeighbourAccess;
 
 /// Options of a call, with the memory they borrow.
-struct KeptOptions {
+struct KeptNeighbourOptions {
     NeighbourOptions options{};
     std::vector<RankRange> ranks{};
 
@@ -40,7 +40,7 @@ struct KeptOptions {
 
 std::unique_ptr<rrcb_neighbours> make(const rrcb_balancer& own, const rrcb_neighbour_options* given,
                                       rrcb_neighbours** neighbours) {
-    KeptOptions kept;
+    KeptNeighbourOptions kept;
     const auto check = [&] {
         require_cuts(own);
         kept.read(given);

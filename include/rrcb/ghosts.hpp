@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -16,6 +17,12 @@
 #include <vector>
 
 namespace rrcb {
+
+namespace detail {
+
+class KeptExchange;
+
+}  // namespace detail
 
 /// Periods along each axis.
 using Shift = std::array<std::int32_t, 3>;
@@ -42,6 +49,8 @@ struct GhostPlan {
     std::uint64_t stamp = 0;
     double radius = std::numeric_limits<double>::quiet_NaN();  ///< as in the options
     Needs needs = Needs::sender;                               ///< as in the options
+    /// Memory of fetch() and the like for the next call; copies share it. Reset it to free it.
+    mutable std::shared_ptr<detail::KeptExchange> kept{};
 };
 
 /// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
@@ -228,9 +237,10 @@ void apply_shifts(const GhostPlan& plan, Structs& ghosts, Member first, Others..
 ///
 ///     const std::vector<double> ghost_xyz = rrcb::fetch(near, rrcb::column(xyz, 3), comm);
 ///
-/// The plan can be used again as long as no point changes its index in the columns. If its radii
-/// include a skin s, it holds all pairs within the true radii until a point has moved by s / 2.
-/// Until then do not wrap positions in a periodic box.
+/// The plan can be used again as long as no point changes its index in the columns. With a skin s
+/// in its radii, it holds all pairs within the true radii until a point has moved by s / 2; until
+/// then do not wrap positions. For columns of the same types as before, if no transfer was made
+/// since, ranks only exchange messages with those of the plan, and throw as Neighbours does.
 /// @param plan    of ghosts()
 /// @param columns one entry, or `components`, for each of plan.num_points points
 /// @param comm    of the plan

@@ -36,8 +36,11 @@ std::string_view name_of(CallName call) {
                                "Neighbours::find_ghosts",
                                "Neighbours::fetch",
                                "Neighbours::accumulate",
-                               "Neighbours::sum"};
-    static_assert(names.size() == static_cast<std::size_t>(CallName::sum) + 1 &&
+                               "Neighbours::sum",
+                               "fetch of known columns",
+                               "accumulate of known columns",
+                               "reply of known columns"};
+    static_assert(names.size() == static_cast<std::size_t>(CallName::kept_reply) + 1 &&
                   names.size() <= most_call_names);
     return names.at(static_cast<std::size_t>(call));
 }

@@ -49,7 +49,10 @@ enum class CallName : std::uint8_t {
     find_ghosts,
     fetch_of_neighbours,
     accumulate_of_neighbours,
-    sum
+    sum,
+    kept_fetch,
+    kept_accumulate,
+    kept_reply
 };
 inline constexpr int most_call_names = 40;
 

@@ -70,18 +70,26 @@ void NeighbourExchange::begin(CallName call, std::uint64_t version) {
     for (Incoming& incoming : incoming_) incoming.has_arrived = incoming.is_valid = false;
 }
 
-void NeighbourExchange::set_types(std::span<const std::uint64_t> types) {
-    types_.assign(types.begin(), types.end());
+void NeighbourExchange::set_types(std::span<const detail::ByteColumn> columns) {
+    types_.clear();
+    for (const detail::ByteColumn& column : columns) types_.push_back(type_of(column));
 }
 
-std::size_t NeighbourExchange::body_begin() const {
-    return aligned(sizeof(Header) + types_.size() * sizeof(ColumnType));
+std::size_t NeighbourExchange::header_bytes(std::size_t num_columns) {
+    return aligned(sizeof(Header) + num_columns * sizeof(ColumnType));
+}
+
+std::size_t NeighbourExchange::num_bytes() const {
+    std::size_t bytes = 0;
+    for (const auto& message : link_.outgoing->messages) bytes += message.size();
+    for (const Incoming& incoming : incoming_) bytes += incoming.bytes.size();
+    return bytes;
 }
 
 std::byte* NeighbourExchange::message_to(std::size_t neighbour, std::size_t rows,
                                          std::size_t bytes) {
     detail::Uninitialized<std::byte>& message = link_.outgoing->messages[neighbour];
-    const std::size_t begin = body_begin();
+    const std::size_t begin = header_bytes(types_.size());
     mpi::to_int(static_cast<std::int64_t>(begin + bytes));
     message.resize(begin + bytes);
     std::fill_n(message.begin(), begin, std::byte{});
@@ -234,9 +242,9 @@ std::size_t NeighbourExchange::rows_from(std::size_t neighbour) const {
 
 const std::byte* NeighbourExchange::message_from(std::size_t neighbour, std::size_t bytes) const {
     const detail::Uninitialized<std::byte>& message = incoming_[neighbour].bytes;
-    if (message.size() != body_begin() + bytes)
+    if (message.size() != header_bytes(types_.size()) + bytes)
         throw Error(ErrorCode::internal, "a message of a neighbour has an unexpected length");
-    return message.data() + body_begin();
+    return message.data() + header_bytes(types_.size());
 }
 
 void NeighbourExchange::end() {

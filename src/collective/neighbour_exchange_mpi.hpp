@@ -42,8 +42,8 @@ class NeighbourExchange {
         if (failure.failed) fail(of_this_rank(failure));
     }
 
-    /// States the types of the columns, see type_of().
-    void set_types(std::span<const std::uint64_t> types);
+    /// States the columns whose rows the messages contain.
+    void set_types(std::span<const detail::ByteColumn> columns);
 
     /// Returns the memory for `bytes` of a message with `rows` rows to a neighbour, 16-byte
     /// aligned.
@@ -57,6 +57,11 @@ class NeighbourExchange {
     std::size_t rows_from(std::size_t neighbour) const;
     /// Returns the message of a neighbour; fails unless it has this length.
     const std::byte* message_from(std::size_t neighbour, std::size_t bytes) const;
+
+    /// Returns the bytes of the messages of the latest call, sent and received.
+    std::size_t num_bytes() const;
+    /// Returns the bytes of a message before its rows.
+    static std::size_t header_bytes(std::size_t num_columns);
 
     /// Ends the call: throws the failure of a neighbour, if there is one.
     void end();
@@ -77,7 +82,6 @@ class NeighbourExchange {
     void receive(std::size_t neighbour);
     bool is_notice_next(std::size_t neighbour);
     void compare(std::size_t neighbour);
-    std::size_t body_begin() const;
 
     std::shared_ptr<CallLog> log_;
     NeighbourLink link_;

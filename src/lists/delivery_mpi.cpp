@@ -3,9 +3,10 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/column_type.hpp"
 #include "collective/communicator.hpp"
+#include "collective/neighbour_exchange_mpi.hpp"
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/stream_mpi.hpp"
-#include "lists/rows.hpp"
+#include "lists/message_rows.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/detail/mix.hpp>
@@ -139,6 +140,16 @@ bool is_like_before(const Delivery& delivery, std::span<const ByteColumn> column
     return false;
 }
 
+/// Returns whether messages to some ranks, in one piece each, are within half of the limit.
+bool are_within(const TransferLimits& limits, std::span<const ByteColumn> columns,
+                std::span<const RankCount> counts) {
+    std::size_t bytes = 0;
+    for (const RankCount& one : counts)
+        bytes +=
+            NeighbourExchange::header_bytes(columns.size()) + message_bytes(columns, one.count);
+    return bytes <= limits.bytes / 2;
+}
+
 void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, Participant& self) {
     // In each piece of a message one column follows the other.
     const auto pack = [&](std::size_t first, std::size_t count, std::byte* place) {
@@ -217,7 +228,9 @@ Delivered deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
         point_bytes = point_bytes_of(columns);
     });
     const auto overtaking = static_cast<double>(delivery.overtaking);
-    Flags flags{0, overtaking, -overtaking, delivery.to.empty() ? 0. : 1.};
+    const bool fits =
+        are_within(limits, columns, delivery.to) && are_within(limits, columns, delivery.from);
+    Flags flags{0, overtaking, -overtaking, !fits ? 2. : delivery.to.empty() ? 0. : 1.};
     const std::vector<RankCount> sent = exchange_counts(delivery.to, self, &flags);
     self.compare([&] {
         require(
@@ -246,7 +259,7 @@ Delivered deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
     run(*stream, delivery, lanes, self);
     if (report != nullptr)
         *report = {stream->num_bytes(), point_bytes * total(delivery.to), stream->num_messages()};
-    return {flags[3] > 0, is_like_before(delivery, columns, lanes)};
+    return {flags[3] > 0, flags[3] < 2, is_like_before(delivery, columns, lanes)};
 }
 
 }  // namespace rrcb

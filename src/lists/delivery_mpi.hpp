@@ -55,6 +55,7 @@ void check_results(std::span<const detail::ByteColumn> columns);
 /// Result of deliver().
 struct Delivered {
     bool moves = false;           ///< whether any rank sends points
+    bool fits = false;            ///< whether whole messages are within the limits on all ranks
     bool is_like_before = false;  ///< the points that hash_of(points) reads may be as before
 };
 

@@ -33,9 +33,10 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
                  Participant& self);
 Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,
                     Participant& self);
-void move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
+// These return whether all messages of the same columns fit in the limits, each in one piece.
+bool move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
-void move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_ghosts,
+bool move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_ghosts,
                std::span<const detail::ByteColumn> of_points, const TransferLimits& limits,
                TransferReport* report, Participant& self);
 void move(const detail::Replies& replies, std::span<const detail::ByteColumn> columns,

@@ -3,6 +3,7 @@
 #include "collective/duplicate.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "lists/kept_delivery_mpi.hpp"
 #include "lists/transfer_log.hpp"
 #include "options/rejection.hpp"
 
@@ -59,40 +60,67 @@ void copy(const ByteColumn& column) {
     std::copy_n(column.from, column.num_values * column.value_bytes, result);
 }
 
+Delivery delivery_of(const GhostPlan& plan) {
+    return {.num_points = plan.num_points,
+            .sent = plan.send_indices,
+            .to = plan.send,
+            .from = plan.receive};
+}
+
+/// Throws Error unless columns of the ghosts have the lengths of the plan, and the components of
+/// those of the points, which it copies to their results.
+void check_sums(const GhostPlan& plan, LocalIndex num_ghosts, std::span<const ByteColumn> of_ghosts,
+                std::span<const ByteColumn> of_points) {
+    for (const ByteColumn& column : of_ghosts)
+        check_column(column, num_ghosts, "ghosts of the plan");
+    for (std::size_t k = 0; k < of_points.size(); ++k) {
+        require(of_ghosts[k].components == of_points[k].components,
+                "columns of ghosts must have as many components as those of the points");
+        check_column(of_points[k], plan.num_points, "points of the plan");
+        copy(of_points[k]);
+    }
+}
+
+/// Moves columns back, without collective calls if the ranks have done so before.
+void send_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
+               std::span<const ByteColumn> of_points, const TransferLimits& limits,
+               TransferReport* report, CallName call, CallName kept_call, MPI_Comm user) {
+    using detail::KeptExchange;
+    if (NeighbourExchange* exchange = KeptExchange::find(plan, call, of_ghosts, limits, user)) {
+        exchange->begin(kept_call);
+        const Delivery delivery{
+            .num_points = total(plan.receive), .to = plan.receive, .from = plan.send};
+        exchange->attempt([&] { check_sums(plan, delivery.num_points, of_ghosts, of_points); });
+        return deliver_kept(delivery, of_ghosts, report, *exchange);
+    }
+    Participant self = mpi::enter(user, call);
+    KeptExchange::keep(plan, self);
+    if (rrcb::move_back(plan, of_ghosts, of_points, limits, report, self))
+        plan.kept->note(call, of_ghosts, limits);
+}
+
 }  // namespace
 
-void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
+bool move(const GhostPlan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
           TransferReport* report, Participant& self) {
-    Delivery delivery{.num_points = plan.num_points,
-                      .sent = plan.send_indices,
-                      .to = plan.send,
-                      .from = plan.receive};
+    Delivery delivery = delivery_of(plan);
     self.attempt([&] {
         check(plan, self);
         delivery.overtaking = overtaking(plan, self.comm);
     });
-    deliver(delivery, columns, limits, report, self);
+    return deliver(delivery, columns, limits, report, self).fits;
 }
 
-void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
+bool move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                std::span<const ByteColumn> of_points, const TransferLimits& limits,
                TransferReport* report, Participant& self) {
     Delivery delivery{.to = plan.receive, .from = plan.send};
     self.attempt([&] {
         delivery.num_points = check(plan, self);
         delivery.overtaking = overtaking(plan, self.comm);
-        if (of_points.empty())
-            for (const ByteColumn& column : of_ghosts)
-                check_column(column, delivery.num_points, "ghosts of the plan");
-        for (std::size_t k = 0; k < of_points.size(); ++k) {
-            require(of_ghosts[k].components == of_points[k].components,
-                    "columns of ghosts must have as many components as those of the points");
-            check_column(of_ghosts[k], delivery.num_points, "ghosts of the plan");
-            check_column(of_points[k], plan.num_points, "points of the plan");
-            copy(of_points[k]);
-        }
+        check_sums(plan, delivery.num_points, of_ghosts, of_points);
     });
-    deliver(delivery, of_ghosts, limits, report, self);
+    return deliver(delivery, of_ghosts, limits, report, self).fits;
 }
 
 void move(const detail::Replies& replies, std::span<const ByteColumn> columns,
@@ -150,21 +178,28 @@ std::vector<double> sums(const Groups& groups, std::span<const double> values,
 
 void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
+    if (NeighbourExchange* exchange =
+            KeptExchange::find(plan, CallName::fetch, columns, limits, user)) {
+        exchange->begin(CallName::kept_fetch);
+        return deliver_kept(delivery_of(plan), columns, report, *exchange);
+    }
     Participant self = mpi::enter(user, CallName::fetch);
-    rrcb::move(plan, columns, limits, report, self);
+    KeptExchange::keep(plan, self);
+    if (rrcb::move(plan, columns, limits, report, self))
+        plan.kept->note(CallName::fetch, columns, limits);
 }
 
 void detail::move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                        std::span<const ByteColumn> of_points, const TransferLimits& limits,
                        TransferReport* report, MPI_Comm user) {
-    Participant self = mpi::enter(user, CallName::accumulate);
-    rrcb::move_back(plan, of_ghosts, of_points, limits, report, self);
+    send_back(plan, of_ghosts, of_points, limits, report, CallName::accumulate,
+              CallName::kept_accumulate, user);
 }
 
 void detail::move(const Replies& replies, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    Participant self = mpi::enter(user, CallName::reply);
-    rrcb::move(replies, columns, limits, report, self);
+    send_back(replies.plan, columns, {}, limits, report, CallName::reply, CallName::kept_reply,
+              user);
 }
 
 void detail::move(const Groups& groups, std::span<const ByteColumn> columns,

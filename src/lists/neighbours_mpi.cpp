@@ -95,7 +95,7 @@ void Neighbours::migrate_columns(const Points& positions, std::span<const ByteCo
     NeighbourExchange& exchange = *s.exchange;
     exchange.begin(CallName::migrate);
     exchange.attempt([&] {
-        s.set_types(columns);
+        exchange.set_types(columns);
         s.check_positions(positions);
         for (const ByteColumn& column : columns) check_column(column, positions.count, "points");
         check_results(columns);
@@ -137,7 +137,7 @@ void Neighbours::fetch_columns(std::span<const ByteColumn> columns) {
                (has_shifts ? block_bytes(sizeof(Shift), num_rows) : 0);
     };
     exchange.attempt([&] {
-        s.set_types(columns);
+        exchange.set_types(columns);
         s.require_ghosts(State::Stage::found);
         for (const ByteColumn& column : columns)
             check_column(column, s.ghosts.num_points, "points");
@@ -147,7 +147,7 @@ void Neighbours::fetch_columns(std::span<const ByteColumn> columns) {
             std::byte* const place = exchange.message_to(n, points.size(), bytes_of(points.size()));
             pack(columns, points, place);
             if (has_shifts)
-                copy_bytes(reinterpret_cast<const std::byte*>(&s.shifts[s.send[n].first]),
+                copy_bytes(reinterpret_cast<const std::byte*>(s.shifts.data() + s.send[n].first),
                            points.size() * sizeof(Shift),
                            place + message_bytes(columns, points.size()));
         }
@@ -196,7 +196,7 @@ void Neighbours::accumulate_columns(std::span<const SumColumn> columns) {
             check_column(column.points, s.ghosts.num_points, "points");
             s.of_ghosts.push_back(column.ghosts);
         }
-        s.set_types(s.of_ghosts);
+        exchange.set_types(s.of_ghosts);
         for (std::size_t n = 0; n < exchange.ranks().size(); ++n) {
             const State::Range& range = s.receive[n];
             std::byte* place =
@@ -235,7 +235,7 @@ void Neighbours::sum_columns(const SharedEntries& shared, std::span<const SumCol
     exchange.attempt([&] {
         s.of_ghosts.clear();
         for (const SumColumn& column : columns) s.of_ghosts.push_back(column.points);
-        s.set_types(s.of_ghosts);
+        exchange.set_types(s.of_ghosts);
         s.list_shared(shared, columns);
         for (std::size_t n = 0; n < exchange.ranks().size(); ++n) {
             const std::span<const LocalIndex> entries = s.shared_with(shared, n);

@@ -36,12 +36,6 @@ void Neighbours::State::open(std::vector<int> ranks, std::shared_ptr<CallLog> lo
     lists.emplace(near->ranks(), territory.images() != nullptr);
 }
 
-void Neighbours::State::set_types(std::span<const ByteColumn> columns) {
-    types.clear();
-    for (const ByteColumn& column : columns) types.push_back(type_of(column));
-    exchange->set_types(types);
-}
-
 void Neighbours::State::check_positions(const Points& points) const {
     check_lengths(points);
     require(points.dimension == territory.cuts().dimension,

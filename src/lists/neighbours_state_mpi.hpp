@@ -83,8 +83,6 @@ struct Neighbours::State {
         for (const std::size_t n : by_rank) visit(n, receive[n]);
     }
 
-    void set_types(std::span<const detail::ByteColumn> columns);
-
     void check_positions(const Points& points) const;
     void check_radii(const Points& points, const Radii& radii) const;
     /// Throws Error unless there are ghosts at this stage or later.
@@ -154,7 +152,6 @@ struct Neighbours::State {
     std::vector<std::byte> own_values{};  ///< of the shared entries
 
     std::vector<detail::ByteColumn> of_ghosts{};
-    std::vector<std::uint64_t> types{};
 };
 
 }  // namespace rrcb

@@ -36,6 +36,9 @@ class TransferLog {
                   is_like_before || was_like_before};
     }
 
+    /// Returns the number of transfers, the same on every rank.
+    std::uint64_t number() const { return number_; }
+
     /// Returns true if so many points, after a transfer, may have the hash of those before.
     bool are_like_before(LocalIndex num_points) const {
         return std::ranges::any_of(transfers_, [&](const Transfer& transfer) {

@@ -202,7 +202,7 @@ TEST(Reply, returns_the_rows_of_each_rank_to_the_points_that_it_has_as_ghosts) {
         reply(scene.plan, columns(scene.near, column(scene.near)), MPI_COMM_WORLD);
     EXPECT_EQ(again, twice);
     answers.resize(answers.size() + (test::is_last_rank() ? 1 : 0));
-    EXPECT_THROW(static_cast<void>(reply(scene.plan, answers, MPI_COMM_WORLD)), Error);
+    EXPECT_THROW(static_cast<void>(reply(make_scene().plan, answers, MPI_COMM_WORLD)), Error);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "lists/migration.hpp"
 #include "lists/radii.hpp"
 #include "lists/rank_lists.hpp"
+#include "lists/rows.hpp"
 #include "lists/territory.hpp"
 
 #include <rrcb/neighbours.hpp>

@@ -38,7 +38,7 @@ void check_lists(const Plan& plan, int num_ranks) {
 namespace {
 
 /// Lists of a transfer that outlive it.
-struct Lists {
+struct TransferLists {
     std::vector<LocalIndex> sent;
     std::vector<RankCount> to;
     std::vector<RankCount> from;
@@ -46,7 +46,7 @@ struct Lists {
 };
 
 /// Makes the lists. Throws Error if the plan is inconsistent.
-Delivery make_lists(const Plan& plan, Lists& lists, Participant& self) {
+Delivery make_lists(const Plan& plan, TransferLists& lists, Participant& self) {
     const int num_ranks = mpi::size_of(self.comm);
     mpi::require_group(plan.group, "the plan", self);
     check_lists(plan, num_ranks);
@@ -81,7 +81,7 @@ void remove_rows(std::byte* rows, std::size_t row_bytes, LocalIndex num_left,
 void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self) {
     Delivery delivery;
-    Lists lists;
+    TransferLists lists;
     self.attempt([&] { delivery = make_lists(plan, lists, self); });
     const Delivered delivered = deliver(delivery, columns, limits, report, self);
     lists.log->add(plan, delivered.moves, delivered.is_like_before);
@@ -90,7 +90,7 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
 void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns,
                    Participant& self) {
     Delivery delivery;
-    Lists lists;
+    TransferLists lists;
     self.attempt([&] {
         delivery = make_lists(plan, lists, self);
         delivery.is_in_place = true;

@@ -150,11 +150,12 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
 }
 
 /// Reads the ranks' present parts from the extents of their points; nullopt if they are no
-/// bisection of so many parts.
+/// bisection of so many parts, or if some rank does not hold a part.
 std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
                                   const Options& options) {
     std::vector<PointSummary> extents = read_extents(all.extents, estimate.dimension);
-    if (extents.empty() || all.summary.num_points == 0) return {};
+    if (extents.size() != static_cast<std::size_t>(options.num_parts)) return {};
+    if (all.summary.num_points == 0) return {};
     if (Verdict{all.summary}.is_counted())
         for (PointSummary& extent : extents) extent.weight = static_cast<double>(extent.count);
     return read_kept_tree(extents, estimate, options);
@@ -162,7 +163,8 @@ std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
 
 /// Bisects the cells of all ranks, and reads what the ranks hold. If that is a bisection, the cuts
 /// are across its axes; otherwise points at rest might turn in every call. Cuts across other axes
-/// which seem to be better come as well, because the estimate depends on what the ranks hold.
+/// come as well, for points to be counted near them, because the estimate depends on what the ranks
+/// hold: always if the present parts are uneven, otherwise if they seem to be better.
 Bisection make_cuts(const Contribution& all, const Options& options, Decision& decision) {
     const StatisticalDomain domain = build_domain(all, decision.cuts.dimension);
     Bisection made = bisect_gathered(domain, all, options);
@@ -173,8 +175,9 @@ Bisection make_cuts(const Contribution& all, const Options& options, Decision& d
     Options along = options;
     along.axes.order = AxisOrder::given(axes);
     Bisection across = bisect_gathered(domain, all, along);
+    const bool is_even = decision.held->imbalance <= options.imbalance_tolerance;
     if (!options.axes.order.is_longest() &&
-        !are_axes_good(domain, decision.held->cuts, made.cuts.near))
+        !(is_even && are_axes_good(domain, decision.held->cuts, made.cuts.near)))
         decision.turned = std::move(made);
     return across;
 }

@@ -144,6 +144,9 @@ struct AtRest : Moving {
     AtRest() : Moving(2) {
         std::mt19937 random(static_cast<unsigned>(5 + rank));
         fill_with_weights(*this, random);
+        // Heavier above, so that parts of equal weight do not have equal numbers.
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            weights[i] *= static_cast<float>(1 + coordinates[2 * i] + coordinates[2 * i + 1]);
         set("LB_METHOD", "RRCB");
         set("RRCB_REFINE", "EXACT");
         set("KEEP_CUTS", "1");

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -45,7 +46,10 @@ Request take_request(rrcb::fuzz::Input& input) {
     own.axes.plain = input.take_below(2) == 1;
     own.imbalance_tolerance = 1 + 0.05 * input.take_below(5);
     own.part_sizes.resize(input.take_below(4) == 0 ? std::size_t(own.num_parts) : 0);
-    for (double& size : own.part_sizes) size = input.take_below(3);
+    // Over up to 600 decades, to subnormal numbers.
+    const int most_halvings = own.part_sizes.empty() ? 0 : 5 * input.take_below(215);
+    for (double& size : own.part_sizes)
+        size = std::ldexp(input.take_below(3), -(most_halvings * input.take_below(256) / 255));
     paper.num_parts = own.num_parts;
     paper.part_sizes = own.part_sizes;
     paper.support_mesh = std::max(1, own.tuning.support_mesh);

@@ -1,6 +1,7 @@
 #include "limit_reference.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -42,11 +43,16 @@ class Reference {
         std::vector<LocalIndex> all(points_.count);
         double weight = 0;
         for (LocalIndex i = 0; i < points_.count; ++i) weight += points_.weight(all[i] = i);
-        const double heaviest = heaviest_part(all, box_, options_.num_parts, infinity);
+        const double heaviest = heaviest_part(all, Region{box_}, options_.num_parts, infinity);
         return weight > 0 ? heaviest * options_.num_parts / weight : heaviest;
     }
 
   private:
+    /// A box, and the axes along which it ends where all points do, not at a cut.
+    struct Region : Box {
+        std::array<bool, max_dimension> is_outermost{true, true, true};
+    };
+
     double min_width(int axis) const {
         return options_.axes.min_width.empty()
                    ? 0
@@ -90,7 +96,7 @@ class Reference {
     }
 
     /// Weight of the heaviest part at best, or at least `enough`.
-    double heaviest_part(const std::vector<LocalIndex>& inside, const Box& region, int num_parts,
+    double heaviest_part(const std::vector<LocalIndex>& inside, const Region& region, int num_parts,
                          double enough) {
         if (num_parts == 1) {
             double weight = 0;
@@ -101,8 +107,7 @@ class Reference {
             const auto a = static_cast<std::size_t>(axis);
             for (const double value : candidates_[a]) {
                 if (!is_wide(region.lower[a], value, axis, false)) continue;
-                const bool is_outermost = region.upper[a] == box_.upper[a];
-                if (!is_wide(value, region.upper[a], axis, is_outermost)) continue;
+                if (!is_wide(value, region.upper[a], axis, region.is_outermost[a])) continue;
                 enough =
                     std::min(enough, heaviest_with(inside, region, num_parts, axis, value, enough));
             }
@@ -110,16 +115,18 @@ class Reference {
         return enough;
     }
 
-    double heaviest_with(const std::vector<LocalIndex>& inside, const Box& region, int num_parts,
+    double heaviest_with(const std::vector<LocalIndex>& inside, const Region& region, int num_parts,
                          int axis, double value, double enough) {
         std::vector<LocalIndex> below;
         std::vector<LocalIndex> above;
         for (const LocalIndex i : inside)
             (points_.coordinate(i, axis) < value ? below : above).push_back(i);
-        Box lower = region;
-        Box upper = region;
-        lower.upper[static_cast<std::size_t>(axis)] = value;
-        upper.lower[static_cast<std::size_t>(axis)] = value;
+        const auto a = static_cast<std::size_t>(axis);
+        Region lower = region;
+        Region upper = region;
+        lower.upper[a] = value;
+        lower.is_outermost[a] = false;
+        upper.lower[a] = value;
         const int num_below = options_.tree.lower_parts(num_parts);
         const double of_lower = heaviest_part(below, lower, num_below, enough);
         if (of_lower >= enough) return enough;

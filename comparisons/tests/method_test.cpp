@@ -123,8 +123,8 @@ TEST(Method, names_what_is_unknown) {
 }
 
 TEST(Method, names_values_out_of_range) {
-    EXPECT_EQ(error_of("rrcb[mesh=0]"),
-              "--methods: rrcb[mesh=0]: mesh must be a whole number from 1 to 4096, not '0'");
+    EXPECT_EQ(error_of("rrcb[mesh=-1]"),
+              "--methods: rrcb[mesh=-1]: mesh must be a whole number from 1 to 4096, not '-1'");
     EXPECT_EQ(
         error_of("rrcb-sampled[fraction=1.5]"),
         "--methods: rrcb-sampled[fraction=1.5]: fraction must be a number above 0, at most 1, "

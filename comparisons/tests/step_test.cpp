@@ -78,7 +78,8 @@ TEST_P(Step, of_calls_for_points_that_go_anywhere_takes_six_collectives) {
     const StageCounts moves = total("loop", flow_, false);
     EXPECT_LE(moves.collectives, 6);
     EXPECT_LE(moves.messages, 37);
-    EXPECT_LE(moves.allocations, 240);
+    // With those of the exchange that a plan keeps from its first call on.
+    EXPECT_LE(moves.allocations, 260);
     const StageCounts keeps = total("loop", flow_, true);
     EXPECT_LE(keeps.collectives, 2);
     EXPECT_LE(keeps.messages, 20);

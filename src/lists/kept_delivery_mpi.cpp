@@ -32,13 +32,13 @@ std::vector<int> other_ranks(const GhostPlan& plan, int rank) {
 }
 
 /// The rows of one rank in a list by rank.
-struct Rows {
+struct RowRange {
     LocalIndex first = 0;
     LocalIndex count = 0;
 };
 
-Rows rows_of(std::span<const RankCount> counts, int rank) {
-    Rows rows;
+RowRange rows_of(std::span<const RankCount> counts, int rank) {
+    RowRange rows;
     for (const RankCount& one : counts) {
         if (one.rank == rank) return {rows.first, one.count};
         rows.first += one.count;
@@ -62,7 +62,7 @@ std::uint64_t hash_of(const GhostPlan& plan) {
     return hash;
 }
 
-void write(const ByteColumn& column, std::span<const LocalIndex> points, const Rows& rows,
+void write(const ByteColumn& column, std::span<const LocalIndex> points, const RowRange& rows,
            std::byte* place) {
     const std::size_t bytes = row_bytes(column);
     if (points.empty())
@@ -121,7 +121,7 @@ void deliver_kept(const Delivery& delivery, std::span<const ByteColumn> columns,
         for (const ByteColumn& column : columns)
             check_column(column, delivery.num_points, "points of the plan");
         for (std::size_t n = 0; n < ranks.size(); ++n) {
-            const Rows rows = rows_of(delivery.to, ranks[n]);
+            const RowRange rows = rows_of(delivery.to, ranks[n]);
             std::byte* place =
                 exchange.message_to(n, rows.count, message_bytes(columns, rows.count));
             for (const ByteColumn& column : columns) {
@@ -146,7 +146,7 @@ void deliver_kept(const Delivery& delivery, std::span<const ByteColumn> columns,
             std::byte* const result =
                 columns[k].resize(columns[k].result, total(delivery.from) * columns[k].components);
             for (std::size_t n = 0; n < ranks.size(); ++n) {
-                const Rows rows = rows_of(delivery.from, ranks[n]);
+                const RowRange rows = rows_of(delivery.from, ranks[n]);
                 copy_bytes(exchange.message_from(n, message_bytes(columns, rows.count)) +
                                message_bytes(columns.first(k), rows.count),
                            rows.count * bytes, result + rows.first * bytes);

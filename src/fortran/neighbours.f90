@@ -4,6 +4,7 @@ module rrcb_neighbour_lists
   use rrcb_types
   use rrcb_c_types
   use rrcb_c_functions
+  use rrcb_c_neighbours
   use rrcb_functions, only: settle
   use rrcb_arrays
   use rrcb_balancers

@@ -7,7 +7,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
+#include <type_traits>
 
 namespace rrcb::c {
 
@@ -25,7 +27,10 @@ enum FortranFault { wrong_weights = 11, wrong_axis = 12, wrong_shape = 13, wrong
 void check_fortran(const rrcb_points& from) {
     const std::string count = std::to_string(from.count);
     const std::string extent = std::to_string(from.stride);
-    switch (static_cast<int>(from.type)) {
+    // Such a number is no value of the enumeration, which must not be read as one.
+    std::underlying_type_t<rrcb_type> type{};
+    std::memcpy(&type, &from.type, sizeof type);
+    switch (type) {
         case wrong_weights:
             reject("weights has " + extent + " entries for " + count +
                    " points; give one for each, or no weights");

@@ -4,6 +4,8 @@ program neighbours_test
   use mpi
   use rrcb
   implicit none
+  ! In memory that is there until the end, so that no leak is found.
+  save
   real(c_double), parameter :: radius = 0.1_c_double, travel = 0.05_c_double
   real(c_double), parameter :: lower(3) = 0, upper(3) = 1
   integer :: rank, num_ranks, error, step, k

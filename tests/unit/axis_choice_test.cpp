@@ -30,6 +30,8 @@ TEST(LongestAxis, is_the_first_that_is_long_enough) {
     EXPECT_EQ(longest_axis(box_of(3, 3), first_axes(2), 1), 0);
     EXPECT_EQ(longest_axis(box_of(2.8, 3), first_axes(2), 0.9), 0);
     EXPECT_EQ(longest_axis(box_of(2.6, 3), first_axes(2), 0.9), 1);
+    EXPECT_EQ(longest_axis(box_of(2.8, 3), std::vector<int>{1, 0}, nearly), 1);
+    EXPECT_EQ(longest_axis(box_of(2.8, 3), first_axes(2), nearly), 0);
     EXPECT_EQ(longest_axis(box_of(1, 2, 3), first_axes(2), 1), 1)
         << "the third is none of the axes";
     EXPECT_EQ(longest_axis(box_of(1, 2, 3), first_axes(3), 1), 2);
@@ -41,18 +43,26 @@ TEST(LongestAxis, does_not_overflow) {
     EXPECT_EQ(longest_axis(box, first_axes(2), 1), 1);
 }
 
-TEST(LongestAxis, takes_nearly_equal_axes_as_equal) {
-    EXPECT_EQ(longest_axis(box_of(2.8, 3), first_axes(2), nearly), 0);
-    EXPECT_EQ(longest_axis(box_of(2.8, 3), std::vector<int>{1, 0}, nearly), 1);
-}
-
 TEST(AxisChoice, crosses_the_axes_of_one_group_after_the_other) {
-    // Halving the longest extent of 4 x 2 three times: across x, x and y.
-    Options options = options_of(8);
-    options.axes.order = AxisOrder::grouped({1, 0});
-    const AxisChoice choice(options, box_of(4, 2), 2);
-    for (const auto& [depth, axis] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}})
-        EXPECT_EQ(choice(0, depth).front(), axis);
+    struct Grouped {
+        int num_parts;
+        Box box;
+        int dimension;
+        std::vector<int> order;
+        std::vector<int> axes;  ///< across which each level is cut
+    };
+    // Halving the longest extent of 4 x 2 three times: across x, x and y. Nine parts take four
+    // levels: the longest extent of 8 x 8 x 1 is halved across x, y, x and y. Axes of groups that
+    // the points do not have are left out.
+    for (const Grouped& of : {Grouped{8, box_of(4, 2), 2, {1, 0}, {1, 0, 0}},
+                              {8, box_of(4, 2, 100), 2, {2, 1, 0}, {1, 0, 0}},
+                              {9, box_of(8, 8, 1), 3, {2, 0, 1}, {0, 0, 1, 1}}}) {
+        Options options = options_of(of.num_parts);
+        options.axes.order = AxisOrder::grouped(of.order);
+        const AxisChoice choice(options, of.box, of.dimension);
+        for (int depth = 0; depth < static_cast<int>(of.axes.size()); ++depth)
+            EXPECT_EQ(choice(0, depth).front(), of.axes[static_cast<std::size_t>(depth)]);
+    }
 }
 
 TEST(AxisChoice, crosses_the_axis_that_a_cut_was_given) {
@@ -61,24 +71,6 @@ TEST(AxisChoice, crosses_the_axis_that_a_cut_was_given) {
     const AxisChoice choice(options, box_of(4, 2), 2);
     EXPECT_EQ(choice(0, 0).front(), 1);
     EXPECT_EQ(choice(1, 1).front(), 0);
-}
-
-TEST(AxisChoice, leaves_out_axes_of_the_groups_that_the_points_do_not_have) {
-    Options options = options_of(8);
-    options.axes.order = AxisOrder::grouped({2, 1, 0});
-    const AxisChoice choice(options, box_of(4, 2, 100), 2);
-    for (const auto& [depth, axis] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}})
-        EXPECT_EQ(choice(0, depth).front(), axis);
-}
-
-TEST(AxisChoice, has_an_axis_for_every_level_of_the_groups) {
-    // Nine parts take four levels: the longest extent of 8 x 8 x 1 is halved across x, y, x and y.
-    Options options = options_of(9);
-    options.axes.order = AxisOrder::grouped({2, 0, 1});
-    const AxisChoice choice(options, box_of(8, 8, 1), 3);
-    for (const auto& [depth, axis] :
-         {std::pair{0, 0}, std::pair{1, 0}, std::pair{2, 1}, std::pair{3, 1}})
-        EXPECT_EQ(choice(0, depth).front(), axis);
 }
 
 TEST(LongestAxis, of_a_place_is_the_first) {

@@ -231,15 +231,6 @@ TEST(KeptTree, across_given_axes_are_read_just_where_some_order_of_the_ranks_is_
 }
 
 TEST(KeptTree, that_no_bisection_has_are_not_read) {
-    std::mt19937_64 engine(4);
-    for (int trial = 0; trial < 200; ++trial) {
-        Distribution held;
-        const Cuts cuts = divide(lattice(6, 2), 4, 2, false, engine, held);
-        // Across a cut at the top, two points change places.
-        std::swap(held[0][engine() % held[0].size()], held[3][engine() % held[3].size()]);
-        const auto current = read(held, cuts);
-        if (current) expect_cuts_give_every_rank_its_part(held, *current);
-    }
     const Distribution scattered{{{0, 0}, {3, 3}}, {{1, 1}, {2, 0}}, {{0, 3}, {3, 0}}, {{1, 2}}};
     EXPECT_FALSE(read(scattered, across({0, 1, 1}, 2)));
     // Five blocks turning about the one in the middle.

@@ -47,14 +47,6 @@ TEST(Moments, match_long_double_for_every_dimension_and_mesh) {
                 interleaved_points(test::uniform_cloud(3000, dimension, 7), dimension), cells);
 }
 
-TEST(Moments, keep_their_digits_at_any_offset) {
-    for (const double offset : {0.0, 1e3, 1e6, 1e9, 1e12, 1e15}) {
-        std::vector<double> coordinates = test::uniform_cloud(5000, 2, 3);
-        for (double& x : coordinates) x = offset + (offset > 1e12 ? 1e3 : 1e-3) * x;
-        expect_reference_moments(interleaved_points(coordinates, 2), 3);
-    }
-}
-
 TEST(Moments, survive_extreme_weights) {
     for (const double magnitude : {5e-324, 1e-300, 1e300}) {
         const std::vector<double> x{0, 4e6};
@@ -66,44 +58,6 @@ TEST(Moments, survive_extreme_weights) {
         EXPECT_DOUBLE_EQ(cells[0].moments.mean[0], 1e6);
         EXPECT_DOUBLE_EQ(cells[0].moments.deviation[0], 1e6 * std::sqrt(3.0));
     }
-}
-
-TEST(Moments, survive_extreme_magnitudes) {
-    for (const double magnitude : {1e-300, 1e-200, 1e200, 1e300}) {
-        std::vector<double> coordinates = test::uniform_cloud(500, 2, 5);
-        for (double& x : coordinates) x = magnitude * (x - 0.5);
-        expect_reference_moments(interleaved_points(coordinates, 2), 4);
-    }
-}
-
-TEST(Moments, survive_one_far_outlier_seen_first) {
-    std::vector<double> x{1e6};
-    std::mt19937_64 engine(11);
-    for (int i = 0; i < 100000; ++i) x.push_back(test::uniform(engine, 0, 1e-3));
-    const std::array<std::span<const double>, 1> columns{x};
-    std::vector<double> weights;
-    for (std::size_t i = 0; i < x.size(); ++i) weights.push_back(test::uniform(engine, 1, 3));
-    expect_reference_moments(column_points(columns), 1);
-    expect_reference_moments(column_points(columns, weights), 1);
-}
-
-TEST(Moments, see_a_tight_cluster_beside_a_wide_one) {
-    std::vector<double> x;
-    std::mt19937_64 engine(13);
-    for (int i = 0; i < 1000; ++i) x.push_back(0.3 + 1e-7 * test::uniform(engine));
-    for (int i = 0; i < 1000; ++i) x.push_back(0.9 + 0.1 * test::uniform(engine));
-    const std::array<std::span<const double>, 1> columns{x};
-    expect_reference_moments(column_points(columns), 4);
-}
-
-TEST(Moments, equal_points_have_no_deviation) {
-    const std::vector<double> x(1000, 0.1);
-    const std::array<std::span<const double>, 1> columns{x};
-    const Points points = column_points(columns);
-    const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 8));
-    ASSERT_EQ(cells.size(), 1u);
-    EXPECT_EQ(cells[0].moments.mean[0], 0.1);
-    EXPECT_EQ(cells[0].moments.deviation[0], 0);
 }
 
 TEST(Moments, cells_without_weight_are_left_out) {
@@ -128,25 +82,6 @@ TEST(Moments, without_any_weight_are_those_of_the_positions) {
     EXPECT_EQ(cells[0].moments.weight, 0);
     EXPECT_EQ(cells[0].moments.mean[0], 1);
     EXPECT_EQ(cells[0].moments.deviation[0], 1);
-}
-
-TEST(Moments, merge_gives_the_moments_of_the_union) {
-    const std::vector<double> all = test::uniform_cloud(900, 2, 17);
-    const auto moments_of = [&](std::size_t first, std::size_t last) {
-        const std::span<const double> part(all.data() + 2 * first, 2 * (last - first));
-        const Points points = interleaved_points(part, 2);
-        return cell_moments(points, make_support_mesh(bounding_box(points), 2, 1))[0].moments;
-    };
-    const Moments whole = moments_of(0, 900);
-    const Moments left = merge(merge(moments_of(0, 1), moments_of(1, 500)), moments_of(500, 900));
-    const Moments right = merge(moments_of(0, 1), merge(moments_of(1, 500), moments_of(500, 900)));
-    for (const Moments& merged : {left, right}) {
-        EXPECT_EQ(merged.count, whole.count);
-        for (std::size_t a = 0; a < 2; ++a) {
-            EXPECT_NEAR(merged.mean[a], whole.mean[a], 1e-14);
-            EXPECT_NEAR(merged.deviation[a], whole.deviation[a], 1e-14);
-        }
-    }
 }
 
 /// In long double, whose range none of these squares leaves.

@@ -32,31 +32,26 @@ double drifting_load(int steps_since) {
     return 1 + 0.01 * steps_since * (rank() == 0 ? 1 : -1 / others);
 }
 
-/// Steps after which it says to rebalance, where it is heeded.
-std::vector<int> rebalances(Controller& controller, int num_steps, double cost) {
+/// Steps after which it says to rebalance, where it is heeded, with loads and costs in some unit.
+std::vector<int> rebalances(int num_steps, double unit = 1) {
+    Controller controller(MPI_COMM_WORLD);
     std::vector<int> steps;
     int last = 0;
-    controller.rebalanced(cost);
+    controller.rebalanced(0.5 * unit);
     for (int step = 0; step < num_steps; ++step) {
-        if (!controller.step(drifting_load(step - last))) continue;
+        if (!controller.step(drifting_load(step - last) * unit)) continue;
         steps.push_back(step);
         last = step + 1;
-        controller.rebalanced(cost);
+        controller.rebalanced(0.5 * unit);
     }
     return steps;
 }
 
-bool is_same_on_all(int value) {
-    int bounds[] = {value, -value};
-    MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-    return bounds[0] == -bounds[1];
-}
-
 TEST(Controller, says_the_same_on_every_rank_and_rebalances_what_grows) {
-    Controller controller(MPI_COMM_WORLD);
-    const std::vector<int> steps = rebalances(controller, 200, 0.5);
-    ASSERT_TRUE(is_same_on_all(static_cast<int>(steps.size())));
-    for (const int step : steps) EXPECT_TRUE(is_same_on_all(step));
+    const std::vector<int> steps = rebalances(200);
+    for (const double unit : {0x1p1000, 0x1p-1000}) EXPECT_EQ(rebalances(200, unit), steps);
+    ASSERT_TRUE(test::same_on_all_ranks(static_cast<double>(steps.size())));
+    for (const int step : steps) EXPECT_TRUE(test::same_on_all_ranks(step));
     if (num_ranks() == 1) {
         EXPECT_TRUE(steps.empty());
         return;
@@ -180,24 +175,6 @@ TEST(Controller, works_beside_another_and_after_its_communicator) {
         EXPECT_FALSE(other.step(drifting_load(step)));
     }
     EXPECT_EQ(is_any_due, num_ranks() > 1);
-}
-
-TEST(Controller, decides_alike_for_loads_of_any_unit) {
-    Controller plain(MPI_COMM_WORLD);
-    const std::vector<int> steps = rebalances(plain, 100, 0.5);
-    for (const double unit : {0x1p1000, 0x1p-1000}) {
-        Controller controller(MPI_COMM_WORLD);
-        std::vector<int> found;
-        int last = 0;
-        controller.rebalanced(0.5 * unit);
-        for (int step = 0; step < 100; ++step) {
-            if (!controller.step(drifting_load(step - last) * unit)) continue;
-            found.push_back(step);
-            last = step + 1;
-            controller.rebalanced(0.5 * unit);
-        }
-        EXPECT_EQ(found, steps);
-    }
 }
 
 // Points of other weights cost other times, so a number of points smooths the imbalance away.

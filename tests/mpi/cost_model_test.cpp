@@ -39,13 +39,6 @@ void record(Model& model, int num_steps) {
     for (int step = 0; step < num_steps; ++step) model.step(seconds_at(step), columns_at(step));
 }
 
-/// Collective.
-bool is_same_on_all(double value) {
-    double bounds[] = {value, -value};
-    MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    return bounds[0] == -bounds[1];
-}
-
 TEST(CostModel, learns_costs_and_weighs_points_by_them) {
     CostModel model(MPI_COMM_WORLD, 2);
     EXPECT_FALSE(model.uses_costs());
@@ -59,7 +52,7 @@ TEST(CostModel, learns_costs_and_weighs_points_by_them) {
     EXPECT_TRUE(model.uses_costs()) << model.report();
     EXPECT_NEAR(model.costs()[0], 0.002, 1e-5);
     EXPECT_NEAR(model.costs()[1], 0.01, 1e-5);
-    for (const double cost : model.costs()) EXPECT_TRUE(is_same_on_all(cost));
+    for (const double cost : model.costs()) EXPECT_TRUE(test::same_on_all_ranks(cost));
     const std::vector<double> weights = model.weights(std::vector<double>{1, 0.5, 1, 0});
     EXPECT_NEAR(weights[0], 0.007, 1e-5);
     EXPECT_NEAR(weights[1], 0.002, 1e-5);

@@ -105,6 +105,7 @@ Options any_options(Random& random) {
     options.num_parts = 2 + random.below(12);
     options.refine = random.below(2) == 0 ? Refine::tolerance : Refine::exact;
     options.axes.plain = random.below(5) == 0;
+    options.tuning.central_parts = random.below(4) == 0 ? 2 : 4096;
     const int kind = random.below(6);
     for (int part = 0; part < options.num_parts && kind < 5; ++part)
         options.part_sizes.push_back(any_size(kind, random));
@@ -121,6 +122,8 @@ void expect_consistent(const Share& mine, const Options& options, const Balance&
         part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD), options.part_sizes);
     if (result.report.details.all_weights_zero) return;
     EXPECT_NEAR(result.report.imbalance / counted, 1, 1e-9);
+    EXPECT_EQ(result.report.within_tolerance,
+              result.report.imbalance <= options.imbalance_tolerance);
 }
 
 TEST(ExtremeSizes, and_weights_give_the_parts_that_look_ups_find) {

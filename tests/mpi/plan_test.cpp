@@ -67,14 +67,6 @@ TEST(Plan, imports_mirror_exports) {
     EXPECT_EQ(next, result.import_indices.size());
 }
 
-TEST(Plan, a_part_out_of_range_on_one_rank_fails_everywhere) {
-    const std::vector<Part> parts(1, rank() == num_ranks() - 1 ? num_ranks() : 0);
-    test::expect_same_error([&] { plan(parts, num_ranks(), MPI_COMM_WORLD); },
-                            "rank " + std::to_string(num_ranks() - 1) + ": part " +
-                                std::to_string(num_ranks()) + " of point 0 is none of the " +
-                                std::to_string(num_ranks()) + " parts; they count from 0");
-}
-
 TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
     for (const int num_parts : {1, 1023, 1024, 5000}) {
         // Rank r has the weight r + 1 in the first part and in the last.
@@ -91,21 +83,6 @@ TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
     }
 }
 
-/// One point per rank, and a part that is none on the last rank.
-void expect_refusal(double measure(const Points&, std::span<const Part>)) {
-    const std::vector<double> x(1);
-    const std::vector<Part> parts{test::is_last_rank() ? 7 : 0};
-    test::expect_same_error([&] { measure(interleaved_points(x, 1), parts); },
-                            "rank " + std::to_string(num_ranks() - 1) +
-                                ": part 7 of point 0 is none of the 2 parts; they count from 0");
-}
-
-TEST(PartWeights, of_a_part_that_is_none_are_refused_on_all_ranks) {
-    expect_refusal([](const Points& points, std::span<const Part> parts) {
-        return part_weights(points, parts, 2, MPI_COMM_WORLD)[0];
-    });
-}
-
 TEST(PartWeights, of_points_without_a_part_are_refused_on_all_ranks) {
     const std::vector<double> x(2);
     const std::vector<Part> parts(test::is_last_rank() ? 1 : 2);
@@ -115,45 +92,48 @@ TEST(PartWeights, of_points_without_a_part_are_refused_on_all_ranks) {
             ": parts has 1 entries for 2 points; give one per point");
 }
 
+/// Calls of the functions that take parts.
+using Call = std::function<void(std::span<const Part> parts, int num_parts)>;
+
+const std::vector<Call>& calls() {
+    static const std::vector<double> x(5);
+    const auto points_of = [](std::span<const Part> parts) {
+        return interleaved_points(std::span(x).first(parts.size()), 1);
+    };
+    static const std::vector<Call> all{
+        [](auto parts, int num_parts) { plan(parts, num_parts, MPI_COMM_WORLD); },
+        [=](auto parts, int num_parts) {
+            const Points points = points_of(parts);
+            const double sum = part_weights(points, parts, num_parts, MPI_COMM_WORLD)[0];
+            EXPECT_EQ(sum, static_cast<double>(parts.size()) * num_ranks());
+        },
+        [=](auto parts, int num_parts) {
+            moved_fraction(points_of(parts), parts, num_parts, MPI_COMM_WORLD);
+        }};
+    return all;
+}
+
+TEST(Parts, that_are_none_on_one_rank_are_refused_on_all) {
+    const std::vector<Part> parts{test::is_last_rank() ? 7 : 0};
+    for (const Call& call : calls())
+        test::expect_same_error(
+            [&] { call(parts, 2); },
+            "rank " + std::to_string(num_ranks() - 1) +
+                ": part 7 of point 0 is none of the 2 parts; they count from 0");
+}
+
 /// The last rank divides into so many parts that messages of their length would be others.
-void expect_refusal_of_numbers_that_differ(const std::function<void(int num_parts)>& call) {
+TEST(Parts, of_numbers_that_differ_are_refused_on_all_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
-    for (const int other : {2, 3, 5000}) {
-        test::expect_same_error([&] { call(test::is_last_rank() ? other : 1); },
-                                "num_parts differs between rank 0 and rank " +
-                                    std::to_string(num_ranks() - 1) +
-                                    "; give the same value on every rank");
-        call(2);
-    }
-}
-
-TEST(Plan, of_numbers_of_parts_that_differ_is_refused_on_all_ranks) {
     const std::vector<Part> parts(5);
-    expect_refusal_of_numbers_that_differ(
-        [&](int num_parts) { plan(parts, num_parts, MPI_COMM_WORLD); });
-}
-
-TEST(PartWeights, of_numbers_of_parts_that_differ_are_refused_on_all_ranks) {
-    const std::vector<double> x(5);
-    const std::vector<Part> parts(5);
-    expect_refusal_of_numbers_that_differ([&](int num_parts) {
-        const Points points = interleaved_points(x, 1);
-        EXPECT_EQ(part_weights(points, parts, num_parts, MPI_COMM_WORLD)[0], 5 * num_ranks());
-    });
-}
-
-TEST(MovedFraction, of_numbers_of_parts_that_differ_is_refused_on_all_ranks) {
-    const std::vector<double> x(5);
-    const std::vector<Part> parts(5);
-    expect_refusal_of_numbers_that_differ([&](int num_parts) {
-        moved_fraction(interleaved_points(x, 1), parts, num_parts, MPI_COMM_WORLD);
-    });
-}
-
-TEST(MovedFraction, of_a_part_that_is_none_is_refused_on_all_ranks) {
-    expect_refusal([](const Points& points, std::span<const Part> parts) {
-        return moved_fraction(points, parts, 2, MPI_COMM_WORLD);
-    });
+    for (const Call& call : calls())
+        for (const int other : {2, 3, 5000}) {
+            test::expect_same_error([&] { call(parts, test::is_last_rank() ? other : 1); },
+                                    "num_parts differs between rank 0 and rank " +
+                                        std::to_string(num_ranks() - 1) +
+                                        "; give the same value on every rank");
+            call(parts, 2);
+        }
 }
 
 TEST(MovedFraction, counts_the_weight_that_changes_rank) {
@@ -175,15 +155,12 @@ TEST(RanksOfPart, of_a_part_or_rank_that_is_none_are_refused) {
     EXPECT_THROW(ranks_of_part(0, 3, -1), Error);
 }
 
-TEST(Plan, for_no_parts_is_refused_on_all_ranks) {
-    const std::vector<double> none;
-    for (const int num_parts : {0, -1}) {
-        EXPECT_THROW(plan({}, num_parts, MPI_COMM_WORLD), Error);
-        EXPECT_THROW(plan({}, test::is_last_rank() ? num_parts : 1, MPI_COMM_WORLD), Error);
-        const Points points = interleaved_points(none, 2);
-        EXPECT_THROW(part_weights(points, {}, num_parts, MPI_COMM_WORLD), Error);
-        EXPECT_THROW(moved_fraction(points, {}, num_parts, MPI_COMM_WORLD), Error);
-    }
+TEST(Parts, that_are_no_number_of_are_refused_on_all_ranks) {
+    for (const int num_parts : {0, -1})
+        for (const Call& call : calls()) {
+            EXPECT_THROW(call({}, num_parts), Error);
+            EXPECT_THROW(call({}, test::is_last_rank() ? num_parts : 1), Error);
+        }
 }
 
 }  // namespace

@@ -194,36 +194,5 @@ TEST(PartSizes, of_zero_keep_a_part_empty_of_weightless_points_too) {
     }
 }
 
-TEST(Report, measures_parts_of_sizes_over_hundreds_of_decades) {
-    for (int seed = 0; seed < 60; ++seed) {
-        std::mt19937_64 engine(static_cast<std::uint64_t>(seed));
-        const auto decades = [&](double width) {
-            return std::pow(10, std::uniform_real_distribution(-width, width)(engine));
-        };
-        Options options;
-        options.tuning.central_parts = 2;
-        options.refine = seed % 2 == 0 ? Refine::exact : Refine::tolerance;
-        options.num_parts = 3 + seed % 5;
-        for (int part = 0; part < options.num_parts; ++part)
-            options.part_sizes.push_back(decades(150));
-        std::vector<double> x;
-        std::vector<double> weights;
-        for (int i = 0; i < 30; ++i) {
-            const double place = decades(1);
-            const double weight = decades(30);
-            if (i % num_ranks() != rank()) continue;
-            x.push_back(place);
-            weights.push_back(weight);
-        }
-        const Points points = interleaved_points(x, 1, weights);
-        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
-        const std::vector<double> sums =
-            part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD);
-        const double truth = imbalance(sums, options.part_sizes);
-        EXPECT_NEAR(result.report.imbalance / truth, 1, 1e-9) << truth;
-        EXPECT_EQ(result.report.within_tolerance, truth <= options.imbalance_tolerance);
-    }
-}
-
 }  // namespace
 }  // namespace rrcb

@@ -3,6 +3,7 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/paper.hpp>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +45,16 @@ TEST(Stages, are_seen_in_their_order) {
     EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +refinement -refinement");
     options.refine = Refine::none;
     EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +assignment -assignment");
+}
+
+TEST(Stages, of_methods_of_the_paper_are_seen_in_their_order) {
+    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    for (const PaperDomain domain : {PaperDomain::sampled, PaperDomain::points}) {
+        Recorder recorder;
+        const PaperOptions options{.domain = domain, .observer = &recorder};
+        balance_as_in_paper(interleaved_points(cloud, 2), options, MPI_COMM_WORLD);
+        EXPECT_EQ(recorder.text, start_of_call() + " +assignment -assignment");
+    }
 }
 
 TEST(Stages, come_again_where_many_ranks_make_the_parts) {

@@ -309,31 +309,5 @@ TEST(Transfer, suggests_the_components_that_a_column_lacks) {
     }
 }
 
-TEST(Transfer, refuses_a_plan_of_another_communicator) {
-    if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
-    MPI_Comm reversed = MPI_COMM_NULL;
-    MPI_Comm_split(MPI_COMM_WORLD, 0, -rank(), &reversed);
-    const std::vector<Part> parts(static_cast<std::size_t>(10 + rank()),
-                                  (num_ranks() - rank()) % num_ranks());
-    const Plan lists = plan(parts, num_ranks(), reversed);
-    const std::vector<double> values(parts.size());
-    EXPECT_FALSE(transfer(lists, values, reversed).empty());
-    test::expect_same_error([&] { transfer(lists, values, MPI_COMM_WORLD); },
-                            "the plan belongs to other ranks than this communicator");
-    MPI_Comm_free(&reversed);
-}
-
-TEST(Transfer, refuses_the_plan_of_a_larger_communicator_on_a_smaller_one) {
-    if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
-    const Plan lists = shift(4);
-    const std::vector<double> values(4);
-    try {
-        transfer(lists, values, MPI_COMM_SELF);
-        EXPECT_TRUE(false) << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-    }
-}
-
 }  // namespace
 }  // namespace rrcb

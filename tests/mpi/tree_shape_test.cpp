@@ -1,4 +1,5 @@
 // Cuts by groups of parts, such as those of one machine.
+#include "../support/distance.hpp"
 #include "clouds_of_all_ranks.hpp"
 
 #include <rrcb/balance.hpp>
@@ -210,15 +211,7 @@ TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
                 for (Part part = 0; part < options.num_parts && !is_near; ++part) {
                     const RankRange ranks = ranks_of_part(part, options.num_parts, num_ranks());
                     if (to < ranks.first_rank || to >= ranks.first_rank + ranks.count) continue;
-                    const Box box = box_of(cuts, part);
-                    const Vector x = points.position(i);
-                    double square = 0;
-                    for (std::size_t a = 0; a < 2; ++a) {
-                        const double gap =
-                            std::max({0.0, box.lower[a] - x[a], x[a] - box.upper[a]});
-                        square += gap * gap;
-                    }
-                    is_near = square <= radius * radius;
+                    is_near = test::distance(points.position(i), box_of(cuts, part), 2) <= radius;
                 }
                 if (is_near) expected.push_back(i);
             }

@@ -27,8 +27,10 @@ inline int largest(int value) {
 }
 
 /// Collective.
-inline bool same_on_all_ranks(int value) {
-    return largest(value) == -largest(-value);
+inline bool same_on_all_ranks(double value) {
+    double ends[] = {value, -value};
+    MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return ends[0] == -ends[1];
 }
 
 }  // namespace rrcb::test

@@ -118,8 +118,8 @@ Balance balance_from_scratch(PointPasses& points, const Options& given, bool may
     return std::move(call.result);
 }
 
-Balance balance_once(PointPasses& points, const Options& options, const Cuts* previous,
-                     bool may_keep, Participant& self) {
+Balance balance(PointPasses& points, const Options& options, const Cuts* previous, bool may_keep,
+                Participant& self) {
     // One part for each rank, where the cuts are those of another number of ranks.
     const bool are_of_others =
         previous && options.num_parts == 0 && previous->num_parts != mpi::size_of(self.comm);

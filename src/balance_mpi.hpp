@@ -24,10 +24,6 @@ Balance balance(const Points& points, const Options& options, const Cuts* previo
 Balance balance(PointPasses& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self);
 
-/// Does the same without Options::min_points.
-Balance balance_once(PointPasses& points, const Options& options, const Cuts* previous,
-                     bool may_keep, Participant& self);
-
 /// Returns null for empty cuts, from which no call starts.
 inline const Cuts* given(const Cuts& previous) {
     return previous.empty() ? nullptr : &previous;

@@ -25,7 +25,7 @@ struct ReportDetails {
                                     ///< counted by the refinement
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
-    int surplus_parts = 0;          ///< empty parts: more than points, or by min_points
+    int surplus_parts = 0;          ///< parts that stay empty: more than points
     /// Share of the weight near the earlier cuts, Cuts::near: an estimate of ghosts. 0 if not
     /// known, as without earlier cuts.
     double near_before = 0;

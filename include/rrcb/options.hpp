@@ -123,11 +123,6 @@ struct Options {
     Coincident coincident = Coincident::together;
     HeldCuts cuts = HeldCuts::whole;  ///< of each rank if many ranks make the parts
 
-    /// Least number of points of a part with any, 0 or more. Parts with points are the first
-    /// ones, except those of size 0. If the cuts leave fewer, the points are divided anew, exactly
-    /// if need be, among fewer parts: see ReportDetails::surplus_parts.
-    int min_points = 0;
-
     Axes axes{};  ///< axes and positions of the cuts
 
     /// Shape of the tree of cuts. With a group_size of 0 machines are separated first, so that less

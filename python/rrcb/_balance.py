@@ -33,7 +33,7 @@ class Report:
     rounds: int  #: of counting, to correct the cuts
     coincident_cuts: int  #: that would divide points which no allowed cut separates
     all_weights_zero: bool  #: balanced by count instead
-    surplus_parts: int  #: parts that stay empty: more than points, or by min_points
+    surplus_parts: int  #: parts that stay empty: more than points
     near_before: float  #: share of the weight near the earlier cuts; 0 if not known
     near_after: float  #: share of the weight near the cuts; 0 if not known
 

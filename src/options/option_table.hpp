@@ -205,8 +205,6 @@ inline constexpr Option option_table[] = {
     {"imbalance_tolerance", "IMBALANCE_TOL",
      "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE",
      Range<double>{field<&Options::imbalance_tolerance>, 1, std::numeric_limits<double>::max()}},
-    {"min_points", "RRCB_MIN_POINTS", "Least number of points of a part that has any",
-     Range<int>{field<&Options::min_points>, 0, std::numeric_limits<int>::max()}},
     {"tuning.central_parts", "RRCB_CENTRAL_PARTS",
      "Most parts that rank 0 makes; if there are more, and more ranks, many ranks make them",
      Range<int>{field<&Options::tuning, &Tuning::central_parts>, 2,

@@ -50,7 +50,6 @@ program near_test
   call check_tilted_box()
   call check_half_open_boxes()
   call check_faces()
-  call check_min_points()
   call MPI_Finalize(error)
 
 contains
@@ -129,36 +128,6 @@ contains
     call ghosts%destroy()
     call balancer%destroy()
   end subroutine
-
-  ! 40 points in 16 parts: the first ones have 10 or more, the others none.
-  subroutine check_min_points()
-    real(c_double), target, allocatable :: mine(:, :)
-    integer(c_int32_t), allocatable :: parts_of_mine(:)
-    type(rrcb_report) :: report
-    integer :: count, counts(0:15), k
-    do count = 0, 40, 10
-      mine = reshape([(modulo(0.6180339887_c_double*k, 1.0_c_double), k=rank + 1, count, num_ranks)], &
-        [1, max(0, (count - rank - 1 + num_ranks)/num_ranks)])
-      allocate (parts_of_mine(size(mine, 2)))
-      call balancer%create(MPI_COMM_WORLD)
-      call balancer%set("num_parts", "16")
-      call balancer%set("min_points", "10")
-      call balancer%balance(rrcb_interleaved_points(mine), parts_of_mine)
-      call balancer%get_report(report)
-      counts = [(count_of(parts_of_mine, k), k=0, 15)]
-      call MPI_Allreduce(MPI_IN_PLACE, counts, 16, MPI_INTEGER, MPI_SUM, MPI_COMM_WORLD, error)
-      call expect(all(counts(:count/10 - 1) == 10) .and. sum(counts) == count, "least number of points")
-      call expect(report%surplus_parts == 16 - count/10, "empty parts")
-      call balancer%destroy()
-      deallocate (parts_of_mine)
-    end do
-  end subroutine
-
-  integer function count_of(values, value)
-    integer(c_int32_t), intent(in) :: values(:)
-    integer, intent(in) :: value
-    count_of = count(values == value)
-  end function
 
   ! By plain cuts the points of a lattice are in the half-open boxes of their parts.
   subroutine check_half_open_boxes()

@@ -168,22 +168,6 @@ TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
 }
 
 /// Parts 0 and 2 on the left, for two machines of two ranks, which are dealt in turns.
-TEST_F(CInterface, leaves_parts_empty_for_the_least_number_of_points_of_the_others) {
-    const std::vector<double> x{0.1, 0.4, 0.7};
-    const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 1, 3, x.data(), nullptr);
-    const int num_points = 3 * num_ranks();
-    parts.assign(3, -1);
-    ASSERT_EQ(rrcb_set(balancer, "num_parts", "4"), RRCB_OK);
-    ASSERT_EQ(rrcb_set(balancer, "min_points", std::to_string(num_points).c_str()), RRCB_OK);
-    ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
-    EXPECT_EQ(parts, (std::vector<std::int32_t>{0, 0, 0}));
-    rrcb_report report;
-    ASSERT_EQ(rrcb_get_report(balancer, &report), RRCB_OK);
-    EXPECT_EQ(report.surplus_parts, 3);
-    EXPECT_EQ(report.imbalance, 4);
-    EXPECT_EQ(report.least_imbalance, 4);
-}
-
 TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
     const std::array<rrcb_cut, 3> tree{{{0, 0, {2}}, {0, 0, {1}}, {0, 0, {3}}}};
     const rrcb_cuts given{1, 4, tree.data(), 2, 0, 1, 0, 0};

@@ -1,5 +1,5 @@
-// Fewer points than parts, or little more: the sharp bound of the imbalance, the least number of
-// points of a part, and ranks without points in all that follows a balance.
+// Fewer points than parts, or little more: the sharp bound of the imbalance, and ranks without
+// points in all that follows a balance.
 #include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
 
@@ -38,15 +38,6 @@ struct FewPoints {
     }
     Points points() const { return interleaved_points(coordinates, 2, weights); }
 };
-
-/// Returns the number of points of each part. Collective.
-std::vector<int> counts_of(const Balance& result) {
-    std::vector<int> counts(static_cast<std::size_t>(result.cuts.num_parts));
-    for (const Part part : result.parts) ++counts[static_cast<std::size_t>(part)];
-    MPI_Allreduce(MPI_IN_PLACE, counts.data(), result.cuts.num_parts, MPI_INT, MPI_SUM,
-                  MPI_COMM_WORLD);
-    return counts;
-}
 
 /// Returns the least imbalance of all ways to give points of one weight to three parts.
 double least_of_all(int count, const std::vector<double>& sizes) {
@@ -110,75 +101,6 @@ TEST(FewPoints, in_one_place_raise_the_imbalance_but_not_its_bound) {
         }
 }
 
-/// Expects that the parts with points are the first ones with a size, and have at least so many.
-void expect_filled(const Balance& result, const Options& options, int count) {
-    const std::vector<int> counts = counts_of(result);
-    bool is_over = false;
-    int num_filled = 0;
-    for (std::size_t part = 0; part < counts.size(); ++part) {
-        const bool may = options.part_sizes.empty() || options.part_sizes[part] > 0;
-        if (!may || is_over) {
-            EXPECT_EQ(counts[part], 0) << "part " << part;
-        }
-        if (!may) continue;
-        is_over = is_over || counts[part] == 0;
-        if (counts[part] == 0) continue;
-        ++num_filled;
-        EXPECT_GE(counts[part], std::min(options.min_points, count)) << "part " << part;
-    }
-    EXPECT_EQ(num_filled > 0, count > 0);
-    if (!result.report.part_weights.empty()) {
-        EXPECT_NEAR(result.report.imbalance,
-                    imbalance(result.report.part_weights, options.part_sizes), 1e-12);
-    }
-    // NaN, if nothing was counted.
-    EXPECT_FALSE(std::isgreater(result.report.details.least_imbalance,
-                                result.report.imbalance * (1 + 1e-12)));
-}
-
-TEST(MinPoints, are_in_each_part_or_none) {
-    int kind = 0;
-    for (const int count : {0, 1, 2, 39, 40})
-        for (const int least : {1, 3, 10, 64})
-            for (const bool is_skewed : {false, true}) {
-                const FewPoints few(count, is_skewed);
-                Options options;
-                options.num_parts = 16;
-                options.min_points = least;
-                options.refine = static_cast<Refine>(kind % 3);
-                options.tuning.central_parts = kind % 4 == 0 ? 2 : 4096;
-                options.cuts = kind % 8 == 0 ? HeldCuts::own : HeldCuts::whole;
-                if (kind % 5 == 0)
-                    options.part_sizes = {0, 1, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1};
-                if (kind % 7 == 0 && count > 1) options.axes.min_width = {1e-9, 1e-9};
-                if (kind % 7 == 3 && count > 2) options.axes.grid = {{0, 1.0 / 64}, {0, 1.0 / 64}};
-                // Machines of four ranks; their parts are the first ones all the same.
-                if (kind % 3 != 1) options.tree.group_size = 4;
-                if (kind++ % 9 == 2 && options.tuning.central_parts > 2) options.tree.dealt = 1;
-                SCOPED_TRACE(std::to_string(count) + " points, least " + std::to_string(least));
-                Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
-                expect_filled(result, options, count);
-                if (!is_skewed && options.part_sizes.empty() && count >= least) {
-                    EXPECT_EQ(16 - result.report.details.surplus_parts,
-                              std::min(16, count / least));
-                }
-                balance_into(result, few.points(), options, result.cuts, MPI_COMM_WORLD);
-                expect_filled(result, options, count);
-            }
-}
-
-TEST(MinPoints, change_nothing_if_all_parts_have_as_many) {
-    const FewPoints few(1001);
-    Options options;
-    options.num_parts = 16;
-    const Balance expected = balance(few.points(), options, {}, MPI_COMM_WORLD);
-    options.min_points = 60;
-    const Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
-    EXPECT_EQ(result.parts, expected.parts);
-    EXPECT_EQ(result.report.imbalance, expected.report.imbalance);
-    EXPECT_EQ(result.report.details.surplus_parts, 0);
-}
-
 /// Pairs of all points within a distance.
 int pairs_within(const std::vector<double>& all, double radius) {
     int pairs = 0;
@@ -192,7 +114,8 @@ TEST(EmptyRanks, take_part_in_all_that_follows_a_balance) {
     for (const int count : {0, 1, 2, 39, 40}) {
         const FewPoints few(count);
         Options options;
-        options.min_points = 10;
+        options.part_sizes.assign(static_cast<std::size_t>(num_ranks()), 0);
+        std::fill_n(options.part_sizes.begin(), std::clamp(count / 10, 1, num_ranks()), 1);
         Controller controller(MPI_COMM_WORLD);
         CostModel model(controller, 1);
         const Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);

@@ -1,4 +1,5 @@
-// What docs/loop.md advises: boxes that are tilted, and points in half-open boxes.
+// What docs/loop.md and docs/choosing.md advise: boxes that are tilted, points in half-open boxes,
+// and a least number of points of a part.
 #include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace rrcb {
@@ -123,6 +125,28 @@ TEST(HalfOpenBoxes, contain_the_points_of_a_lattice_by_plain_cuts) {
         options.refine = Refine::exact;
         const Balance made = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(num_outside(x, made) > 0, !plain && num_ranks() > 1);
+    }
+}
+
+TEST(LeastNumberOfPoints, is_reached_by_parts_of_size_0) {
+    constexpr int num_parts = 16, min_points = 10;
+    for (const int n : {1, 9, 39, 40, 41, 200}) {
+        const std::vector<double> all = test::uniform_cloud(static_cast<std::size_t>(n), 2, 7);
+        std::vector<double> x;
+        for (std::size_t i = 0; i < all.size(); i += 2)
+            if (static_cast<int>(i / 2) % num_ranks() == rank())
+                x.insert(x.end(), {all[i], all[i + 1]});
+        Options options;
+        options.num_parts = num_parts;
+        options.refine = Refine::exact;
+        options.part_sizes.assign(num_parts, 0);
+        const int num_filled = std::clamp(n / min_points, 1, num_parts);
+        std::fill_n(options.part_sizes.begin(), num_filled, 1);
+        const Balance made = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD);
+        const std::vector<double>& counts = made.report.part_weights;
+        EXPECT_EQ(std::reduce(counts.begin(), counts.begin() + num_filled), n);
+        EXPECT_GE(*std::min_element(counts.begin(), counts.begin() + num_filled),
+                  std::min(n, min_points));
     }
 }
 

@@ -113,13 +113,6 @@ def test_joins_overlapping_groups():
         assert np.allclose(found[np.lexsort(found.T)], centres[np.lexsort(centres.T)])
 
 
-def test_leaves_parts_empty_for_the_least_number_of_points():
-    x = cloud(2, count=5)
-    made = rrcb.balance(x, num_parts=4, min_points=len(everywhere(x)), comm=comm)
-    assert (made.parts == 0).all()
-    assert made.report.surplus_parts == 3
-
-
 def test_balances_in_each_dimension_and_dtype():
     for dimension, dtype in itertools.product((1, 2, 3), (np.float64, np.float32)):
         for empty in (None, 0, RANKS - 1):

@@ -124,8 +124,7 @@ TEST(PaperDomains, ignore_settings_of_rcb_and_of_refinement_with_a_warning) {
         for (const auto& [name, value] : Settings{{"RCB_REUSE", "1"},
                                                   {"RCB_LOCK_DIRECTIONS", "1"},
                                                   {"RCB_SET_DIRECTIONS", "2"},
-                                                  {"RRCB_REFINE", "EXACT"},
-                                                  {"RRCB_MIN_POINTS", "400"}}) {
+                                                  {"RRCB_REFINE", "EXACT"}}) {
             testing::internal::CaptureStderr();
             EXPECT_EQ(parts_of_third_call({{"RRCB_DOMAIN", domain}, {name, value}}), expected);
             const std::string said = testing::internal::GetCapturedStderr();

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <set>
 
 namespace rrcb::zoltan_test {
@@ -66,27 +65,6 @@ TEST(Parts, fewer_than_ranks_are_shared_evenly_by_their_ranks) {
     for (int r = program.num_ranks - num_sharing; r < program.num_ranks; ++r) {
         EXPECT_NEAR(received[static_cast<std::size_t>(r)], share, 0.15 * share) << r;
     }
-}
-
-TEST(Parts, have_RRCB_MIN_POINTS_objects_or_none) {
-    for (const int count : {0, 1, 2, 39, 40})
-        for (const int least : {1, 10, 64}) {
-            SCOPED_TRACE(std::to_string(count) + " objects, least " + std::to_string(least));
-            Program program;
-            if (program.rank == program.num_ranks - 1) scatter_points(program, count);
-            program.set("NUM_GLOBAL_PARTS", "16");
-            program.set("DEBUG_LEVEL", "0");
-            EXPECT_EQ(program.set("RRCB_MIN_POINTS", std::to_string(least)), ZOLTAN_OK);
-            const Outcome outcome = partition_with(program, "RRCB");
-            std::array<int, 16> counts{};
-            for (const int part : outcome.exports.parts) ++counts[static_cast<std::size_t>(part)];
-            MPI_Allreduce(MPI_IN_PLACE, counts.data(), 16, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-            const auto end = std::ranges::find(counts, 0);
-            EXPECT_EQ(std::accumulate(counts.begin(), end, 0), count);
-            EXPECT_EQ(end - counts.begin(), std::min({16, count, std::max(1, count / least)}));
-            for (auto each = counts.begin(); each != end; ++each)
-                EXPECT_GE(*each, std::min(count, least));
-        }
 }
 
 TEST(Parts, asked_for_locally_lie_where_zoltan_puts_them) {

@@ -44,7 +44,7 @@ typedef struct rrcb_report {
     int rounds;                 /**< of counting, for the refinement */
     int coincident_cuts;        /**< that would divide points which no allowed cut separates */
     int all_weights_zero;       /**< 1: balanced by count instead */
-    int surplus_parts;          /**< parts that stay empty: more than points, or by min_points */
+    int surplus_parts;          /**< parts that stay empty: more than points */
     double near_before;         /**< share of the weight near the earlier cuts; 0 if not known */
     double near_after;          /**< share of the weight near the cuts; 0 if not known */
 } rrcb_report;

@@ -90,11 +90,9 @@ void print_messages(const Report& report, int num_parts, const Remap& remap,
     for (const std::string& warning : balance_warnings(report, parameters))
         print_warning(0, function, warning);
     if (leaves_parts_empty(report)) {
-        print_warning(
-            0, function,
-            std::to_string(report.details.surplus_parts) + " parts stay empty: there are " +
-                (parameters.options.min_points > 1 ? "too few objects for RRCB_MIN_POINTS in each"
-                                                   : "more parts than objects"));
+        print_warning(0, function,
+                      std::to_string(report.details.surplus_parts) +
+                          " parts stay empty: there are more parts than objects");
     } else if (report.details.all_weights_zero) {
         print_warning(0, function, "all weights are zero; balanced by number of objects");
     }

@@ -142,7 +142,6 @@ std::vector<std::string> parameter_warnings(const Parameters& parameters) {
     ignore_if(parameters.lock_directions != 0, "RCB_LOCK_DIRECTIONS");
     ignore_if(parameters.reuse_cuts != not_set && parameters.reuse_cuts != 0, "RCB_REUSE");
     ignore_if(parameters.options.refine == Refine::exact, "RRCB_REFINE");
-    ignore_if(parameters.options.min_points != 0, "RRCB_MIN_POINTS");
     return texts;
 }
 

@@ -1,11 +1,9 @@
 // Runs every test on all ranks; rank 0 reports, other ranks speak only when they fail.
 // Floating-point exceptions end a test, unless RRCB_TEST_TRAPS=OFF: some programs trap them.
-#include <gtest/gtest.h>
-#include <mpi.h>
+#include "common.hpp"
 
 #include <cfenv>
 #include <cstdlib>
-#include <cstring>
 
 #ifdef __SANITIZE_ADDRESS__
 // MPI's modules stay loaded to the end, when the sanitizer asks whose leaks are theirs.

@@ -1,12 +1,8 @@
 #pragma once
 
+#include "common.hpp"
+
 #include <rrcb/error.hpp>
-
-#include <gtest/gtest.h>
-#include <mpi.h>
-
-#include <array>
-#include <string>
 
 namespace rrcb::test {
 

@@ -1,10 +1,6 @@
 // The checksum by which a repeated call knows its objects and their parts again.
+#include "../support/common.hpp"
 #include "zoltan/call/kept_objects_mpi.hpp"
-
-#include <gtest/gtest.h>
-
-#include <set>
-#include <vector>
 
 namespace rrcb::zoltan {
 namespace {

@@ -30,8 +30,7 @@ constexpr Case cases[] = {
      [](Program& p) {
          scatter_points(p, 50);
          if (p.rank == 0) p.weights[3] = 1e6F;
-         p.set("OBJ_WEIGHT_DIM", "1");
-         p.set("NUM_GLOBAL_PARTS", "3");
+         p.set({{"OBJ_WEIGHT_DIM", "1"}, {"NUM_GLOBAL_PARTS", "3"}});
      },
      "one object outweighs a part"},
     {"objects in one place",
@@ -53,8 +52,7 @@ constexpr Case cases[] = {
 int code_of(const Case& given, const char* method, std::string& said) {
     Program program;
     given.prepare(program);
-    program.set("LB_METHOD", method);
-    program.set("DEBUG_LEVEL", "1");
+    program.set({{"LB_METHOD", method}, {"DEBUG_LEVEL", "1"}});
     testing::internal::CaptureStderr();
     const int code = program.partition().code;
     said = testing::internal::GetCapturedStderr();
@@ -74,15 +72,6 @@ TEST(Codes, are_those_of_zoltan_and_warnings_are_printed_once) {
             EXPECT_EQ(ours, "");
         }
     }
-}
-
-TEST(Codes, without_any_object_are_a_success) {
-    // RCB returns ZOLTAN_MEMERR.
-    Program program;
-    program.set("LB_METHOD", "RRCB");
-    const Outcome outcome = program.partition();
-    EXPECT_EQ(outcome.code, ZOLTAN_OK);
-    EXPECT_EQ(outcome.changes, 0);
 }
 
 }  // namespace

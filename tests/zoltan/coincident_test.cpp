@@ -1,11 +1,5 @@
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-#include <string>
-
 namespace rrcb::zoltan_test {
 namespace {
 
@@ -21,10 +15,10 @@ std::vector<int> counts(const Outcome& outcome, int num_parts) {
 constexpr int num_parts = 4;
 
 std::vector<int> counts_with(Program& program, const char* method) {
-    program.set("LB_METHOD", method);
-    program.set("RRCB_REFINE", "EXACT");
-    program.set("RETURN_LISTS", "PARTS");
-    program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+    program.set({{"LB_METHOD", method},
+                 {"RRCB_REFINE", "EXACT"},
+                 {"RETURN_LISTS", "PARTS"},
+                 {"NUM_GLOBAL_PARTS", std::to_string(num_parts)}});
     const Outcome outcome = program.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
     return counts(outcome, num_parts);
@@ -63,8 +57,7 @@ TEST(Coincident, planes_are_the_cause_that_a_warning_names) {
     Program program(2);
     if (program.rank == 0)
         for (int i = 0; i < 25; ++i) program.add({1.0 * (i % 5), 1.0 * (i / 5)});
-    program.set("RCB_RECTILINEAR_BLOCKS", "1");
-    program.set("DEBUG_LEVEL", "1");
+    program.set({{"RCB_RECTILINEAR_BLOCKS", "1"}, {"DEBUG_LEVEL", "1"}});
     testing::internal::CaptureStderr();
     counts_with(program, "RRCB");
     const std::string said = testing::internal::GetCapturedStderr();

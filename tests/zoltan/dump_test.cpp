@@ -1,13 +1,8 @@
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -82,9 +77,7 @@ std::vector<double> numbers_of(const std::vector<std::string>& lines) {
 struct DumpingProgram : Program {
     explicit DumpingProgram(const std::string& folder) {
         scatter_points(*this, 40);
-        set("LB_METHOD", "RRCB");
-        set("OBJ_WEIGHT_DIM", "1");
-        set("RRCB_DUMP", folder);
+        set({{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}, {"RRCB_DUMP", folder}});
     }
     bool is_last() const { return rank == num_ranks - 1; }
 };
@@ -208,8 +201,7 @@ TEST(Dump, is_asked_for_by_the_environment_unless_a_parameter_says_otherwise) {
 
 TEST(Dump, that_cannot_be_written_leaves_the_call_as_it_is) {
     DumpingProgram program("/dev/null/nowhere");
-    program.set("RRCB_DUMP_WHEN", "ALWAYS");
-    program.set("RETURN_LISTS", "PARTS");
+    program.set({{"RRCB_DUMP_WHEN", "ALWAYS"}, {"RETURN_LISTS", "PARTS"}});
     testing::internal::CaptureStderr();
     for (int call = 0; call < 2; ++call) {
         const Outcome outcome = program.partition();

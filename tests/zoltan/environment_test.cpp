@@ -1,10 +1,6 @@
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
-#include <map>
-#include <string>
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -31,9 +27,7 @@ struct Cloud : Program {
     Cloud() {
         scatter_points(*this, 3000);
         for (double& x : coordinates) x *= x;
-        set("LB_METHOD", "RRCB");
-        set("NUM_GLOBAL_PARTS", "6");
-        set("RETURN_LISTS", "PARTS");
+        set({{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", "6"}, {"RETURN_LISTS", "PARTS"}});
     }
 };
 
@@ -44,12 +38,6 @@ std::vector<int> parts_with(const Settings& set_by_program) {
     const Outcome outcome = program.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
     return parts_by_object(outcome);
-}
-
-bool differ_somewhere(const std::vector<int>& a, const std::vector<int>& b) {
-    int differ = a != b ? 1 : 0;
-    MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-    return differ != 0;
 }
 
 /// Each has an effect.

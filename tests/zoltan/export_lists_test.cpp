@@ -1,12 +1,6 @@
 // The lists of one rank, on one process.
+#include "../support/common.hpp"
 #include "zoltan/call/lists.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <utility>
-#include <vector>
 
 namespace rrcb::zoltan {
 namespace {

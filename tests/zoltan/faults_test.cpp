@@ -1,10 +1,6 @@
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <stdexcept>
 
 namespace rrcb::zoltan_test {
@@ -23,8 +19,7 @@ void expect_empty(const ListCopy& list) {
 struct FaultyProgram : Program {
     FaultyProgram() {
         scatter_points(*this, 50);
-        set("LB_METHOD", "RRCB");
-        set("OBJ_WEIGHT_DIM", "1");
+        set({{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}});
     }
 
     void expect_failure_then_success(int code) {
@@ -142,8 +137,7 @@ void expect_fatal(std::vector<Value> Program::*values, std::size_t entry,
         for (const auto& [domain, refine] : methods) {
             SCOPED_TRACE(std::string(domain) + " " + refine);
             FaultyProgram program;
-            program.set("RRCB_DOMAIN", domain);
-            program.set("RRCB_REFINE", refine);
+            program.set({{"RRCB_DOMAIN", domain}, {"RRCB_REFINE", refine}});
             Value& value = (program.*values)[entry];
             const Value good = value;
             if (is_faulty(program)) value = bad;

@@ -3,12 +3,7 @@
 #include "regions.hpp"
 #include "same_lists.hpp"
 
-#include <gtest/gtest.h>
 #include <zoltan_partition_tree.h>
-
-#include <array>
-#include <string>
-#include <vector>
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -30,8 +25,7 @@ struct Cloud : Program {
         further_weight = [this](int object, int k) {
             return static_cast<float>(1 + coordinates[std::size_t(3 * object + k % 3)]);
         };
-        set("LB_METHOD", method);
-        set("KEEP_CUTS", "1");
+        set({{"LB_METHOD", method}, {"KEEP_CUTS", "1"}});
     }
 };
 
@@ -70,15 +64,6 @@ bool has_cuts(Zoltan_Struct* zz) {
     return code == ZOLTAN_OK;
 }
 
-void expect_same(const Outcome& a, const Outcome& b) {
-    EXPECT_EQ(a.code, b.code);
-    EXPECT_EQ(a.changes, b.changes);
-    EXPECT_EQ(a.num_gid, b.num_gid);
-    EXPECT_EQ(a.num_lid, b.num_lid);
-    zoltan_test::expect_same(a.imports, b.imports);
-    zoltan_test::expect_same(a.exports, b.exports);
-}
-
 bool is_first_rank() {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -90,8 +75,7 @@ TEST(Forwarding, is_noted_once_on_the_first_rank_unless_nothing_is_to_be_printed
     std::string printed;
     for (const char* level : {"0", "1", "1"}) {
         Cloud program("RRCB");
-        program.set("DEBUG_LEVEL", level);
-        program.set("OBJ_WEIGHT_DIM", "2");
+        program.set({{"DEBUG_LEVEL", level}, {"OBJ_WEIGHT_DIM", "2"}});
         testing::internal::CaptureStderr();
         program.partition();
         const std::string one = testing::internal::GetCapturedStderr();
@@ -141,8 +125,7 @@ TEST(Forwarding, keeps_parameters_and_part_sizes) {
             Zoltan_LB_Set_Part_Sizes(program->zz, 1, 4, parts.data(), weights.data(), sizes.data());
         }
         // Given to another method first.
-        ours.set("LB_METHOD", "HSFC");
-        ours.set("LB_METHOD", "RRCB");
+        ours.set({{"LB_METHOD", "HSFC"}, {"LB_METHOD", "RRCB"}});
         expect_same(ours.partition(), zoltans.partition());
         EXPECT_EQ(look_ups(ours.zz, 7), look_ups(zoltans.zz, 7));
     }
@@ -178,15 +161,13 @@ TEST(Forwarding, goes_back_and_forth_with_the_setting) {
 
 TEST(Forwarding, leaves_no_look_ups_without_kept_cuts_or_under_another_method) {
     Cloud program("RRCB");
-    program.set("OBJ_WEIGHT_DIM", "2");
-    program.set("KEEP_CUTS", "0");
+    program.set({{"OBJ_WEIGHT_DIM", "2"}, {"KEEP_CUTS", "0"}});
     program.partition();
     EXPECT_FALSE(has_cuts(program.zz));
     program.set("KEEP_CUTS", "1");
     program.partition();
     EXPECT_TRUE(has_cuts(program.zz));
-    program.set("LB_METHOD", "RIB");
-    program.set("LB_METHOD", "RRCB");
+    program.set({{"LB_METHOD", "RIB"}, {"LB_METHOD", "RRCB"}});
     EXPECT_FALSE(has_cuts(program.zz));
 }
 
@@ -194,12 +175,10 @@ TEST(Forwarding, leaves_no_look_ups_without_kept_cuts_or_under_another_method) {
 struct Divided : Cloud {
     Divided(const char* method, const Setting& setting, int num_parts) : Cloud(method) {
         set(setting.name, setting.value);
-        set("RRCB_REFINE", "EXACT");
-        set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
-        set("RETURN_LISTS", "PARTS");
-        int part = num_parts / 2;
-        float size = 2;
-        Zoltan_LB_Set_Part_Sizes(zz, 1, 1, &part, nullptr, &size);
+        set({{"RRCB_REFINE", "EXACT"},
+             {"NUM_GLOBAL_PARTS", std::to_string(num_parts)},
+             {"RETURN_LISTS", "PARTS"}});
+        set_size(num_parts / 2, 2);
         outcome = partition();
     }
 
@@ -275,17 +254,13 @@ TEST(Forwarding, survives_serialization_as_rcb_does) {
 
 TEST(Forwarding, of_cuts_that_are_not_kept_gives_a_buffer_without_cuts) {
     Cloud program("RRCB");
-    program.set("KEEP_CUTS", "0");
-    program.set("OBJ_WEIGHT_DIM", "2");
+    program.set({{"KEEP_CUTS", "0"}, {"OBJ_WEIGHT_DIM", "2"}});
     program.partition();
-    std::vector<char> bytes(Zoltan_Serialize_Size(program.zz));
-    ASSERT_EQ(Zoltan_Serialize(program.zz, bytes.size(), bytes.data()), ZOLTAN_OK);
-    Zoltan_Struct* handle = Zoltan_Create(MPI_COMM_WORLD);
-    ASSERT_EQ(Zoltan_Deserialize(handle, bytes.size(), bytes.data()), ZOLTAN_OK);
-    EXPECT_FALSE(has_cuts(handle));
-    program.register_callbacks(handle);
-    expect_same(program.partition(handle), program.partition());
-    Zoltan_Destroy(&handle);
+    Program received(3);
+    unpack(received.zz, bytes_of(program.zz));
+    EXPECT_FALSE(has_cuts(received.zz));
+    program.register_callbacks(received.zz);
+    expect_same(program.partition(received.zz), program.partition());
 }
 
 TEST(Forwarding, is_agreed_on_by_all_ranks) {
@@ -307,22 +282,12 @@ TEST(Forwarding, is_agreed_on_by_all_ranks) {
 
 TEST(Forwarding, moves_objects_where_zoltan_is_to_migrate_them) {
     Cloud program("RRCB");
-    program.set("OBJ_WEIGHT_DIM", "2");
-    program.set("AUTO_MIGRATE", "1");
-    int num_packed = 0;
-    Zoltan_Set_Obj_Size_Fn(
-        program.zz, [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int*) { return 8; }, nullptr);
-    Zoltan_Set_Pack_Obj_Fn(
-        program.zz,
-        [](void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int, int, char*, int*) {
-            ++*static_cast<int*>(data);
-        },
-        &num_packed);
-    Zoltan_Set_Unpack_Obj_Fn(
-        program.zz, [](void*, int, ZOLTAN_ID_PTR, int, char*, int*) {}, nullptr);
+    program.set({{"OBJ_WEIGHT_DIM", "2"}, {"AUTO_MIGRATE", "1"}});
+    Migration migration;
+    count_migration(program.zz, migration);
     const Outcome outcome = program.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
-    EXPECT_EQ(num_packed, outcome.exports.count);
+    EXPECT_EQ(migration.packed, outcome.exports.count);
 }
 
 }  // namespace

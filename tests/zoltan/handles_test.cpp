@@ -8,55 +8,40 @@
 namespace rrcb::zoltan_test {
 namespace {
 
-void expect_same(const Outcome& a, const Outcome& b) {
-    EXPECT_EQ(a.code, b.code);
-    EXPECT_EQ(a.changes, b.changes);
-    expect_same(a.imports, b.imports);
-    expect_same(a.exports, b.exports);
-}
-
 TEST(Forwarding, leaves_look_ups_of_rcb_to_zoltan) {
     Program untouched, switched;
-    scatter_points(untouched, 300);
-    scatter_points(switched, 300);
-    switched.set("KEEP_CUTS", "1");
-    switched.set("NUM_GLOBAL_PARTS", "9");
+    for (Program* program : {&untouched, &switched}) {
+        scatter_points(*program, 300);
+        program->set({{"KEEP_CUTS", "1"}, {"NUM_GLOBAL_PARTS", "9"}});
+    }
     switched.set("LB_METHOD", "RRCB");
     switched.partition();
     switched.set("LB_METHOD", "RCB");
-    untouched.set("KEEP_CUTS", "1");
-    untouched.set("NUM_GLOBAL_PARTS", "9");
     switched.partition();
     untouched.partition();
     for (std::size_t i = 0; i < untouched.coordinates.size(); i += 2) {
-        int expected = -1, found = -2;
-        Zoltan_LB_Point_PP_Assign(untouched.zz, &untouched.coordinates[i], nullptr, &expected);
-        Zoltan_LB_Point_PP_Assign(switched.zz, &untouched.coordinates[i], nullptr, &found);
-        EXPECT_EQ(found, expected);
+        const double* x = &untouched.coordinates[i];
+        EXPECT_EQ(switched.place_of(x), untouched.place_of(x));
     }
 }
 
 TEST(Handles, copies_keep_method_parameters_sizes_and_cuts) {
     Program program;
     scatter_points(program, 300);
-    program.set("LB_METHOD", "RRCB");
-    program.set("RRCB_DOMAIN", "SAMPLED");
-    program.set("NUM_GLOBAL_PARTS", "5");
-    program.set("KEEP_CUTS", "1");
-    int part = 1;
-    float size = 2;
-    Zoltan_LB_Set_Part_Sizes(program.zz, 1, 1, &part, nullptr, &size);
+    program.set({{"LB_METHOD", "RRCB"},
+                 {"RRCB_DOMAIN", "SAMPLED"},
+                 {"NUM_GLOBAL_PARTS", "5"},
+                 {"KEEP_CUTS", "1"}});
+    program.set_size(1, 2);
     const Outcome original = program.partition();
 
     Zoltan_Struct* copy = Zoltan_Copy(program.zz);
     Zoltan_Struct* assigned = Zoltan_Create(MPI_COMM_WORLD);
     ASSERT_EQ(Zoltan_Copy_To(assigned, program.zz), ZOLTAN_OK);
     for (Zoltan_Struct* handle : {copy, assigned}) {
-        int expected = -1, found = -2;
-        Zoltan_LB_Point_PP_Assign(program.zz, program.coordinates.data(), nullptr, &expected);
-        EXPECT_EQ(Zoltan_LB_Point_PP_Assign(handle, program.coordinates.data(), nullptr, &found),
-                  ZOLTAN_OK);
-        EXPECT_EQ(found, expected);
+        const Place found = program.place_of(program.coordinates.data(), handle);
+        EXPECT_EQ(found.code, ZOLTAN_OK);
+        EXPECT_EQ(found, program.place_of(program.coordinates.data()));
         expect_same(program.partition(handle), original);
     }
     // A copy goes its own way, and lives on when the original is gone.
@@ -72,8 +57,7 @@ TEST(Handles, copies_keep_method_parameters_sizes_and_cuts) {
 TEST(Handles, let_zoltan_evaluate_under_rrcb) {
     Program program;
     scatter_points(program, 200);
-    program.set("LB_METHOD", "RRCB");
-    program.set("OBJ_WEIGHT_DIM", "1");
+    program.set({{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}});
     const Outcome before = program.partition();
     ZOLTAN_BALANCE_EVAL evaluation;
     EXPECT_EQ(Zoltan_LB_Eval(program.zz, 0, &evaluation, nullptr, nullptr), ZOLTAN_OK);
@@ -108,8 +92,7 @@ TEST(Handles, free_every_communicator_and_do_not_gather_more_by_repeated_calls) 
 TEST(Handles, keep_the_memory_for_each_object) {
     Program program;
     scatter_points(program, 150'000);
-    program.set("LB_METHOD", "RRCB");
-    program.set("RRCB_SUPPORT_MESH", "4");
+    program.set({{"LB_METHOD", "RRCB"}, {"RRCB_SUPPORT_MESH", "4"}});
     const auto call = [&] {
         int changes = 0, num_gid = 0, num_lid = 0;
         Program::RawList imports, exports;
@@ -140,46 +123,20 @@ TEST(Handles, migrate_automatically_as_with_rcb) {
         SCOPED_TRACE(method);
         Program program;
         scatter_points(program, 100);
-        static int num_packed, num_unpacked;
-        num_packed = num_unpacked = 0;
-        ZOLTAN_OBJ_SIZE_FN* size = [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int* code) {
-            *code = ZOLTAN_OK;
-            return static_cast<int>(sizeof(double));
-        };
-        ZOLTAN_PACK_OBJ_FN* pack = [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int, int,
-                                      char*, int* code) {
-            *code = ZOLTAN_OK;
-            ++num_packed;
-        };
-        ZOLTAN_UNPACK_OBJ_FN* unpack = [](void*, int, ZOLTAN_ID_PTR, int, char*, int* code) {
-            *code = ZOLTAN_OK;
-            ++num_unpacked;
-        };
-        Zoltan_Set_Obj_Size_Fn(program.zz, size, nullptr);
-        Zoltan_Set_Pack_Obj_Fn(program.zz, pack, nullptr);
-        Zoltan_Set_Unpack_Obj_Fn(program.zz, unpack, nullptr);
-        program.set("AUTO_MIGRATE", "1");
-        program.set("LB_METHOD", method);
+        Migration migration;
+        count_migration(program.zz, migration);
+        program.set({{"AUTO_MIGRATE", "1"}, {"LB_METHOD", method}});
         const Outcome outcome = program.partition();
-        EXPECT_EQ(num_packed, outcome.exports.count);
-        EXPECT_EQ(num_unpacked, outcome.imports.count);
-        EXPECT_EQ(num_packed > 0, program.num_ranks > 1);
+        EXPECT_EQ(migration.packed, outcome.exports.count);
+        EXPECT_EQ(migration.unpacked, outcome.imports.count);
+        EXPECT_EQ(migration.packed > 0, program.num_ranks > 1);
     }
-}
-
-TEST(Handles, refuse_the_lists_that_zoltan_makes_for_itself) {
-    Program program;
-    scatter_points(program, 100);
-    program.set("LB_METHOD", "RRCB");
-    program.set("RETURN_LISTS", "CANDIDATE LISTS");
-    EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
 }
 
 TEST(Handles, serialized_from_rcb_work_and_do_not_switch_to_rrcb) {
     Program program;
     scatter_points(program, 200);
-    program.set("LB_METHOD", "RCB");
-    program.set("KEEP_CUTS", "1");
+    program.set({{"LB_METHOD", "RCB"}, {"KEEP_CUTS", "1"}});
     program.partition();
     const std::size_t size = Zoltan_Serialize_Size(program.zz);
     ASSERT_GT(size, 0U);
@@ -187,10 +144,8 @@ TEST(Handles, serialized_from_rcb_work_and_do_not_switch_to_rrcb) {
     ASSERT_EQ(Zoltan_Serialize(program.zz, size, buffer.data()), ZOLTAN_OK);
     Zoltan_Struct* copy = Zoltan_Create(MPI_COMM_WORLD);
     ASSERT_EQ(Zoltan_Deserialize(copy, size, buffer.data()), ZOLTAN_OK);
-    int expected = -1, found = -2;
-    Zoltan_LB_Point_PP_Assign(program.zz, program.coordinates.data(), nullptr, &expected);
-    Zoltan_LB_Point_PP_Assign(copy, program.coordinates.data(), nullptr, &found);
-    EXPECT_EQ(found, expected);
+    EXPECT_EQ(program.place_of(program.coordinates.data(), copy),
+              program.place_of(program.coordinates.data()));
     EXPECT_EQ(Zoltan_Set_Param(copy, "LB_METHOD", "RRCB"), ZOLTAN_FATAL);
     Zoltan_Destroy(&copy);
 }

@@ -1,12 +1,5 @@
 #include "moving.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-
 namespace rrcb::zoltan_test {
 namespace {
 
@@ -102,9 +95,7 @@ constexpr Way ways[] = {{"RCB", "0", "TOLERANCE"},  {"RRCB", "0", "TOLERANCE"},
                         {"RRCB", "1", "EXACT"},     {"RRCB", "0", "NONE"}};
 
 void ask(Program& program, const Way& way) {
-    program.set("LB_METHOD", way.method);
-    program.set("RCB_REUSE", way.reuse);
-    program.set("RRCB_REFINE", way.refine);
+    program.set({{"LB_METHOD", way.method}, {"RCB_REUSE", way.reuse}, {"RRCB_REFINE", way.refine}});
 }
 
 TEST(KeptObjects, are_found_by_the_second_call) {
@@ -147,9 +138,7 @@ struct AtRest : Moving {
         // Heavier above, so that parts of equal weight do not have equal numbers.
         for (std::size_t i = 0; i < weights.size(); ++i)
             weights[i] *= static_cast<float>(1 + coordinates[2 * i] + coordinates[2 * i + 1]);
-        set("LB_METHOD", "RRCB");
-        set("RRCB_REFINE", "EXACT");
-        set("KEEP_CUTS", "1");
+        set({{"LB_METHOD", "RRCB"}, {"RRCB_REFINE", "EXACT"}, {"KEEP_CUTS", "1"}});
         calls_until_rest(*this, 3);
     }
 };
@@ -168,11 +157,9 @@ TEST(KeptObjects, are_listed_every_object_in_its_part_where_parts_are_asked_for)
 TEST(KeptObjects, keep_look_ups) {
     AtRest program;
     for (int i = 0; i < program.size(); ++i) {
-        int rank = -1, part = -1;
-        Zoltan_LB_Point_PP_Assign(program.zz, &program.coordinates[static_cast<std::size_t>(2 * i)],
-                                  &rank, &part);
-        ASSERT_EQ(rank, program.rank);
-        ASSERT_EQ(part, program.rank);
+        const Place expected{ZOLTAN_OK, program.rank, program.rank};
+        ASSERT_EQ(program.place_of(&program.coordinates[static_cast<std::size_t>(2 * i)]),
+                  expected);
     }
 }
 
@@ -208,9 +195,7 @@ TEST(KeptObjects, end_when_something_else_is_asked_for) {
         EXPECT_EQ(program.partition().changes, 1) << name;
     }
     AtRest program;
-    int part = 0;
-    float size = 3;
-    Zoltan_LB_Set_Part_Sizes(program.zz, 1, 1, &part, nullptr, &size);
+    program.set_size(0, 3);
     EXPECT_EQ(program.partition().changes, 1);
 }
 
@@ -229,13 +214,11 @@ TEST(KeptObjects, give_no_look_ups_without_keep_cuts) {
     scatter_points(program, 100);
     program.set("LB_METHOD", "RRCB");
     EXPECT_LE(calls_until_rest(program, 5), 2);
-    std::array<double, 2> x = {0.5, 0.5};
-    int rank = 17, part = 17;
-    EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &rank, &part), ZOLTAN_FATAL);
-    EXPECT_EQ(part, -1);
+    const double x[] = {0.5, 0.5};
+    EXPECT_EQ(program.place_of(x), (Place{ZOLTAN_FATAL, -1, -1}));
     program.set("KEEP_CUTS", "1");
     EXPECT_EQ(program.partition().changes, 0);
-    EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &rank, &part), ZOLTAN_OK);
+    EXPECT_EQ(program.place_of(x).code, ZOLTAN_OK);
 }
 
 }  // namespace

@@ -3,20 +3,12 @@
 #include "moving.hpp"
 #include "regions.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <string>
-
 namespace rrcb::zoltan_test {
 namespace {
 
 void use_rrcb(Program& program, const char* refine, const char* remap) {
-    program.set("LB_METHOD", "RRCB");
-    program.set("RRCB_REFINE", refine);
-    program.set("REMAP", remap);
-    program.set("KEEP_CUTS", "1");
+    program.set(
+        {{"LB_METHOD", "RRCB"}, {"RRCB_REFINE", refine}, {"REMAP", remap}, {"KEEP_CUTS", "1"}});
 }
 
 /// The objects of another program, on a handle that knows of no earlier call.
@@ -40,19 +32,8 @@ void come_to_rest(Moving& program, const char* refine, const char* remap) {
 }
 
 void expect_look_ups_find_owners(const Program& program) {
-    const Region region = region_of(program.zz, program.rank);
-    for (int i = 0; i < program.size(); ++i) {
-        const auto at = static_cast<std::size_t>(2 * i);
-        std::array<double, 2> x = {program.coordinates[at], program.coordinates[at + 1]};
-        int rank = -1, part = -1;
-        ASSERT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &rank, &part), ZOLTAN_OK);
-        ASSERT_EQ(rank, program.rank);
-        ASSERT_EQ(part, program.rank);
-        for (std::size_t a = 0; a < 2; ++a) {
-            ASSERT_LE(region.lower[a], x[a]);
-            ASSERT_GE(region.upper[a], x[a]);
-        }
-    }
+    for (std::size_t i = 0; i < program.weights.size(); ++i)
+        expect_found(program, i, program.rank, program.rank);
 }
 
 TEST(KeptParts, leave_objects_to_a_new_handle_where_an_old_one_sent_them) {
@@ -111,8 +92,10 @@ TEST(KeptParts, do_not_count_where_a_rank_has_several) {
     come_to_rest(program, "TOLERANCE", "0");
     Successor next(program);
     use_rrcb(next, "TOLERANCE", "0");
-    next.set("NUM_LOCAL_PARTS", next.rank == 0 ? "2" : next.rank == 1 ? "0" : "1");
-    next.set("RETURN_LISTS", "PARTS");
+    next.set({{"NUM_LOCAL_PARTS", next.rank == 0   ? "2"
+                                  : next.rank == 1 ? "0"
+                                                   : "1"},
+              {"RETURN_LISTS", "PARTS"}});
     const Outcome outcome = next.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
     EXPECT_LE(imbalance(next, outcome, next.num_ranks), 1.1);

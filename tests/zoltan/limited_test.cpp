@@ -1,13 +1,6 @@
 // RRCB_MIN_WIDTH and RRCB_GRID, which limit where cuts may lie.
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 namespace rrcb::zoltan_test {
 namespace {
 
@@ -17,9 +10,7 @@ constexpr double open = std::numeric_limits<double>::max();
 void fill_corner(Program& program) {
     scatter_points(program, 1000);
     for (double& x : program.coordinates) x = x * x * x;
-    program.set("LB_METHOD", "RRCB");
-    program.set("KEEP_CUTS", "1");
-    program.set("RETURN_LISTS", "PARTS");
+    program.set({{"LB_METHOD", "RRCB"}, {"KEEP_CUTS", "1"}, {"RETURN_LISTS", "PARTS"}});
 }
 
 std::array<double, 6> box_of(Program& program, int part) {
@@ -61,8 +52,7 @@ TEST(MinWidth, keeps_the_parts_wide) {
 TEST(Grid, holds_the_cuts_that_average_cuts_would_move) {
     Program program;
     fill_corner(program);
-    program.set("NUM_GLOBAL_PARTS", "6");
-    program.set("AVERAGE_CUTS", "1");
+    program.set({{"NUM_GLOBAL_PARTS", "6"}, {"AVERAGE_CUTS", "1"}});
     EXPECT_EQ(program.set("RRCB_GRID", "0.01 0.05, 0 0.04"), ZOLTAN_OK);
     EXPECT_EQ(program.partition().code, ZOLTAN_OK);
     for (int part = 0; part < 6; ++part) {
@@ -81,8 +71,7 @@ TEST(Grid, holds_the_cuts_that_average_cuts_would_move) {
 TEST(Limits, without_room_are_fatal_on_all_ranks_and_the_next_call_works) {
     Program program;
     fill_corner(program);
-    program.set("NUM_GLOBAL_PARTS", "9");
-    program.set("RRCB_MIN_WIDTH", "0.4, 0.4");
+    program.set({{"NUM_GLOBAL_PARTS", "9"}, {"RRCB_MIN_WIDTH", "0.4, 0.4"}});
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
     program.set("RRCB_MIN_WIDTH", "1");  // one number for two axes
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
@@ -104,11 +93,9 @@ TEST(Limits, that_differ_between_ranks_are_fatal_on_all) {
 TEST(Limits, are_refused_with_several_weights_and_with_turned_axes) {
     Program program;
     fill_corner(program);
-    program.set("RRCB_MIN_WIDTH", "0.01 0.01");
-    program.set("REDUCE_DIMENSIONS", "1");
+    program.set({{"RRCB_MIN_WIDTH", "0.01 0.01"}, {"REDUCE_DIMENSIONS", "1"}});
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
-    program.set("REDUCE_DIMENSIONS", "0");
-    program.set("OBJ_WEIGHT_DIM", "2");
+    program.set({{"REDUCE_DIMENSIONS", "0"}, {"OBJ_WEIGHT_DIM", "2"}});
     program.further_weight = [](int, int) { return 1.0f; };
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
     program.set("OBJ_WEIGHT_DIM", "1");

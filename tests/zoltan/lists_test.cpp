@@ -1,11 +1,5 @@
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
-#include <map>
-#include <set>
-#include <tuple>
-
 namespace rrcb::zoltan_test {
 namespace {
 
@@ -51,28 +45,22 @@ TEST(Lists, have_the_shape_of_rcb_for_every_word_and_width_of_ids) {
                 SCOPED_TRACE(std::string(word) + " " + std::to_string(gid) + std::to_string(lid));
                 Program program;
                 scatter_points(program, 200);
-                program.set("RETURN_LISTS", word);
-                program.set("NUM_GID_ENTRIES", std::to_string(gid));
-                program.set("NUM_LID_ENTRIES", std::to_string(lid));
+                program.set({{"RETURN_LISTS", word},
+                             {"NUM_GID_ENTRIES", std::to_string(gid)},
+                             {"NUM_LID_ENTRIES", std::to_string(lid)}});
                 expect_shape_of_rcb(program);
             }
         }
     }
 }
 
-TEST(Lists, have_the_shape_of_rcb_when_one_rank_holds_everything) {
+TEST(Lists, have_the_shape_of_rcb_when_one_rank_holds_everything_or_nothing_changes) {
     for (const char* word : words) {
         SCOPED_TRACE(word);
-        Program program;
-        program.set("RETURN_LISTS", word);
-        if (program.rank == program.num_ranks - 1) scatter_points(program, 400);
-        expect_shape_of_rcb(program);
-    }
-}
-
-TEST(Lists, have_the_shape_of_rcb_when_nothing_changes) {
-    for (const char* word : words) {
-        SCOPED_TRACE(word);
+        Program holder;
+        holder.set("RETURN_LISTS", word);
+        if (holder.rank == holder.num_ranks - 1) scatter_points(holder, 400);
+        expect_shape_of_rcb(holder);
         Program program(1);
         program.set("RETURN_LISTS", word);
         for (int i = 0; i < 10; ++i) program.add({static_cast<double>(program.rank)});
@@ -80,6 +68,7 @@ TEST(Lists, have_the_shape_of_rcb_when_nothing_changes) {
     }
 }
 
+// RCB returns ZOLTAN_MEMERR.
 TEST(Lists, are_empty_without_objects) {
     for (const char* word : {"ALL", "PARTS", "EXPORT"}) {
         SCOPED_TRACE(word);
@@ -97,8 +86,7 @@ TEST(Lists, of_balance_have_the_shape_of_rcb) {
     for (const char* word : words) {
         SCOPED_TRACE(word);
         Program program;
-        program.set("RETURN_LISTS", word);
-        program.set("REMAP", "0");
+        program.set({{"RETURN_LISTS", word}, {"REMAP", "0"}});
         scatter_points(program, 100);
         program.set("LB_METHOD", "RCB");
         const Outcome zoltans = program.balance();
@@ -114,8 +102,7 @@ TEST(Lists, come_from_iterating_and_single_callbacks_as_well) {
     scatter_points(multi, 100);
     scatter_points(single, 100);
     for (Program* program : {&multi, &single}) {
-        program->set("OBJ_WEIGHT_DIM", "1");
-        program->set("RETURN_LISTS", "PARTS");
+        program->set({{"OBJ_WEIGHT_DIM", "1"}, {"RETURN_LISTS", "PARTS"}});
     }
     ZOLTAN_FIRST_OBJ_FN* first = [](void* data, int, int, ZOLTAN_ID_PTR gid, ZOLTAN_ID_PTR lid, int,
                                     float* weight, int* code) {
@@ -158,8 +145,7 @@ TEST(Lists, come_from_iterating_and_single_callbacks_as_well) {
 TEST(Lists, feed_the_real_compute_destinations) {
     Program program;
     scatter_points(program, 120);
-    program.set("RETURN_LISTS", "ALL");
-    program.set("LB_METHOD", "RRCB");
+    program.set({{"RETURN_LISTS", "ALL"}, {"LB_METHOD", "RRCB"}});
     program.keep_lists = true;
     const Outcome outcome = program.partition();
     const Program::RawList& in = program.raw_imports;

@@ -1,10 +1,6 @@
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cfloat>
-#include <set>
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -12,9 +8,7 @@ namespace {
 struct KeptProgram : Program {
     explicit KeptProgram(int num_parts = 0, int dimension_ = 2) : Program(dimension_) {
         scatter_points(*this, 400);
-        set("LB_METHOD", "RRCB");
-        set("RETURN_LISTS", "PARTS");
-        set("KEEP_CUTS", "1");
+        set({{"LB_METHOD", "RRCB"}, {"RETURN_LISTS", "PARTS"}, {"KEEP_CUTS", "1"}});
         if (num_parts > 0) set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
     }
     double* position(int i) { return &coordinates[static_cast<std::size_t>(i * dimension)]; }

@@ -1,13 +1,7 @@
 // Parts of a machine stay together under Zoltan's interface. The machines are made up: this program
 // answers MPI_Comm_split_type in place of the MPI library.
 #include "program.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <vector>
+#include "regions.hpp"
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -57,9 +51,7 @@ bool are_apart(const Boxes& boxes) {
 struct Scattered : Program {
     Scattered() {
         scatter_points(*this, 2000);
-        set("LB_METHOD", "RRCB");
-        set("OBJ_WEIGHT_DIM", "1");
-        set("RETURN_LISTS", "PARTS");
+        set({{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}, {"RETURN_LISTS", "PARTS"}});
     }
 
     bool keeps_machines_apart() {
@@ -96,30 +88,7 @@ TEST(Machines, are_cut_off_whole_from_earlier_cuts) {
 /// The look-ups of each object find its part, which its rank has.
 void expect_own_parts(Scattered& program, const Outcome& outcome) {
     const std::vector<int> parts = parts_by_object(outcome);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        double* at = &program.coordinates[2 * i];
-        int rank = -1;
-        int part = -1;
-        ASSERT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, at, &rank, &part), ZOLTAN_OK);
-        ASSERT_EQ(part, parts[i]);
-        ASSERT_EQ(rank, parts[i]);
-        std::vector<int> touched(static_cast<std::size_t>(program.num_ranks));
-        std::vector<int> ranks(touched.size());
-        int num_ranks = 0;
-        int num_parts = 0;
-        ASSERT_EQ(Zoltan_LB_Box_PP_Assign(program.zz, at[0], at[1], 0, at[0], at[1], 0,
-                                          ranks.data(), &num_ranks, touched.data(), &num_parts),
-                  ZOLTAN_OK);
-        ASSERT_EQ(num_parts, 1);
-        ASSERT_EQ(touched[0], parts[i]);
-        double box[6] = {};
-        int dimension = 0;
-        ASSERT_EQ(Zoltan_RCB_Box(program.zz, part, &dimension, &box[0], &box[1], &box[2], &box[3],
-                                 &box[4], &box[5]),
-                  ZOLTAN_OK);
-        for (std::size_t axis = 0; axis < 2; ++axis)
-            ASSERT_TRUE(box[axis] <= at[axis] && at[axis] <= box[3 + axis]);
-    }
+    for (std::size_t i = 0; i < parts.size(); ++i) expect_found(program, i, parts[i], parts[i]);
 }
 
 TEST(Machines, to_which_ranks_are_dealt_in_turn_are_cut_off_whole) {
@@ -127,8 +96,7 @@ TEST(Machines, to_which_ranks_are_dealt_in_turn_are_cut_off_whole) {
     for (const char* remap : {"1", "0"}) {
         SCOPED_TRACE(remap);
         Scattered program;
-        program.set("REMAP", remap);
-        program.set("KEEP_CUTS", "1");
+        program.set({{"REMAP", remap}, {"KEEP_CUTS", "1"}});
         const Outcome outcome = program.partition();
         EXPECT_TRUE(are_apart(boxes_of_machines(program, outcome)));
         expect_own_parts(program, outcome);

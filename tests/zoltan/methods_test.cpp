@@ -36,8 +36,7 @@ struct AllMethods : Program {
         scatter_points(*this, 300);
         use_hier(*this, "RRCB");
         use_graph(*this);
-        set("RETURN_LISTS", "EXPORT");
-        set("OBJ_WEIGHT_DIM", "1");
+        set({{"RETURN_LISTS", "EXPORT"}, {"OBJ_WEIGHT_DIM", "1"}});
         // Zoltan's numbers depend on those of the call before.
         set("REMAP", "0");
     }
@@ -77,15 +76,10 @@ TEST(Methods, look_ups_need_a_partition_of_the_method_that_is_set) {
     for (const char* method : {"RCB", "RRCB"}) {
         Program program;
         scatter_points(program, 100);
-        program.set("KEEP_CUTS", "1");
-        program.set("LB_METHOD", method);
+        program.set({{"KEEP_CUTS", "1"}, {"LB_METHOD", method}});
         program.partition();
-        program.set("LB_METHOD", "RIB");
-        program.set("LB_METHOD", method);
-        int rank = 0, part = 0;
-        EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, program.coordinates.data(), &rank, &part),
-                  ZOLTAN_FATAL)
-            << method;
+        program.set({{"LB_METHOD", "RIB"}, {"LB_METHOD", method}});
+        EXPECT_EQ(program.place_of(program.coordinates.data()).code, ZOLTAN_FATAL) << method;
     }
 }
 

@@ -12,8 +12,7 @@ namespace rrcb::zoltan_test {
 /// or fewer of them than ranks.
 struct Moving : Program {
     explicit Moving(int dimension_) : Program(dimension_) {
-        set("OBJ_WEIGHT_DIM", "1");
-        set("RETURN_LISTS", "EXPORT");
+        set({{"OBJ_WEIGHT_DIM", "1"}, {"RETURN_LISTS", "EXPORT"}});
     }
 
     void tell_parts() {

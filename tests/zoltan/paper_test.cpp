@@ -3,12 +3,6 @@
 
 #include <rrcb/paper.hpp>
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <map>
-#include <optional>
-
 namespace rrcb::zoltan_test {
 namespace {
 
@@ -20,11 +14,11 @@ struct Crowded : Program {
         scatter_points(*this, 600);
         for (double& x : coordinates) x *= x;
         for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(i % 4);
-        set("LB_METHOD", "RRCB");
-        set("OBJ_WEIGHT_DIM", "1");
-        set("RETURN_LISTS", "PARTS");
-        set("REMAP", "0");
-        set("DEBUG_LEVEL", "1");
+        set({{"LB_METHOD", "RRCB"},
+             {"OBJ_WEIGHT_DIM", "1"},
+             {"RETURN_LISTS", "PARTS"},
+             {"REMAP", "0"},
+             {"DEBUG_LEVEL", "1"}});
         for (const auto& [name, value] : settings) set(name.c_str(), value);
     }
 
@@ -101,10 +95,9 @@ TEST(PaperDomains, take_more_parts_than_one_rank_makes_otherwise) {
                      {"KEEP_CUTS", "1"}});
     const std::vector<int> parts = parts_by(program);
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        int rank = -1, part = -1;
-        EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, &program.coordinates[2 * i], &rank, &part),
-                  ZOLTAN_OK);
-        EXPECT_EQ(part, parts[i]);
+        const Place place = program.place_of(&program.coordinates[2 * i]);
+        EXPECT_EQ(place.code, ZOLTAN_OK);
+        EXPECT_EQ(place.part, parts[i]);
     }
 }
 

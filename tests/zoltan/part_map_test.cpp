@@ -1,13 +1,8 @@
 // Where Zoltan lays parts out, on one process.
 #include "zoltan/handle/part_map.hpp"
 
+#include "../support/common.hpp"
 #include "zoltan/real/message.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
 
 namespace rrcb::zoltan {
 namespace {

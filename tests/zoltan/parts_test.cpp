@@ -1,19 +1,12 @@
 #include "program.hpp"
 #include "regions.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <set>
-
 namespace rrcb::zoltan_test {
 namespace {
 
 Outcome partition_with(Program& program, const char* method) {
     EXPECT_EQ(program.set("LB_METHOD", method), ZOLTAN_OK);
-    program.set("RETURN_LISTS", "PARTS");
-    program.set("REMAP", "0");
+    program.set({{"RETURN_LISTS", "PARTS"}, {"REMAP", "0"}});
     return program.partition();
 }
 
@@ -35,8 +28,7 @@ TEST(Parts, lie_on_the_ranks_of_zoltan_for_any_number_of_them) {
         SCOPED_TRACE(num_parts);
         Program program;
         scatter_points(program, 2000);
-        program.set("OBJ_WEIGHT_DIM", "1");
-        program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+        program.set({{"OBJ_WEIGHT_DIM", "1"}, {"NUM_GLOBAL_PARTS", std::to_string(num_parts)}});
         const Outcome zoltans = partition_with(program, "RCB");
         const Outcome ours = partition_with(program, "RRCB");
         EXPECT_EQ(ours.code, ZOLTAN_OK);
@@ -87,8 +79,8 @@ TEST(Parts, asked_for_locally_lie_where_zoltan_puts_them) {
 TEST(Parts, asked_for_locally_must_add_up) {
     Program program;
     scatter_points(program, 10);
-    program.set("NUM_LOCAL_PARTS", "2");
-    program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks + 1));
+    program.set({{"NUM_LOCAL_PARTS", "2"},
+                 {"NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks + 1)}});
     EXPECT_EQ(partition_with(program, "RRCB").code, ZOLTAN_FATAL);
     program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks));
     EXPECT_EQ(partition_with(program, "RRCB").code, ZOLTAN_OK);
@@ -117,12 +109,10 @@ TEST(Parts, of_no_legal_number_are_as_many_as_zoltan_takes) {
                  [&](Program& p) { p.set("NUM_GLOBAL_PARTS", value); },
                  [&](Program& p) { p.set("NUM_GLOBAL_PARTITIONS", value); },
                  [&](Program& p) {
-                     p.set("NUM_GLOBAL_PARTS", "5");
-                     p.set("NUM_GLOBAL_PARTS", value);
+                     p.set({{"NUM_GLOBAL_PARTS", "5"}, {"NUM_GLOBAL_PARTS", value}});
                  },
                  [&](Program& p) {
-                     p.set("NUM_LOCAL_PARTS", "2");
-                     p.set("NUM_GLOBAL_PARTS", value);
+                     p.set({{"NUM_LOCAL_PARTS", "2"}, {"NUM_GLOBAL_PARTS", value}});
                  },
                  [&](Program& p) { p.set("NUM_GLOBAL_PARTS", p.rank == 0 ? value : "2"); }}) {
             EXPECT_EQ(ask_for_parts("RRCB", set_parameters), ask_for_parts("RCB", set_parameters))
@@ -176,8 +166,7 @@ int lone_part(const char* method) {
     Program program;
     scatter_points(program, 3000);
     for (std::size_t i = 0; i < program.coordinates.size(); i += 2) program.coordinates[i] *= 1.2;
-    program.set("NUM_GLOBAL_PARTS", "3");
-    program.set("KEEP_CUTS", "1");
+    program.set({{"NUM_GLOBAL_PARTS", "3"}, {"KEEP_CUTS", "1"}});
     partition_with(program, method);
     const auto is_alone = [&](int part) {
         const Region region = region_of(program.zz, part);
@@ -225,9 +214,7 @@ TEST(Parts, of_zero_size_hold_all_objects_where_there_is_one_part) {
         Program program;
         scatter_points(program, 50);
         program.set("NUM_GLOBAL_PARTS", "1");
-        int part = 0;
-        float size = 0;
-        Zoltan_LB_Set_Part_Sizes(program.zz, 1, 1, &part, nullptr, &size);
+        program.set_size(0, 0);
         const Outcome outcome = partition_with(program, method);
         EXPECT_EQ(outcome.code, ZOLTAN_OK) << method;
         EXPECT_EQ(outcome.exports.parts, std::vector<int>(50, 0)) << method;
@@ -247,10 +234,10 @@ TEST(Parts, that_callbacks_name_decide_what_changes) {
             return 2 * self.rank + static_cast<int>(*lid % 2);
         };
         Zoltan_Set_Part_Fn(program.zz, part, &program);
-        program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks));
-        program.set("REMAP", "0");
-        program.set("RETURN_LISTS", word);
-        program.set("LB_METHOD", "RCB");
+        program.set({{"NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks)},
+                     {"REMAP", "0"},
+                     {"RETURN_LISTS", word},
+                     {"LB_METHOD", "RCB"}});
         const Outcome zoltans = program.partition();
         program.set("LB_METHOD", "RRCB");
         const Outcome ours = program.partition();
@@ -264,8 +251,8 @@ TEST(Parts, that_callbacks_name_decide_what_changes) {
 TEST(Balance, refuses_other_numbers_of_parts_than_ranks) {
     Program program;
     scatter_points(program, 50);
-    program.set("LB_METHOD", "RRCB");
-    program.set("NUM_GLOBAL_PARTS", std::to_string(program.num_ranks + 1));
+    program.set(
+        {{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", std::to_string(program.num_ranks + 1)}});
     EXPECT_EQ(program.balance().code, ZOLTAN_FATAL);
     program.set("NUM_GLOBAL_PARTS", std::to_string(program.num_ranks));
     EXPECT_EQ(program.balance().code, ZOLTAN_OK);

@@ -113,6 +113,22 @@ int Program::set(const char* name, const std::string& value) {
     return Zoltan_Set_Param(zz, name, value.c_str());
 }
 
+void Program::set(std::initializer_list<std::pair<const char*, std::string>> settings) {
+    for (const auto& [name, value] : settings) set(name, value);
+}
+
+void Program::set_size(int part, float size) {
+    Zoltan_LB_Set_Part_Sizes(zz, 1, 1, &part, nullptr, &size);
+}
+
+Place Program::place_of(const double* position, Zoltan_Struct* handle) const {
+    std::vector<double> x(position, position + dimension);
+    Place place;
+    place.code = Zoltan_LB_Point_PP_Assign(handle == nullptr ? zz : handle, x.data(), &place.rank,
+                                           &place.part);
+    return place;
+}
+
 Outcome Program::partition() {
     return partition(zz);
 }
@@ -195,6 +211,31 @@ void use_hier(Program& program, const char* inner_method) {
 
 void repeat(Program& program, int times) {
     for (int i = 0; i < times; ++i) program.partition();
+}
+
+void count_migration(Zoltan_Struct* handle, Migration& migration) {
+    ZOLTAN_OBJ_SIZE_FN* size = [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int* code) {
+        *code = ZOLTAN_OK;
+        return static_cast<int>(sizeof(double));
+    };
+    ZOLTAN_PACK_OBJ_FN* pack = [](void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int, int,
+                                  char*, int* code) {
+        *code = ZOLTAN_OK;
+        ++static_cast<Migration*>(data)->packed;
+    };
+    ZOLTAN_UNPACK_OBJ_FN* unpack = [](void* data, int, ZOLTAN_ID_PTR, int, char*, int* code) {
+        *code = ZOLTAN_OK;
+        ++static_cast<Migration*>(data)->unpacked;
+    };
+    Zoltan_Set_Obj_Size_Fn(handle, size, nullptr);
+    Zoltan_Set_Pack_Obj_Fn(handle, pack, &migration);
+    Zoltan_Set_Unpack_Obj_Fn(handle, unpack, &migration);
+}
+
+bool differ_somewhere(const std::vector<int>& a, const std::vector<int>& b) {
+    int differ = a != b ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return differ != 0;
 }
 
 double imbalance(const Program& program, const Outcome& outcome, int num_parts) {

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <mpi.h>
-#include <zoltan.h>
+#include "../support/common.hpp"
 
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
+#include <zoltan.h>
 
 namespace rrcb::zoltan_test {
 
@@ -23,6 +19,17 @@ struct Outcome {
     ListCopy imports, exports;
 };
 
+/// The answer of Zoltan_LB_Point_PP_Assign.
+struct Place {
+    int code = 0, rank = -7, part = -7;
+    bool operator==(const Place&) const = default;
+};
+
+/// Objects that Zoltan has packed and unpacked.
+struct Migration {
+    int packed = 0, unpacked = 0;
+};
+
 /// One rank's data and callbacks, and a handle on which to set parameters.
 struct Program {
     explicit Program(int dimension = 2, MPI_Comm comm = MPI_COMM_WORLD);
@@ -33,9 +40,13 @@ struct Program {
     void add(std::vector<double> position, float weight = 1);
     void register_callbacks(Zoltan_Struct* handle);
     int set(const char* name, const std::string& value);
+    void set(std::initializer_list<std::pair<const char*, std::string>> settings);
+    void set_size(int part, float size);  ///< of a part of all ranks
+
     Outcome partition();
     Outcome partition(Zoltan_Struct* handle);
     Outcome balance();
+    Place place_of(const double* position, Zoltan_Struct* handle = nullptr) const;  ///< own handle
 
     int rank = 0, num_ranks = 1;
     int dimension;
@@ -75,6 +86,12 @@ void use_hier(Program& program, const char* inner_method);
 
 /// Partitions again and again.
 void repeat(Program& program, int times);
+
+/// Lets Zoltan migrate objects, which it then counts.
+void count_migration(Zoltan_Struct* handle, Migration& migration);
+
+/// Whether values differ on any rank. Collective.
+bool differ_somewhere(const std::vector<int>& a, const std::vector<int>& b);
 
 /// Part of each object in the program's order, which is not that of Zoltan's list, after a call
 /// with RETURN_LISTS=PARTS.

@@ -2,11 +2,6 @@
 // Zoltan_Help_Migrate.
 #include "program.hpp"
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 // Exported by Zoltan and called by its users, but declared in no public header.
 extern "C" {
 int Zoltan_LB_Part_To_Proc(struct Zoltan_Struct* zz, int part, ZOLTAN_ID_PTR global_id);
@@ -39,9 +34,9 @@ std::vector<Layout> layouts_on(int num_ranks) {
 struct Divided : Program {
     Divided(const char* method, const Layout& layout) {
         scatter_points(*this, 60);
-        set("LB_METHOD", method);
-        set("RETURN_LISTS", "PARTS");
-        set("NUM_GLOBAL_PARTS", std::to_string(layout.num_parts));
+        set({{"LB_METHOD", method},
+             {"RETURN_LISTS", "PARTS"},
+             {"NUM_GLOBAL_PARTS", std::to_string(layout.num_parts)}});
         const int here = rank == 0 ? layout.on_first : layout.on_others;
         if (here != unset) set("NUM_LOCAL_PARTS", std::to_string(here));
         outcome = partition();
@@ -109,12 +104,8 @@ TEST(RanksOfParts, go_with_the_method_that_made_the_parts) {
 
 /// Calls Zoltan_Help_Migrate with no objects.
 int help_migrate(Zoltan_Struct* zz) {
-    Zoltan_Set_Obj_Size_Fn(
-        zz, [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int*) { return 8; }, nullptr);
-    Zoltan_Set_Pack_Obj_Fn(
-        zz, [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int, int, char*, int*) {}, nullptr);
-    Zoltan_Set_Unpack_Obj_Fn(
-        zz, [](void*, int, ZOLTAN_ID_PTR, int, char*, int*) {}, nullptr);
+    Migration migration;
+    count_migration(zz, migration);
     return Zoltan_Help_Migrate(zz, 0, nullptr, nullptr, nullptr, 0, nullptr, nullptr, nullptr);
 }
 

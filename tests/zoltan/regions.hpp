@@ -2,9 +2,7 @@
 
 #include "program.hpp"
 
-#include <array>
 #include <cfloat>
-#include <set>
 
 namespace rrcb::zoltan_test {
 
@@ -20,6 +18,22 @@ inline Region region_of(Zoltan_Struct* zz, int part) {
     region.code =
         Zoltan_RCB_Box(zz, part, &region.dimension, &lo[0], &lo[1], &lo[2], &hi[0], &hi[1], &hi[2]);
     return region;
+}
+
+/// Expects look-ups of an object to find one part and rank, by its point, box and region.
+inline void expect_found(const Program& program, std::size_t object, int part, int rank) {
+    const double* x = &program.coordinates[object * static_cast<std::size_t>(program.dimension)];
+    ASSERT_EQ(program.place_of(x), (Place{ZOLTAN_OK, rank, part}));
+    std::vector<int> ranks(static_cast<std::size_t>(program.num_ranks)), parts(ranks);
+    int num_ranks = 0, num_parts = 0;
+    ASSERT_EQ(Zoltan_LB_Box_PP_Assign(program.zz, x[0], x[1], 0, x[0], x[1], 0, ranks.data(),
+                                      &num_ranks, parts.data(), &num_parts),
+              ZOLTAN_OK);
+    ASSERT_TRUE(num_parts == 1 && parts[0] == part && num_ranks == 1 && ranks[0] == rank);
+    const Region region = region_of(program.zz, part);
+    ASSERT_EQ(region.code, ZOLTAN_OK);
+    for (std::size_t a = 0; a < 2; ++a)
+        ASSERT_TRUE(region.lower[a] <= x[a] && x[a] <= region.upper[a]);
 }
 
 /// How many different planes the parts have across each axis.

@@ -31,8 +31,7 @@ struct Rotated : Program {
 };
 
 double moved_with(Program& program, const char* method, const char* remap) {
-    program.set("LB_METHOD", method);
-    program.set("REMAP", remap);
+    program.set({{"LB_METHOD", method}, {"REMAP", remap}});
     const Outcome outcome = program.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
     return moved(program, outcome);
@@ -72,34 +71,16 @@ TEST(Remap, moves_no_more_than_zoltans_on_scattered_points) {
         for (std::size_t i = 0; i < program.coordinates.size(); i += 2) {
             program.coordinates[i] += 0.3 * shift;
         }
-        program.set("RRCB_REFINE", "EXACT");
-        program.set("RETURN_LISTS", "PARTS");
+        program.set({{"RRCB_REFINE", "EXACT"}, {"RETURN_LISTS", "PARTS"}});
         EXPECT_LE(moved_with(program, "RRCB", "1"), moved_with(program, "RCB", "1") + 0.02) << seed;
     }
 }
 
 TEST(Remap, finds_objects_by_the_new_numbers) {
     Rotated program;
-    program.set("LB_METHOD", "RRCB");
-    program.set("KEEP_CUTS", "1");
+    program.set({{"LB_METHOD", "RRCB"}, {"KEEP_CUTS", "1"}});
     const std::vector<int> parts = parts_by_object(program.partition());
-    for (int i = 0; i < program.size(); ++i) {
-        double* x = &program.coordinates[static_cast<std::size_t>(2 * i)];
-        int rank = -1, part = -1, num_ranks = -1, num_parts = -1;
-        Zoltan_LB_Point_PP_Assign(program.zz, x, &rank, &part);
-        EXPECT_EQ(part, parts[static_cast<std::size_t>(i)]);
-        EXPECT_EQ(rank, part);
-        std::vector<int> touched(static_cast<std::size_t>(program.num_ranks), -1);
-        std::vector<int> ranks(touched);
-        Zoltan_LB_Box_PP_Assign(program.zz, x[0], x[1], 0, x[0], x[1], 0, ranks.data(), &num_ranks,
-                                touched.data(), &num_parts);
-        ASSERT_EQ(num_parts, 1);
-        EXPECT_EQ(touched[0], part);
-        EXPECT_EQ(ranks[0], rank);
-        const Region region = region_of(program.zz, part);
-        EXPECT_LE(region.lower[0], x[0]);
-        EXPECT_GE(region.upper[0], x[0]);
-    }
+    for (std::size_t i = 0; i < parts.size(); ++i) expect_found(program, i, parts[i], parts[i]);
 }
 
 TEST(Remap, keeps_the_numbers_of_parts_that_callbacks_name) {
@@ -113,8 +94,7 @@ TEST(Remap, keeps_the_numbers_of_parts_that_callbacks_name) {
     Zoltan_Set_Part_Fn(program.zz, part, &program);
     program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks));
     for (const char* method : {"RCB", "RRCB"}) {
-        program.set("LB_METHOD", method);
-        program.set("REMAP", "0");
+        program.set({{"LB_METHOD", method}, {"REMAP", "0"}});
         EXPECT_EQ(program.partition().changes, 1) << method;
         program.set("REMAP", "1");
         EXPECT_EQ(program.partition().changes, 0) << method;
@@ -123,11 +103,8 @@ TEST(Remap, keeps_the_numbers_of_parts_that_callbacks_name) {
 
 TEST(Remap, leaves_parts_of_different_sizes_and_parts_on_several_ranks) {
     Rotated program;
-    program.set("LB_METHOD", "RRCB");
-    program.set("NUM_GLOBAL_PARTS", "2");
-    int part = 0;
-    float size = 3;
-    Zoltan_LB_Set_Part_Sizes(program.zz, 1, 1, &part, nullptr, &size);
+    program.set({{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", "2"}});
+    program.set_size(0, 3);
     const Outcome sized = program.partition();
     program.set("REMAP", "0");
     EXPECT_EQ(sized.exports.parts, program.partition().exports.parts);
@@ -138,9 +115,9 @@ struct ManyParts : Program {
     static constexpr int num_parts = 50000;
     ManyParts() {
         scatter_points(*this, 2 * num_parts / num_ranks);
-        set("LB_METHOD", "RRCB");
-        set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
-        set("RETURN_LISTS", "PARTS");
+        set({{"LB_METHOD", "RRCB"},
+             {"NUM_GLOBAL_PARTS", std::to_string(num_parts)},
+             {"RETURN_LISTS", "PARTS"}});
     }
 };
 

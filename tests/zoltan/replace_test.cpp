@@ -14,8 +14,7 @@ namespace {
 struct TenParts : Program {
     TenParts() {
         scatter_points(*this, 500);
-        set("RETURN_LISTS", "PARTS");
-        set("NUM_GLOBAL_PARTS", "10");
+        set({{"RETURN_LISTS", "PARTS"}, {"NUM_GLOBAL_PARTS", "10"}});
         // RCB knows nothing of this one: it tells who partitions.
         set("RRCB_DOMAIN", "SAMPLED");
     }
@@ -55,11 +54,10 @@ TEST(Replacement, holds_for_copies_and_look_ups) {
     program.set("KEEP_CUTS", "1");
     const std::vector<int> parts = program.parts();
     Zoltan_Struct* copy = Zoltan_Copy(program.zz);
-    for (int i = 0; i < program.size(); ++i) {
-        int rank = -1, part = -1;
-        double* position = &program.coordinates[static_cast<std::size_t>(2 * i)];
-        EXPECT_EQ(Zoltan_LB_Point_PP_Assign(copy, position, &rank, &part), ZOLTAN_OK);
-        EXPECT_EQ(part, parts[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Place place = program.place_of(&program.coordinates[2 * i], copy);
+        EXPECT_EQ(place.code, ZOLTAN_OK);
+        EXPECT_EQ(place.part, parts[i]);
     }
     Zoltan_Destroy(&copy);
 }
@@ -80,10 +78,10 @@ std::vector<std::array<double, 3>> faces_of_regions(const Program& program) {
 TEST(Replacement, leaves_cuts_within_the_tolerance_unless_told_not_to) {
     Program program;
     scatter_points(program, 2000);
-    program.set("KEEP_CUTS", "1");
-    program.set("IMBALANCE_TOL", "1.1");
-    program.set("REMAP", "0");
-    program.set("NUM_GLOBAL_PARTS", std::to_string(num_regions));
+    program.set({{"KEEP_CUTS", "1"},
+                 {"IMBALANCE_TOL", "1.1"},
+                 {"REMAP", "0"},
+                 {"NUM_GLOBAL_PARTS", std::to_string(num_regions)}});
     const auto faces_after_a_move = [&] {
         for (double& x : program.coordinates) x += 1e-3 * x;
         EXPECT_EQ(program.partition().code, ZOLTAN_OK);
@@ -132,8 +130,7 @@ TEST(Replacement, says_once_which_geometric_methods_stay_zoltans) {
     scatter_points(program, 100);
     const auto run = [&](const char* method) {
         return printed_on_rank_0(program.rank, [&] {
-            program.set("LB_METHOD", method);
-            program.set("DEBUG_LEVEL", "0");
+            program.set({{"LB_METHOD", method}, {"DEBUG_LEVEL", "0"}});
             program.partition();
             program.set("DEBUG_LEVEL", "1");
             program.partition();
@@ -212,11 +209,9 @@ struct ZoltansOwn : Program {
 int different_look_ups(ZoltansOwn& program, Zoltan_Struct* handle) {
     int different = 0;
     for (std::size_t i = 0; i < program.coordinates.size(); i += 2) {
-        int expected = -1, found = -2;
-        double* position = &program.coordinates[i];
-        Zoltan_LB_Point_PP_Assign(program.handle, position, nullptr, &expected);
-        Zoltan_LB_Point_PP_Assign(handle, position, nullptr, &found);
-        if (expected < 0 || found != expected) ++different;
+        const Place expected = program.place_of(&program.coordinates[i], program.handle);
+        const Place found = program.place_of(&program.coordinates[i], handle);
+        if (expected.part < 0 || found.part != expected.part) ++different;
     }
     return different;
 }

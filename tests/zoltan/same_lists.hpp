@@ -15,4 +15,13 @@ inline void expect_same(const ListCopy& a, const ListCopy& b) {
     EXPECT_EQ(a.parts, b.parts);
 }
 
+inline void expect_same(const Outcome& a, const Outcome& b) {
+    EXPECT_EQ(a.code, b.code);
+    EXPECT_EQ(a.changes, b.changes);
+    EXPECT_EQ(a.num_gid, b.num_gid);
+    EXPECT_EQ(a.num_lid, b.num_lid);
+    expect_same(a.imports, b.imports);
+    expect_same(a.exports, b.exports);
+}
+
 }  // namespace rrcb::zoltan_test

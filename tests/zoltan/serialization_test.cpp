@@ -2,12 +2,7 @@
 #include "regions.hpp"
 #include "same_lists.hpp"
 
-#include <gtest/gtest.h>
 #include <zoltan_partition_tree.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
 
 namespace rrcb::zoltan_test {
 namespace {
@@ -22,15 +17,13 @@ std::vector<char> bytes_of(const Zoltan_Struct* zz) {
 struct Sender : Program {
     Sender() {
         scatter_points(*this, 400);
-        set("LB_METHOD", "RRCB");
-        set("RRCB_DOMAIN", "SAMPLED");
-        set("KEEP_CUTS", "1");
-        set("NUM_GLOBAL_PARTS", "7");
-        set("RETURN_LISTS", "PARTS");
+        set({{"LB_METHOD", "RRCB"},
+             {"RRCB_DOMAIN", "SAMPLED"},
+             {"KEEP_CUTS", "1"},
+             {"NUM_GLOBAL_PARTS", "7"},
+             {"RETURN_LISTS", "PARTS"}});
         Zoltan_Set_Param_Vec(zz, "IMBALANCE_TOL", "1.05", 0);
-        int part = 2;
-        float size = 3;
-        Zoltan_LB_Set_Part_Sizes(zz, 1, 1, &part, nullptr, &size);
+        set_size(2, 3);
         outcome = partition();
     }
     Outcome outcome;
@@ -112,16 +105,14 @@ TEST(Serialization, sets_the_widths_of_ids_for_zoltan_migrate) {
     std::vector<ZOLTAN_ID_TYPE> expected;
     if (sender.num_ranks > 1)
         for (int i = 0; i < 2; ++i) expected.push_back(static_cast<ZOLTAN_ID_TYPE>(2 * from + i));
-    wide.set("NUM_GID_ENTRIES", "3");
-    wide.set("NUM_LID_ENTRIES", "3");
+    wide.set({{"NUM_GID_ENTRIES", "3"}, {"NUM_LID_ENTRIES", "3"}});
     std::vector<char> of_zoltan = bytes_of(wide.zz);
     for (const bool has_zoltans_parameters : {false, true}) {
         Program receiver;
         if (has_zoltans_parameters) {
             Zoltan_Deserialize(receiver.zz, of_zoltan.size(), of_zoltan.data());
         } else {
-            receiver.set("NUM_GID_ENTRIES", "3");
-            receiver.set("NUM_LID_ENTRIES", "3");
+            receiver.set({{"NUM_GID_ENTRIES", "3"}, {"NUM_LID_ENTRIES", "3"}});
         }
         std::vector<char> bytes = bytes_of(sender.zz);
         ASSERT_EQ(Zoltan_Deserialize(receiver.zz, bytes.size(), bytes.data()), ZOLTAN_OK);
@@ -256,9 +247,9 @@ TEST(PartitionTree, is_walked_by_the_rules_of_zoltan) {
             SCOPED_TRACE(method + std::to_string(num_parts));
             Program program;
             scatter_points(program, 400);
-            program.set("LB_METHOD", method);
-            program.set("KEEP_CUTS", "1");
-            program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+            program.set({{"LB_METHOD", method},
+                         {"KEEP_CUTS", "1"},
+                         {"NUM_GLOBAL_PARTS", std::to_string(num_parts)}});
             program.partition();
             int parent = 0, left = 0, root = 0;
             ASSERT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 0, &parent, &left, &root), ZOLTAN_OK);
@@ -275,8 +266,7 @@ TEST(PartitionTree, is_walked_by_the_rules_of_zoltan) {
 TEST(PartitionTree, needs_kept_cuts_and_a_node_that_is_there) {
     Program program;
     scatter_points(program, 100);
-    program.set("LB_METHOD", "RRCB");
-    program.set("NUM_GLOBAL_PARTS", "3");
+    program.set({{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", "3"}});
     program.partition();
     int parent = 0, left = 0, right = 0;
     EXPECT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 1, &parent, &left, &right), ZOLTAN_FATAL);

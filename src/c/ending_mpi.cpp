@@ -1,8 +1,8 @@
 #include "c/balancer.hpp"
 #include "c/ending.hpp"
 #include "collective/communicator.hpp"
-#include "collective/deadline_mpi.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/watch_mpi.hpp"
 
 #include <chrono>
 #include <vector>
@@ -19,7 +19,7 @@ bool wait_for(std::chrono::duration<double> limit, Test&& is_done) {
         if (is_done()) return true;
         const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
         if (waited > limit) return false;
-        rrcb::pause(waited);
+        rrcb::mpi::pause(waited);
     }
 }
 

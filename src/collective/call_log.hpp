@@ -97,8 +97,7 @@ struct CallLog {
     enum class End : std::uint8_t {
         none,
         differed,  ///< ranks made different calls: the next call makes another duplicate
-        failed,    ///< a call that waits only for neighbours failed: likewise
-        missing    ///< some ranks made no call: no other call is possible
+        failed     ///< a call that waits only for neighbours failed: likewise
     };
 
     MPI_Comm comm = MPI_COMM_NULL;  ///< the duplicate; null once it is freed

@@ -22,17 +22,12 @@ enum Tag : int {
     stream_tag,
     butterfly_tag,
     agreement_tag,
-    roll_call_tag,
     report_tag,
     verdict_tag,
     printed_tag,
     notice_tag,
     neighbour_tag
 };
-
-/// Greatest tag that every MPI allows, for a roll call on the caller's communicator. It is used
-/// only when the caller is about to get an error.
-inline constexpr int roll_call_tag_of_user = 32767;
 
 /// Throws Error with the text of an MPI error code that is not MPI_SUCCESS.
 void check(int code, const char* call);

@@ -4,7 +4,6 @@
 #include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/spread_failure_mpi.hpp"
-#include "collective/watch_mpi.hpp"
 
 #include <rrcb/detail/mix.hpp>
 #include <rrcb/error.hpp>
@@ -65,45 +64,23 @@ void refuse_two_groups(MPI_Comm user) {
 }
 
 /// Returns what is kept with `user`, or null. Makes way for another duplicate if ranks made
-/// different calls with this one, or failed apart; then `old` is its log. Throws Error if some made
-/// none.
+/// different calls with this one, or failed apart; then `old` is its log.
 Duplicate* kept_with(MPI_Comm user, std::shared_ptr<CallLog>& old) {
     Duplicate* found = Attribute<Duplicate>::find(user);
     if (found == nullptr || found->log->end == CallLog::End::none) return found;
-    if (found->log->end == CallLog::End::missing) throw_end(found->log->why);
     old = found->log;
     Attribute<Duplicate>::forget(user);
     return nullptr;
 }
 
-/// Duplicates a communicator. Throws Error if some ranks do not take part.
-void duplicate(MPI_Comm user, CallName call, MPI_Comm& comm, Participant& self) {
-    if (agree_limit().count() == 0) return self.check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup");
-    // MPI writes to it for as long as the call is pending.
-    auto made = std::make_unique<MPI_Comm>(MPI_COMM_NULL);
-    MPI_Request request = MPI_REQUEST_NULL;
-    self.check(MPI_Comm_idup(user, made.get(), &request), "MPI_Comm_idup");
-    Deadline deadline(user, roll_call_tag_of_user, agree_limit(), false);
-    if (!deadline.complete(request, self)) {
-        made.release();
-        auto kept = std::make_unique<Duplicate>();
-        CallLog& log = *kept->log;
-        log.end = CallLog::End::missing;
-        log.why = text_of_absence(deadline, call) + "; this communicator cannot be used further";
-        Attribute<Duplicate>::keep(std::move(kept), user);
-        throw_end(log.why);
-    }
-    comm = *made;
-}
-
 /// Makes the duplicate, and keeps it. Then no message of an `old` one is needed, if there was one
 /// on every rank. Collective.
-Duplicate& make(MPI_Comm user, CallName call, CallLog* old) {
+Duplicate& make(MPI_Comm user, CallLog* old) {
     refuse_two_groups(user);
     MPI_Comm comm = MPI_COMM_NULL;
     Duplicate* kept = nullptr;
     Participant self{user};
-    duplicate(user, call, comm, self);
+    self.check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup");
     const std::uint64_t group = old != nullptr ? old->group : make_group(self);
     self.attempt([&] {
         check(MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
@@ -153,7 +130,7 @@ Participant enter(MPI_Comm user, CallName call) {
                     "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
     std::shared_ptr<CallLog> old;
     Duplicate* found = kept_with(user, old);
-    const Duplicate& kept = found != nullptr ? *found : make(user, call, old.get());
+    const Duplicate& kept = found != nullptr ? *found : make(user, old.get());
     kept.log->begin(call);
     return {kept.log->comm, kept.log};
 }

@@ -14,9 +14,7 @@ namespace rrcb::mpi {
 /// Collective over `user` in the first call with it: a reduction for the group, and one more, so
 /// that all ranks throw the same Error if one of them fails; then nothing is kept. Throws Error on
 /// every rank, without a message, for MPI_COMM_NULL, intercommunicators, and outside of MPI_Init
-/// and MPI_Finalize. If ranks begin different calls, the meeting of the call throws Error. After
-/// RRCB_AGREE_SECONDS without some ranks, this call throws Error, or the meeting does, and so does
-/// each later call.
+/// and MPI_Finalize. If ranks begin different calls, the meeting of the call throws Error.
 Participant enter(MPI_Comm user, CallName call);
 
 /// Returns false before MPI_Init and after MPI_Finalize.

@@ -58,7 +58,8 @@ NeighbourExchange::~NeighbourExchange() {
 
 void NeighbourExchange::begin(CallName call, std::uint64_t version) {
     if (log_->end != CallLog::End::none)
-        mpi::throw_end(log_->why + " (an earlier call failed: make other Neighbours and plans)");
+        throw Error(ErrorCode::mpi,
+                    log_->why + " (an earlier call failed: make other Neighbours and plans)");
     if (log_->comm == MPI_COMM_NULL)
         reject("the communicator was freed; free it after its last use");
     log_->add(call);

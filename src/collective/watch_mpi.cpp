@@ -6,7 +6,7 @@
 
 #include <rrcb/error.hpp>
 
-#include <cmath>
+#include <thread>
 #include <type_traits>
 #include <utility>
 
@@ -38,15 +38,12 @@ int take(Message& message, int from, Tag tag, MPI_Comm comm) {
 
 }  // namespace
 
-std::chrono::duration<double> agree_limit() {
-    static const double seconds = agree_seconds().value_or(0);
-    return std::chrono::duration<double>(std::isnan(seconds) ? 0 : seconds);
-}
-
-std::string text_of_absence(const Deadline& deadline, CallName call) {
-    return "no call of " + std::string(name_of(call)) + " on ranks " + deadline.absent() +
-           " within " + std::to_string(std::lround(deadline.limit().count())) +
-           " s (RRCB_AGREE_SECONDS); every rank must make the same calls in the same order";
+void pause(std::chrono::duration<double> waited) {
+    if (waited < short_wait) {
+        std::this_thread::yield();
+    } else {
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
 }
 
 void take_reports(CallLog& log) {
@@ -60,28 +57,14 @@ void take_reports(CallLog& log) {
     }
 }
 
-void throw_end(const std::string& why) {
-    throw Error(ErrorCode::mpi, why);
-}
-
-// Neighbours may be some calls apart, so that the roll call of such calls is one for all.
-Watch::Watch(CallLog& log, Scope scope)
-    : log_(log),
-      scope_(scope),
-      deadline_(log.comm, scope == Scope::all ? log.tag(roll_call_tag) : roll_call_tag,
-                agree_limit(), true) {}
-
 void Watch::look() {
-    const auto waited = deadline_.waited();
+    const std::chrono::duration<double> waited = Clock::now() - start_;
     // Until then MPI gives up the processor as its user wants.
     if (waited < short_wait) return;
     // The communicator of the calls was freed: only a controller goes on without it.
     if (log_.comm == MPI_COMM_NULL) return pause(waited);
     if (scope_ == Scope::all) look_for_failure(log_);
     if (waited >= patience) compare();
-    if (deadline_.is_missed())
-        end(CallLog::End::missing, text_of_absence(deadline_, log_.mine.latest()) +
-                                       "; this communicator cannot be used further");
     pause(waited);
 }
 
@@ -92,7 +75,7 @@ void Watch::compare() {
             leave(log_.sent, root, report_tag, log_.comm);
         }
         if (take(log_.verdict, root, verdict_tag, log_.comm) == no_rank) return;
-        end(CallLog::End::differed, text_of(log_.verdict));
+        end();
     }
     const Failure lacks_memory = attempt([&] { take_reports(log_); });
     if (lacks_memory.failed || log_.known.empty()) return;
@@ -102,14 +85,14 @@ void Watch::compare() {
     log_.verdict = *difference;
     for (int rank = root + 1; rank < size_of(log_.comm); ++rank)
         leave(log_.verdict, rank, verdict_tag, log_.comm);
-    end(CallLog::End::differed, text_of(log_.verdict));
+    end();
 }
 
-void Watch::end(CallLog::End how, std::string&& why) {
-    log_.end = how;
+void Watch::end() {
+    log_.end = CallLog::End::differed;
     log_.is_meeting = false;
-    log_.why = std::move(why);
-    throw_end(log_.why);
+    log_.why = text_of(log_.verdict);
+    throw Error(ErrorCode::mpi, log_.why);
 }
 
 }  // namespace rrcb::mpi

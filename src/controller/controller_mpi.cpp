@@ -2,7 +2,6 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/meeting_mpi.hpp"
-#include "collective/watch_mpi.hpp"
 #include "controller/controller_state_mpi.hpp"
 
 #include <rrcb/error.hpp>
@@ -52,7 +51,8 @@ void Controller::State::open(MPI_Comm comm) {
 }
 
 void Controller::State::check_usable() const {
-    if (log_->end != CallLog::End::none) mpi::throw_end(log_->why + " (make another controller)");
+    if (log_->end != CallLog::End::none)
+        throw Error(ErrorCode::mpi, log_->why + " (make another controller)");
 }
 
 void Controller::State::begin_step(CallName call) {

@@ -1,9 +1,12 @@
 #pragma once
 
-#include "collective/deadline_mpi.hpp"
 #include "collective/participant.hpp"
 
 #include <mpi.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
 
 namespace rrcb::zoltan {
 
@@ -12,11 +15,15 @@ namespace rrcb::zoltan {
 /// The limit is RRCB_AGREE_SECONDS, 20 by default; 0 means none. The clock starts with the object:
 /// make it when every rank is known to be in the call, so that a late rank is not taken for one
 /// without the plug-in.
+///
+/// The last quarter of the limit serves for the roll call: the ranks in the call send a message
+/// each to all others.
 class RollCall {
   public:
     explicit RollCall(MPI_Comm comm);
 
     /// Completes a nonblocking collective call. Returns false if some ranks take no part in it.
+    /// Holds back errors of MPI in `self`.
     ///
     /// Then the lowest rank with the plug-in prints which ranks have none, and all ranks with it
     /// raise MPI_ERR_OTHER on the communicator: by default that ends the program. The collective
@@ -24,10 +31,23 @@ class RollCall {
     bool complete(MPI_Request request, Participant& self);
 
   private:
+    using Clock = std::chrono::steady_clock;
+    using Seconds = std::chrono::duration<double>;
+
+    Seconds waited() const { return Clock::now() - start_; }
+    bool is_missed();
+    void call_all();
+    void call(int rank) const;
+    bool receive();
+    std::string absent() const;
     void report();
 
     MPI_Comm comm_;
-    Deadline deadline_;
+    Seconds limit_;
+    Seconds end_ = limit_;
+    Clock::time_point start_ = Clock::now();
+    std::vector<char> present_;  ///< a flag for each rank, in the roll call
+    std::size_t num_present_ = 0;
 };
 
 }  // namespace rrcb::zoltan

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 
 namespace rrcb {
 
@@ -42,8 +43,9 @@ PartTree tree_of(const Call& call) {
     const Options& options = call.options;
     const AxisOrder& order = options.axes.order;
     PartTree tree;
+    tree.dimension = call.points.dimension();
     tree.num_parts = options.num_parts;
-    tree.num_ranks = call.ranks.number;
+    tree.num_owners = call.is_spread ? call.ranks.number : 1;
     tree.shape = options.tree;
     tree.rule.part_sizes = options.part_sizes;
     if (order.is_given()) tree.cut_axes = order.axes();
@@ -170,24 +172,31 @@ std::ptrdiff_t Refinement::num_left_empty() const {
 /// Finds all cuts, and the parts at the end. Collective.
 void Refinement::search_once(Participant& self) {
     Cuts& cuts = call_.result.cuts;
-    const Guide guide{cuts,
-                      call_.decision.brackets,
-                      limits_ ? &*limits_ : nullptr,
-                      call_.sums.sums(),
-                      call_.sums.here(),
-                      !tree_.rule.is_exact && !limits_,
-                      std::exchange(has_parts_, true),
-                      call_.box};
+    const bool has_parts = std::exchange(has_parts_, true);
+    const bool is_counted = !tree_.rule.is_exact && !limits_;
+    Guide guide{cuts,
+                call_.decision.brackets,
+                limits_ ? &*limits_ : nullptr,
+                call_.sums.sums(),
+                is_counted,
+                call_.box};
+    tree_.box = limits_ ? limits_->region() : call_.decision.verdict.box;
+    const Cuts none{.dimension = tree_.dimension,
+                    .num_parts = tree_.num_parts,
+                    .tree = {},
+                    .shape = tree_.shape};
+    std::vector<Bracket> intervals;
+    std::unique_ptr<OpenPoints> open;
     std::optional<TreeSearch> search;
     self.attempt([&] {
-        OpenPoints memory = std::move(memory_.collected);
         if (call_.is_spread) {
-            call_.host->collect_all(memory);
-            search.emplace(tree_, butterfly_.rank(), call_.decision.verdict.box, call_.points,
-                           std::move(memory));
+            open = open_points(call_.points, none, {}, false, memory_.open);
         } else {
-            search.emplace(tree_, butterfly_.rank(), guide, call_.points, std::move(memory));
+            intervals = likely_intervals(tree_.rule, guide);
+            if (!limits_) guide.brackets = intervals;
+            open = open_points(call_.points, cuts, intervals, has_parts, memory_.open);
         }
+        search.emplace(tree_, butterfly_.rank(), *open, call_.is_spread ? nullptr : &guide);
     });
     ReportDetails& details = call_.result.report.details;
     details.rounds += run_rounds(search, self);
@@ -195,10 +204,9 @@ void Refinement::search_once(Participant& self) {
     details.coincident_cuts +=
         call_.is_spread ? mpi::sum_of(num_coincident, self.comm) : num_coincident;
     self.attempt([&] {
-        search->finish();
+        std::ranges::copy(open->settle(), call_.sums.here().begin());
         if (call_.is_spread) cuts = search->cuts();
     });
-    memory_.collected = search->take_memory();
     if (call_.is_spread)
         imbalance_ = butterfly_.flags()[2];
     else

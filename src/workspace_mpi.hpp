@@ -1,6 +1,6 @@
 #pragma once
 
-#include "search/collected_tree.hpp"
+#include "passes/open_points.hpp"
 
 #include <mpi.h>
 
@@ -12,7 +12,7 @@ namespace rrcb {
 ///
 /// A step may move an entry out. If it does not put the entry back, the memory is freed.
 struct Workspace {
-    OpenPoints collected{};      ///< up to 8 bytes a point for each coordinate, 12, 8 weighted
+    OpenMemory open{};           ///< up to 8 bytes a point for each coordinate, 12, 8 weighted
     std::vector<Part> result{};  ///< of calls from C, which get a copy: 4 bytes a point
 };
 

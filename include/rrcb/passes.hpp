@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -82,6 +83,8 @@ struct Wanted {
     bool contains(double x) const { return x >= interval.lower && x < interval.upper; }
 };
 
+class OpenPoints;  // of the engine
+
 /// The points of one rank and their parts, wherever they are: all questions of a balance to them.
 ///
 /// A balance calls these functions on each rank, in any order after summary() or assign(), and does
@@ -123,6 +126,13 @@ class RRCB_API PointPasses {
     /// @param counts whether the totals of the parts are returned
     /// Throws Error for the first NaN or infinite coordinate.
     virtual PartTotals assign(const Cuts& cuts, bool counts) = 0;
+
+    /// Opens the points that some place of the cuts in their intervals would bring to another part,
+    /// as collect(); all points if `cuts` has no tree. The answer stands for collect(),
+    /// collect_more(), boxes() and settle(), and borrows the cuts. Returns null if the engine is to call these instead,
+    /// and to keep copies of the open points, as all passes of this version do.
+    virtual std::unique_ptr<OpenPoints> open(const Cuts& cuts, std::span<const Bracket> intervals,
+                                             bool has_parts);
 
     /// Collects the points that some place of the cuts in their intervals, lower <= cut <= upper,
     /// would bring to another part, in ascending order of their indices, and gives them no_part;

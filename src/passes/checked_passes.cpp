@@ -1,6 +1,7 @@
 #include "passes/checked_passes.hpp"
 
 #include "options/rejection.hpp"
+#include "passes/open_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,12 @@ PartTotals CheckedPasses::assign(const Cuts& cuts, bool counts) {
     PartTotals totals = given_.assign(cuts, counts);
     if (counts) check_totals("assign", totals, cuts.num_parts);
     return totals;
+}
+
+std::unique_ptr<OpenPoints> CheckedPasses::open(const Cuts& cuts,
+                                                std::span<const Bracket> intervals,
+                                                bool has_parts) {
+    return given_.open(cuts, intervals, has_parts);
 }
 
 void CheckedPasses::collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,

@@ -21,6 +21,8 @@ class CheckedPasses final : public PointPasses {
     PointSample sample(LocalIndex size) override;
     std::vector<CellMoments> moments(const SupportMesh& mesh) override;
     PartTotals assign(const Cuts& cuts, bool counts) override;
+    std::unique_ptr<OpenPoints> open(const Cuts& cuts, std::span<const Bracket> intervals,
+                                     bool has_parts) override;
     void collect(const Cuts& cuts, std::span<const Bracket> intervals, bool has_parts,
                  Collected& collected) override;
     std::vector<std::size_t> collect_more(std::span<const Wanted> wanted,

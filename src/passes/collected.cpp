@@ -1,3 +1,4 @@
+#include "arithmetic/part_share.hpp"
 #include "arithmetic/running_sums.hpp"
 #include "passes/host_passes.hpp"
 #include "passes/point_layout.hpp"
@@ -9,6 +10,13 @@
 namespace rrcb {
 
 namespace {
+
+/// Allocates memory for `count` entries, which may be all points of the rank.
+void reserve(LocalIndex count, const Points& points, Collected& collected) {
+    collected.original.reserve(count);
+    collected.coordinates.reserve(count * static_cast<LocalIndex>(points.dimension));
+    if (!points.weights.empty()) collected.weights.reserve(count);
+}
 
 /// Makes room for `count` entries.
 void resize(LocalIndex count, const Points& points, Collected& collected) {
@@ -68,17 +76,11 @@ void HostPasses::collect(const Cuts& cuts, std::span<const Bracket> intervals, b
                          Collected& collected) {
     clear(points_, collected);
     collected.settled = assign_settled(cuts, intervals, points_, has_parts, parts_);
+    reserve(points_.count - static_cast<LocalIndex>(sum_of(collected.settled.counts)), points_,
+            collected);
     const auto is_open = [&](const auto&, LocalIndex i) { return parts_[i] < 0; };
     visit_in_blocks(points_, is_open, [&](const auto& x, std::span<const LocalIndex> open) {
         append(x, points_, open, collected);
-    });
-}
-
-void HostPasses::collect_all(Collected& collected) const {
-    clear(points_, collected);
-    resize(points_.count, points_, collected);
-    visit_layout(points_, [&](const auto& x) {
-        for (LocalIndex i = 0; i < points_.count; ++i) copy(x, points_, i, i, collected);
     });
 }
 

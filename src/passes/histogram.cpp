@@ -10,10 +10,6 @@ namespace rrcb {
 
 namespace {
 
-std::span<double> sums_of(std::span<double> histogram) {
-    return histogram.subspan(HistogramLayout::num_extents);
-}
-
 void widen(std::span<double> histogram, const Box& box) {
     for (std::size_t a = 0; a < max_dimension; ++a) {
         histogram[a] = std::max(histogram[a], -box.lower[a]);
@@ -24,8 +20,8 @@ void widen(std::span<double> histogram, const Box& box) {
 template <std::size_t dimension>
 void count(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
            const HistogramLayout& layout, std::span<double> histogram) {
-    const std::span<double> weights = sums_of(histogram).first(layout.num_slots());
-    const std::span<double> counts = sums_of(histogram).last(layout.num_slots());
+    const std::span<double> weights = sums_in(histogram).first(layout.num_slots());
+    const std::span<double> counts = sums_in(histogram).last(layout.num_slots());
     Box box;
     for (const LocalIndex i : entries) {
         const double* const x = &collected.coordinates[i * dimension];
@@ -57,8 +53,8 @@ void count(const Collected& collected, const Entries& entries, int axis, const B
     count<3>(collected, entries, axis, bins, layout, histogram);
 }
 
-void count_along(int axis, const Collected& collected, const Entries& entries, const Bins& bins,
-                 const HistogramLayout& layout, double quantum, std::span<double> sums) {
+void count_sums(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
+                const HistogramLayout& layout, std::span<double> sums) {
     const Bins of_axis = bins;  // a copy, which no sum can overlap
     const std::span<double> weights = sums.first(layout.is_weighted ? layout.num_slots() : 0);
     const std::span<double> counts = sums.last(layout.num_slots());
@@ -67,19 +63,18 @@ void count_along(int axis, const Collected& collected, const Entries& entries, c
         if (layout.is_weighted) weights[slot] += collected.weight(i);
         counts[slot] += 1;
     }
-    for (double& weight : weights) weight = rounded_to(quantum, weight);
 }
 
 void count_settled(const Total& total, const Box& box, int slot, const HistogramLayout& layout,
                    std::span<double> histogram) {
     if (!(total.count > 0)) return;
     widen(histogram, box);
-    if (layout.is_weighted) sums_of(histogram)[static_cast<std::size_t>(slot)] += total.weight;
+    if (layout.is_weighted) sums_in(histogram)[static_cast<std::size_t>(slot)] += total.weight;
     histogram[layout.first_count() + static_cast<std::size_t>(slot)] += total.count;
 }
 
-void round_weights(double quantum, const HistogramLayout& layout, std::span<double> histogram) {
-    for (double& weight : sums_of(histogram).first(layout.num_slots()))
+void round_weights(double quantum, const HistogramLayout& layout, std::span<double> sums) {
+    for (double& weight : sums.first(layout.is_weighted ? layout.num_slots() : 0))
         weight = rounded_to(quantum, weight);
 }
 

@@ -43,6 +43,10 @@ struct HistogramLayout {
 
 void clear_histogram(std::span<double> histogram);
 
+inline std::span<double> sums_in(std::span<double> histogram) {
+    return histogram.subspan(HistogramLayout::num_extents);
+}
+
 inline std::span<const double> weights_in(std::span<const double> histogram,
                                           const HistogramLayout& layout) {
     return histogram.subspan(HistogramLayout::num_extents, layout.num_slots());
@@ -57,17 +61,16 @@ inline std::span<const double> counts_in(std::span<const double> histogram,
 void count(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
            const HistogramLayout& layout, std::span<double> histogram);
 
-/// Adds collected points along another axis to its sums: the weights, unless points count as 1,
-/// rounded to multiples of a quantum, and the counts in all slots.
-void count_along(int axis, const Collected& collected, const Entries& entries, const Bins& bins,
-                 const HistogramLayout& layout, double quantum, std::span<double> sums);
+/// Adds collected points to the sums of a histogram across an axis.
+void count_sums(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
+                const HistogramLayout& layout, std::span<double> sums);
 
 /// Adds settled points of a box to a slot.
 void count_settled(const Total& total, const Box& box, int slot, const HistogramLayout& layout,
                    std::span<double> histogram);
 
-/// Rounds the weights to multiples of a quantum.
-void round_weights(double quantum, const HistogramLayout& layout, std::span<double> histogram);
+/// Rounds the weights in the sums of a histogram to multiples of a quantum.
+void round_weights(double quantum, const HistogramLayout& layout, std::span<double> sums);
 
 /// Joins the histogram of other ranks. Any order gives the same bits if weights are multiples of a
 /// common quantum.

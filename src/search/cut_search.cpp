@@ -21,7 +21,7 @@ std::size_t axis_index(const CutSearch& search, int tied) {
 void finish(CutSearch& search, double value, double below) {
     search.cut.at[axis_index(search, search.tied)] = value;
     search.stage = CutSearch::done;
-    search.below = below;
+    search.found_below = below;
 }
 
 /// Points at one position, and the points below.
@@ -46,11 +46,11 @@ void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector&
         search.cut.at[axis] = position[axis];
     }
     search.stage = CutSearch::done;
-    search.below = ties.below;
+    search.found_below = ties.below;
     if (target.divides) {
         search.lot_below = target.target - ties.below;
     } else if (is_below) {
-        search.below = above;
+        search.found_below = above;
         move_behind(search);
     }
 }
@@ -61,8 +61,9 @@ void break_tie(CutSearch& search, const CutTarget& target, std::span<const doubl
                double value, double weight) {
     search.cut.at[axis_index(search, search.tied)] = value;
     if (search.tied + 1 == search.num_axes)
-        return finish_among_ties(search, target, Vector(search.cut.at),
-                                 {target.base_count, target.num_candidates, target.base, weight});
+        return finish_among_ties(
+            search, target, Vector(search.cut.at),
+            {target.count_before, target.num_candidates, target.weight_before, weight});
     const std::size_t axis = axis_index(search, ++search.tied);
     search.lower = -extents[axis];
     search.upper = std::nextafter(extents[max_dimension + axis], infinity);
@@ -108,11 +109,11 @@ struct Chosen {
 /// Returns the slot for a target, given the weight and the number of points in each slot.
 Chosen choose(const CutTarget& target, std::span<const double> weights,
               std::span<const double> counts) {
-    Chosen chosen{0, target.base, target.base_count};
+    Chosen chosen{0, target.weight_before, target.count_before};
     const int last = static_cast<int>(weights.size()) - 1;
-    // The base and all slots before this one weigh less than the target. So the target is in this
-    // slot, or by round-off behind all slots, and the last one is taken. With few points, their
-    // number may move the cut to another slot.
+    // All below the candidates and in the slots before this one weighs less than the target. So the
+    // target is in this slot, or by round-off behind all slots, and the last one is taken. With few
+    // points, their number may move the cut to another slot.
     while (chosen.slot < last) {
         const double next = chosen.below + weights[chosen.slot];
         const auto count = chosen.count + static_cast<GlobalCount>(counts[chosen.slot]);
@@ -144,7 +145,8 @@ void narrow_on_lines(CutSearch& search, const CutTarget& target, const Histogram
     const double lower = slot == 0 ? target.places.first : bins.edge(slot - 1);
     const double upper = slot > layout.num_bins ? target.places.last : bins.edge(slot);
     if (slot > 0 && slot <= layout.num_bins && limits.place_behind(lower) >= upper) {
-        finish(search, is_at_lower ? lower : upper, target.base + (is_at_lower ? 0 : weight));
+        finish(search, is_at_lower ? lower : upper,
+               target.weight_before + (is_at_lower ? 0 : weight));
         return;
     }
     search.lower = lower;
@@ -181,17 +183,17 @@ struct Division {
     Ties ties{};            ///< candidates that hold the target, if there are several
 };
 
-/// Returns the division with the least excess of sorted candidates, all above the base of the
-/// target.
+/// Returns the division with the least excess of sorted candidates, all above the points
+/// before them.
 Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
                        const CutTarget& target) {
-    Division best{target.base_count, target.base, {}};
-    double below = target.base;
-    Ties ties{target.base_count, 0, below, 0};
+    Division best{target.count_before, target.weight_before, {}};
+    double below = target.weight_before;
+    Ties ties{target.count_before, 0, below, 0};
     for (std::size_t k = 0; k < sorted.size(); ++k) {
         below += sorted[k].weight;
         if (k + 1 < sorted.size() && !before(sorted[k].position, sorted[k + 1].position)) continue;
-        const GlobalCount count = target.base_count + static_cast<GlobalCount>(k + 1);
+        const GlobalCount count = target.count_before + static_cast<GlobalCount>(k + 1);
         ties.count = count - ties.begin;
         ties.weight = below - ties.below;
         if (ties.count > 1 && ties.below < target.target && target.target < below) best.ties = ties;
@@ -241,8 +243,8 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
         return finish(search, bins_of(search, layout).edge(edge),
                       chosen.below + (is_at_lower ? 0 : weights[slot]));
     search.chosen = slot;
-    target.base = chosen.below;
-    target.base_count = chosen.count;
+    target.weight_before = chosen.below;
+    target.count_before = chosen.count;
     target.num_candidates = count;
     if (layout.limits[axis_index(search, search.tied)].has_grid()) {
         narrow_on_lines(search, target, layout, weights[slot], is_at_lower);
@@ -269,12 +271,12 @@ bool decide_among(CutSearch& search, const CutTarget& target, std::span<const do
     const PositionOrder before{search.cut.axis, search.tied, search.num_axes};
     const std::vector<Candidate> candidates = sorted_candidates(records, dimension, before);
     const Division division = best_division(candidates, before, target);
-    const auto best = static_cast<std::size_t>(division.count - target.base_count);
+    const auto best = static_cast<std::size_t>(division.count - target.count_before);
     search.coincident = division.ties.count > 0 ? 1 : 0;
     const Ties& ties = division.ties;
     const bool good = target.excess(division.below, division.count) <= target.slack;
     if (search.coincident != 0 && target.divides && !good) {
-        finish_among_ties(search, target, candidates[ties.begin - target.base_count].position,
+        finish_among_ties(search, target, candidates[ties.begin - target.count_before].position,
                           ties);
         return false;
     }

@@ -38,8 +38,9 @@ struct CutSearch {
                          ///< them is exact in any order
     std::int32_t chosen = 0;      ///< slot in which the search goes on
     std::int32_t coincident = 0;  ///< 1: inseparable points hold the target, once done
-    double below = 0;      ///< weight of the node below the cut and the points to divide, once done
-    double lot_below = 0;  ///< weight of points to be divided, to come below, once done
+    double found_below = 0;  ///< weight of the node below the cut and the points to divide, once
+                             ///< done
+    double lot_below = 0;    ///< weight of points to be divided, to come below, once done
 };
 
 /// Numbers of points below a cut with which both sides have a point for each part.
@@ -59,9 +60,9 @@ struct CutTarget {
     double target = 0;               ///< weight to come below the cut
     double share = 0.5;              ///< ratio of the target to the weight of the node
     double slack = 0;                ///< excess allowed to a cut
-    double base = 0;                 ///< weight of the node below all candidates
+    double weight_before = 0;        ///< weight of the node below all candidates
     GlobalCount num_candidates = 0;  ///< points left, of all ranks
-    GlobalCount base_count = 0;      ///< points of the node below all candidates
+    GlobalCount count_before = 0;    ///< points of the node below all candidates
     CountLimits counts{};            ///< of points below the cut
     bool divides = false;            ///< inseparable points are divided, those of lower ranks below
     Places places{};                 ///< allowed for the cut; any place if cuts are not limited

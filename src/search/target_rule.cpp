@@ -115,6 +115,11 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     return target;
 }
 
+double TargetRule::missing_below(const Descent& at, double weight, double below) const {
+    const bool is_known = !is_exact && below != not_counted && weight > 0;
+    return is_known ? target_of(at, weight, below).target - below : 0;
+}
+
 CountLimits TargetRule::count_limits(const Descent& at, GlobalCount count, double weight) const {
     const auto sizes = part_sizes.empty() ? part_sizes : sizes_of(at);
     const bool are_equal =

@@ -24,6 +24,12 @@ struct TargetRule {
     bool is_exact = false;                 ///< no slack but half a point
     bool is_earlier = false;               ///< the cuts come from an earlier call, not limited
 
+    /// Returns true if points of this weight are so few that a histogram has more numbers.
+    bool are_few(double weight) const {
+        constexpr double few = 16;
+        return common_weight == 1 && weight <= few;
+    }
+
     /// Returns the sum of the sizes of a node's parts.
     double size_of(const Descent& at) const;
 
@@ -44,6 +50,10 @@ struct TargetRule {
     /// Returns the target of a node's cut, from the counted weight of the node, and the weight
     /// below its present cut, if counted.
     CutTarget target_of(const Descent& at, double weight, double below = not_counted) const;
+
+    /// Returns the weight missing below a node's cut, from the counted weight of the node and below
+    /// its present cut; 0 if these are not known.
+    double missing_below(const Descent& at, double weight, double below) const;
 
     /// Returns the numbers of points below a node's cut that fill all parts, of `count` points that
     /// weigh `weight`. With parts of different sizes any number: an empty part may then be the most

@@ -35,7 +35,7 @@ void TreeSearch::turn(CutSearch& search, const Box& box, int axis) {
 }
 
 /// Returns the search in the box of a node across the first of its axes, or one that weighs a part.
-CutSearch TreeSearch::first_search(const Node& node) const {
+CutSearch TreeSearch::search_in_box(const Node& node) const {
     CutSearch search = search_across(0, {}, node.weight);
     const bool is_free = tree_.cut_axes.empty() || node.at.is_part();
     turn(search, node.box, is_free ? tree_.axes.front() : tree_.cut_axes[node.at.node]);
@@ -44,7 +44,7 @@ CutSearch TreeSearch::first_search(const Node& node) const {
 
 /// Returns whether the points of a node are counted along all axes that the cut may cross.
 bool TreeSearch::counts_all_axes(const Node& node) const {
-    return !is_central() && tree_.cut_axes.empty() && node.search.stage == CutSearch::over_points;
+    return !guide_ && tree_.cut_axes.empty() && node.search.stage == CutSearch::over_points;
 }
 
 /// Appends the sums of this rank along the axes behind the first.
@@ -55,8 +55,8 @@ void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload
         turn(search, node.box, axis);
         payload.resize(payload.size() + num_sums);
         const auto sums = std::span(payload).last(num_sums);
-        count_along(axis, points_.points(), node.entries, bins_of(search, layout_), layout_,
-                    search.quantum, sums);
+        open_.count_sums(node.at, axis, bins_of(search, layout_), layout_, sums);
+        round_weights(search.quantum, layout_, sums);
     }
 }
 
@@ -64,12 +64,12 @@ void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload
 /// is free.
 void TreeSearch::frame(std::span<const double> candidates, CutSearch& search) const {
     Box box;
-    for (; !candidates.empty(); candidates = candidates.subspan(dimension_ + 1))
-        for (int a = 0; a < dimension_; ++a) {
+    for (; !candidates.empty(); candidates = candidates.subspan(tree_.dimension + 1))
+        for (int a = 0; a < tree_.dimension; ++a) {
             box.lower[a] = std::min(box.lower[a], candidates[a]);
             box.upper[a] = std::max(box.upper[a], candidates[a]);
         }
-    const bool is_free = !is_central() && tree_.cut_axes.empty();
+    const bool is_free = !guide_ && tree_.cut_axes.empty();
     turn(search, box, is_free ? longest_axis(box, tree_.axes, nearly) : search.cut.axis);
 }
 

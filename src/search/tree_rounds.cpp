@@ -22,8 +22,13 @@ void TreeSearch::ask(Butterfly& butterfly) {
     }
 }
 
+/// Returns true if this rank has points in a node.
+bool TreeSearch::has_points(const Node& node) const {
+    return node.settled_below.count + node.settled_above.count > 0 || !open_.is_empty(node.at);
+}
+
 /// Appends the record of this rank for a node.
-void TreeSearch::count(const Node& node, std::vector<double>& payload) {
+void TreeSearch::count(const Node& node, std::vector<double>& payload) const {
     if (node.search.stage == CutSearch::centring) {
         if (std::ranges::max(node.gap) == -infinity) return;
         payload.push_back(mark_of_gap);
@@ -31,14 +36,12 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
                        node.gap.begin() + std::ptrdiff_t{2} * node.search.num_axes);
         return;
     }
-    const bool is_empty =
-        node.entries.empty() && node.below_here.count + node.above_here.count == 0;
-    if (is_empty) return;
+    if (!has_points(node)) return;
     if (node.search.stage == CutSearch::dividing || node.at.is_part())
         return add_lot(node, payload);
     if (node.search.stage == CutSearch::gathering) {
         payload.push_back(mark_of_candidates);
-        points_.append(node.candidates, payload);
+        open_.take(node.at, payload);
         return;
     }
     payload.resize(1 + layout_.length());
@@ -46,28 +49,26 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     count_points(node, std::span(payload).subspan(1));
     if (counts_all_axes(node)) count_other_axes(node, payload);
     if (!node.counts_parts) return;
-    const auto weights = points_.part_weights(node.at, node.entries);
+    const auto weights = open_.part_weights(node.at);
     payload.insert(payload.end(), weights.begin(), weights.end());
 }
 
 /// Counts this rank's points in the bins of a search.
 void TreeSearch::count_points(const Node& node, std::span<double> histogram) const {
     const CutSearch& search = node.search;
-    const bool is_first = search.stage == CutSearch::over_points;
     clear_histogram(histogram);
-    rrcb::count(points_.points(), is_first ? node.entries : node.candidates, current_axis(search),
-                bins_of(search, layout_), layout_, histogram);
-    if (is_first && is_central()) {
-        count_settled(node.below_here, guide_->box, 0, layout_, histogram);
-        count_settled(node.above_here, guide_->box, layout_.num_bins + 1, layout_, histogram);
+    open_.count(node.at, current_axis(search), bins_of(search, layout_), layout_, histogram);
+    if (guide_ && search.stage == CutSearch::over_points) {
+        count_settled(node.settled_below, guide_->box, 0, layout_, histogram);
+        count_settled(node.settled_above, guide_->box, layout_.num_bins + 1, layout_, histogram);
     }
-    if (layout_.is_weighted) round_weights(search.quantum, layout_, histogram);
+    round_weights(search.quantum, layout_, sums_in(histogram));
 }
 
 /// Appends this rank's points of a lot or a part.
 void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
-    LotRecord record{1.0 * rank_, {points_.weight_of(node.entries)}};
-    if (!node.at.is_part()) record.points = points_.points_at(node.search.cut, node.entries);
+    LotRecord record{1.0 * rank_, {open_.weight_at(node.at)}};
+    if (!node.at.is_part()) record.points = open_.lot(node.at, node.search.cut);
     if (!(record.points.weight > 0)) return;
     if (!node.at.is_part())
         record.points.weight = rounded_to(node.search.quantum, record.points.weight);
@@ -155,7 +156,7 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
         answer.insert(answer.end(), sums.begin(), sums.end());
     } else if (node.search.stage == CutSearch::dividing) {
         append(node.lot, answer);
-    } else if (node.search.stage == CutSearch::over_points && !is_central()) {
+    } else if (node.search.stage == CutSearch::over_points && !guide_) {
         append(node.found, answer);
     }
     return answer;
@@ -178,7 +179,7 @@ CutSearch TreeSearch::decide_on_lot(Node& node, std::span<const double> payload)
     const bool is_below = !is_above && dividing == row.end();
     if (is_above || is_below) search.lot_below = 0;
     if (is_below) {
-        search.below += lot.before;
+        search.found_below += lot.before;
         move_behind(search);
     }
     if (!is_above && !is_below) node.lot = {dividing->rank, lot.before};
@@ -198,7 +199,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     if (payload.empty()) {
         // The weight was round-off.
         search.stage = CutSearch::done;
-        if (is_central()) search.cut = cut_unsearched(node, tree_.rule.share_below(node.at));
+        if (guide_) search.cut = cut_unsearched(node, tree_.rule.share_below(node.at));
         node.weight = 0;
         const std::vector<double> nothing(static_cast<std::size_t>(node.at.num_parts));
         if (node.counts_parts) take_sums(node, nothing);
@@ -212,7 +213,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
         decide_by_bins(search, node.target, layout_, records);
     } else {
         if (node.is_taken) frame(records, search);
-        is_centred = decide_among(search, node.target, records, dimension_);
+        is_centred = decide_among(search, node.target, records, tree_.dimension);
     }
     if (search.stage != CutSearch::done) return search;
     if (search.lot_below > 0) {
@@ -225,7 +226,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
 
 /// Sets the target of a node of known weight, with `count` points.
 void TreeSearch::aim(Node& node, GlobalCount count) const {
-    node.target = tree_.rule.target_of(node.at, node.weight, node.below);
+    node.target = tree_.rule.target_of(node.at, node.weight, node.guided_below);
     node.target.places = node.places;
     node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;
     if (node.target.places.all())
@@ -236,7 +237,7 @@ void TreeSearch::aim(Node& node, GlobalCount count) const {
 void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
                                        CutSearch& search) {
     node.weight = sum_of(weights_in(histogram, layout_));
-    if (!is_central()) node.found = box_in(histogram);
+    if (!guide_) node.found = box_in(histogram);
     if (node.counts_parts && take_sums(node, histogram.subspan(layout_.length()))) return;
     aim(node, static_cast<GlobalCount>(sum_of(counts_in(histogram, layout_))));
     std::vector<double> along_axis;
@@ -260,7 +261,7 @@ void TreeSearch::follow(const Butterfly& butterfly) {
             nodes_.push_back(std::move(node));
         }
     }
-    if (is_central()) collect_more();
+    widen();
 }
 
 /// Follows the answer of the owner of a node.
@@ -286,7 +287,7 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     if (before.stage == CutSearch::centring) return note(node.at.node, next.cut);
     if (before.stage == CutSearch::over_points) {
         node.is_counted = true;
-        if (!is_central()) {
+        if (!guide_) {
             turn(before, node.box, next.cut.axis);
             node.box = read<Box>(more);
         }
@@ -294,7 +295,7 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     if (next.stage == CutSearch::centring) {
         // The parts below do not depend on where in its gap the cut is.
         Node centred{.at = node.at, .search = next};
-        centred.gap = points_.gap_about(node.at, node.entries, next.cut);
+        centred.gap = open_.gap(node.at, next.cut);
         nodes_.push_back(std::move(centred));
         return end_at_cut(std::move(node), {});
     }
@@ -305,19 +306,19 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     nodes_.push_back(std::move(node));
 }
 
-/// Keeps the points in the slot that the owner chose. A slot beyond the interval of the cut has
-/// points that are to be collected.
+/// Chooses the points in the slot that the owner chose. A slot beyond the interval of the cut has
+/// points that are not open yet.
 void TreeSearch::keep_chosen(const CutSearch& before, Node& node) {
     const int slot = node.search.chosen;
+    const bool is_first = slot == 0;
+    const bool is_last = slot > layout_.num_bins;
     const Bins bins = bins_of(before, layout_);
-    const bool is_first = before.stage == CutSearch::over_points;
-    node.candidates =
-        between(slot == 0 ? -infinity : bins.edge(slot - 1),
-                slot > layout_.num_bins ? infinity : bins.edge(slot), current_axis(before),
-                is_first ? node.entries : node.candidates, points_.points());
-    if (!is_central() || !is_first) return;
-    node.is_wide = (slot == 0 && node.below_here.count > 0) ||
-                   (slot > layout_.num_bins && node.above_here.count > 0);
+    open_.choose(
+        node.at, current_axis(before),
+        {is_first ? -infinity : bins.edge(slot - 1), is_last ? infinity : bins.edge(slot)});
+    node.is_wider =
+        before.stage == CutSearch::over_points &&
+        ((is_first && node.settled_below.count > 0) || (is_last && node.settled_above.count > 0));
 }
 
 }  // namespace rrcb

@@ -2,7 +2,7 @@
 
 #include "collective/butterfly.hpp"
 #include "cuts/cut_limits.hpp"
-#include "search/collected_tree.hpp"
+#include "passes/open_points.hpp"
 #include "search/cut_search.hpp"
 #include "search/target_rule.hpp"
 
@@ -29,10 +29,12 @@ inline Key key_of(const Descent& at) {
 
 /// The parts to make; the same on every rank.
 struct PartTree {
+    int dimension = 0;
     int num_parts = 1;
-    int num_ranks = 1;
+    int num_owners = 1;  ///< ranks that own nodes: rank 0 if there is a guide, else all
     TreeShape shape{};
     double weight = 0;                ///< of all points
+    Box box{};                        ///< of all points; with limits the region of their cuts
     std::span<const int> cut_axes{};  ///< of all cuts in preorder; empty: free
     std::span<const int> axes{};      ///< of free cuts, which may cross any of them
     bool crosses_longest = false;     ///< of a spread search; else free cuts leave fewest ghosts
@@ -43,24 +45,28 @@ struct PartTree {
     std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
 };
 
-/// Cuts to start from; the same on every rank.
+/// Cuts to start from; the same on every rank, except the box.
 struct Guide {
-    Cuts& cuts;  ///< the search moves them, but keeps their axes
-    std::span<const Bracket> brackets;
-    CutLimits* limits;       ///< null if cuts are not limited
+    Cuts& cuts;                         ///< the search moves them, but keeps their axes
+    std::span<const Bracket> brackets;  ///< in which they are looked for first
+    CutLimits* limits;                  ///< null if cuts are not limited
     std::span<double> sums;  ///< of the parts by the cuts, if they were counted; moved too
-    std::span<double> here;  ///< receives the weights of this rank's points in the parts
     bool is_counted;         ///< the sums belong to the cuts
-    bool has_parts;          ///< the points have their parts by the cuts
     Box box;                 ///< of the points of this rank
 };
+
+/// Returns intervals in which the cuts of a guide end, most probably.
+///
+/// If the weight below a cut was counted, its interval is wide enough for what is missing there.
+/// Limited cuts, and cuts of few points, may end anywhere.
+std::vector<Bracket> likely_intervals(const TargetRule& rule, const Guide& guide);
 
 /// One rank's part in the search for the cuts of a tree.
 ///
 /// Each rank sends the owner of a node a summary of its points there; the owner decides on the cut
 /// and answers. Nodes do not wait for others on their level. Each round has five steps: ask, a pass
 /// of the butterfly to the owners, decide, a pass back, follow. The search ends when is_searching()
-/// is false on all ranks. Not collective.
+/// is false on all ranks; then the open points are to be settled. Not collective.
 ///
 /// Spread: a rank takes part in a node if it has points in it or owns one of its parts. The first
 /// rank of the first part owns the node, and only ranks that take part know the cut. Axes are free
@@ -73,15 +79,10 @@ struct Guide {
 /// are kept. If an earlier cut moves, the first count of a node below includes its parts.
 class TreeSearch {
   public:
-    /// Starts a spread search of `all` points of this rank; those of all ranks are in `box`. The
-    /// spans of `tree` are borrowed. Throws std::bad_alloc.
-    TreeSearch(const PartTree& tree, int rank, const Box& box, PointPasses& points,
-               OpenPoints&& all);
-
-    /// Starts a central search; the rule has part sizes. Everything except the memory is borrowed.
+    /// Starts a search of open points of this rank: a spread one without a guide, a central one
+    /// with a guide, whose rule has part sizes. Everything is borrowed, also the spans of `tree`.
     /// Throws std::bad_alloc.
-    TreeSearch(const PartTree& tree, int rank, const Guide& guide, PointPasses& points,
-               OpenPoints&& memory);
+    TreeSearch(const PartTree& tree, int rank, OpenPoints& open, const Guide* guide = nullptr);
     TreeSearch(const TreeSearch&) = delete;
     TreeSearch& operator=(const TreeSearch&) = delete;
 
@@ -113,12 +114,6 @@ class TreeSearch {
     /// search, this rank's own in a spread one.
     int num_coincident() const { return num_coincident_; }
 
-    /// Writes the parts of all points; after a central search also their weights on this rank.
-    void finish();
-
-    /// Returns the memory for another search; ends this one.
-    OpenPoints take_memory() { return points_.take(); }
-
   private:
     /// First entry of a node's record from a rank with points there: it contains a histogram and
     /// perhaps the weights of the parts below, the candidates, the weights of ranks, or the gap
@@ -142,25 +137,22 @@ class TreeSearch {
     /// A node to search, or a part to weigh.
     struct Node {
         Descent at;
-        Entries entries{};       ///< points of this rank
-        Box box{};               ///< spread: contains the points of all ranks; central: region that
-                                 ///< limits of the cuts leave, see CutLimits
-        double weight = 0;       ///< over all ranks
-        bool is_counted = true;  ///< false if the weight is wrong by up to a point
+        Box box{};                       ///< that contains the points of all ranks, see PartTree
+        double weight = 0;               ///< over all ranks
+        bool is_counted = true;          ///< false if the weight is wrong by up to a point
         bool are_parts_counted = false;  ///< the guide's sums contain its parts' weights
         CutSearch search{};
-        Entries candidates{};        ///< of its entries, once it was counted
-        Total below_here{};          ///< central: points of this rank known to be below the cut
-        Total above_here{};          ///< and above
-        Gap gap{};                   ///< while it is centred
-        bool is_wide = false;        ///< central: the cut has left its interval
-        bool is_taken = false;       ///< the owner gets all points, which were not counted
-        bool counts_parts = false;   ///< the first count includes the parts of the current cuts
-        Box found{};                 ///< at the owner only: box of the points, once counted
-        CutTarget target{};          ///< likewise
-        LotAnswer lot{};             ///< likewise
-        double below = not_counted;  ///< weight below the current cut, if counted
-        Places places{};             ///< allowed for the cut
+        Total settled_below{};      ///< points of this rank below the interval of the cut
+        Total settled_above{};      ///< and above
+        Gap gap{};                  ///< while it is centred
+        bool is_wider = false;      ///< the cut has left its interval
+        bool is_taken = false;      ///< the owner gets all points, which were not counted
+        bool counts_parts = false;  ///< the first count includes the parts of the current cuts
+        Box found{};                ///< at the owner only: box of the points, once counted
+        CutTarget target{};         ///< likewise
+        LotAnswer lot{};            ///< likewise
+        double guided_below = not_counted;  ///< weight below the guide's cut, if counted
+        Places places{};                    ///< allowed for the cut
     };
 
     /// Answer of an owner, followed by a LotAnswer, or after the first count of a node by the
@@ -170,9 +162,9 @@ class TreeSearch {
         double weight = 0;
     };
 
-    bool is_central() const { return guide_ != nullptr; }
     bool recounts() const { return tree_.rule.is_earlier && !tree_.rule.is_exact; }
     int owner_of(const Descent& at) const;
+    bool takes_part(const Descent& at) const;
     double ideal_share(const Descent& part) const;
     bool is_tiny(const Descent& part) const;
     void enter(Node&& node);
@@ -183,9 +175,9 @@ class TreeSearch {
     void note(std::size_t node, const Cut& cut);
     void end_at_cut(Node&& node, const LotAnswer& told);
     void weigh_part(const Node& node);
-    std::vector<Bracket> intervals() const;
     CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
-    CutSearch first_search(const Node& node) const;
+    CutSearch search_in_box(const Node& node) const;
+    CutSearch search_from_guide(Node& node) const;
     static void turn(CutSearch& search, const Box& box, int axis);
     bool counts_all_axes(const Node& node) const;
     void count_other_axes(const Node& node, std::vector<double>& payload) const;
@@ -193,18 +185,15 @@ class TreeSearch {
                                     CutSearch& search) const;
     std::size_t fewest_near(std::span<const StatisticalDomain> along, const Node& node,
                             std::size_t longest, double num_points) const;
-    void start_from_guide(Node& node);
-    Bracket interval_of(const Descent& at, int depth, double& shifted) const;
-    double missing_below(const Descent& at, double weight, double below) const;
-    void count(const Node& node, std::vector<double>& payload);
-    bool are_few(double weight) const;
+    bool has_points(const Node& node) const;
+    void count(const Node& node, std::vector<double>& payload) const;
     bool is_taken_at_once(const Node& node) const;
     void aim(Node& node, GlobalCount count) const;
     void frame(std::span<const double> candidates, CutSearch& search) const;
     void add_lot(const Node& node, std::vector<double>& payload) const;
     void count_points(const Node& node, std::span<double> histogram) const;
     void keep_chosen(const CutSearch& before, Node& node);
-    void collect_more();
+    void widen();
     std::vector<double> answer_to(const Record& record, const Node& node,
                                   const CutSearch& decided) const;
     Lot lot_at(const Descent& at, const CutSearch& search) const;
@@ -216,14 +205,13 @@ class TreeSearch {
     bool take_sums(Node& node, std::span<const double> sums) const;
 
     PartTree tree_;
-    const Guide* guide_ = nullptr;  ///< of a central search
+    const Guide* guide_;  ///< null in a spread search
     int rank_;
-    int dimension_;
     Part first_own_ = 0;    ///< first of the parts on this rank
     Part end_own_ = 0;      ///< the one behind the last
     double all_sizes_ = 0;  ///< sum of the sizes of all parts
     HistogramLayout layout_;
-    CollectedTree points_;
+    OpenPoints& open_;
     std::deque<Node> nodes_;  ///< ascending; gives memory back as it is followed
     std::vector<std::pair<std::size_t, Cut>> known_;  ///< cuts of nodes, after a spread search
     double imbalance_ = 0;

@@ -9,7 +9,8 @@ from pathlib import Path
 
 MOST_ARROWS = 45
 TOP = "src"  # files of no folder: a call and its steps
-READS = re.compile(r"\bvisit_layout\b|\bfloat_axes\b|\bpoints_?\.(axes|position|coordinate)\b")
+READS = re.compile(r"\bvisit_layout\b|\bfloat_axes\b|\bpoints_?\.axes\b|\bCollected\b"
+                   r"|(\.|->)(position|coordinate)\(")  # fmt: skip
 # Folders whose subject is points: passes of the engine, services, bindings, the paper's methods.
 MAY_READ = {"passes", "lists", "paper", "zoltan", "c"}
 # Options check the lengths of arrays, and stamp points.

@@ -189,6 +189,7 @@ class BrutePasses : public PointPasses {
         return totals;
     }
 
+  protected:
     Points all_;
     std::span<const double> weights_;
     std::vector<Part> parts_;

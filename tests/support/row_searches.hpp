@@ -1,6 +1,7 @@
 // The search for cuts of rows of points, by many ranks in one process.
 #pragma once
 
+#include "all_collected.hpp"
 #include "bisection/bisection.hpp"
 #include "estimate/earlier_cuts.hpp"
 #include "options/allowed_axes.hpp"
@@ -66,7 +67,8 @@ class RecordWatch {
     void note_answer(const Record& record) {
         const auto search = read<CutSearch>(record.payload);
         expect_numbers(search.cut.at);
-        expect_numbers(std::array{search.lower, search.upper, search.below, search.lot_below});
+        expect_numbers(
+            std::array{search.lower, search.upper, search.found_below, search.lot_below});
         expect_numbers(record.payload.subspan(sizeof search / sizeof(double)));
         Watched& node = nodes_[record.key];
         // It begins again if another axis turned out to be the longest.
@@ -115,22 +117,27 @@ class RowSearches {
         const PartTree tree = tree_of(is_exact);
         if (is_central()) count_by_cuts();
         std::deque<Guide> guides;
-        const bool is_counted = !is_exact;
+        std::vector<std::vector<Bracket>> intervals(passes_.size());
+        std::vector<OpenMemory> memory(passes_.size());
+        std::vector<std::unique_ptr<OpenPoints>> opened;
         for (std::size_t rank = 0; rank < passes_.size(); ++rank) {
-            const int number = static_cast<int>(rank);
             if (is_central()) {
-                guides.push_back({cuts_[rank], brackets_, nullptr, sums_[rank], here_[rank],
-                                  is_counted, true, summaries_[rank].box});
-                searches_.push_back(std::make_unique<TreeSearch>(tree, number, guides.back(),
-                                                                 passes_[rank], OpenPoints{}));
+                Guide& guide = guides.emplace_back(Guide{
+                    cuts_[rank], brackets_, nullptr, sums_[rank], !is_exact, summaries_[rank].box});
+                guide.brackets = intervals[rank] = likely_intervals(tree.rule, guide);
+                opened.push_back(
+                    open_points(passes_[rank], guide.cuts, guide.brackets, true, memory[rank]));
             } else {
-                searches_.push_back(std::make_unique<TreeSearch>(tree, number, box_, passes_[rank],
-                                                                 all_of(passes_[rank])));
+                opened.push_back(all_open(passes_[rank], case_.num_parts, case_.shape));
             }
+            searches_.push_back(
+                std::make_unique<TreeSearch>(tree, static_cast<int>(rank), *opened.back(),
+                                             is_central() ? &guides.back() : nullptr));
         }
         run_searches(searches_, is_central() ? Butterfly::Way::central : Butterfly::Way::spread,
                      [&](const auto& butterflies) { watch.observe(butterflies); });
-        for (auto& search : searches_) search->finish();
+        for (std::size_t rank = 0; rank < passes_.size(); ++rank)
+            here_[rank] = opened[rank]->settle();
         note_cuts();
         stages_.insert(watch.stages().begin(), watch.stages().end());
         highest_count_ = std::max(highest_count_, watch.highest_count());
@@ -174,8 +181,10 @@ class RowSearches {
 
     PartTree tree_of(bool is_exact) const {
         PartTree tree;
+        tree.dimension = case_.dimension;
+        tree.box = box_;
         tree.num_parts = case_.num_parts;
-        tree.num_ranks = case_.num_ranks;
+        tree.num_owners = is_central() ? 1 : case_.num_ranks;
         tree.shape = case_.shape;
         tree.axes = first_axes(case_.dimension);
         tree.weight = total_;
@@ -195,16 +204,6 @@ class RowSearches {
 
     static double sum_of(std::span<const double> numbers) {
         return std::accumulate(numbers.begin(), numbers.end(), 0.0);
-    }
-
-    OpenPoints all_of(RowPasses& passes) const {
-        const int num_cuts = case_.num_parts - 1;
-        const Cuts cuts{
-            case_.dimension, case_.num_parts, std::vector<Cut>(num_cuts), {}, case_.shape};
-        const std::vector<Bracket> everywhere(num_cuts, {-infinity, infinity});
-        OpenPoints all;
-        passes.collect(cuts, everywhere, false, all);
-        return all;
     }
 
     /// Bisects the densities of all cells, as rank 0 does.

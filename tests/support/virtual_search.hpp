@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -45,8 +46,7 @@ class VirtualSearch {
           ranks_(static_cast<std::size_t>(cloud.num_ranks())),
           memory_(ranks_.size(), Memory{sizeof(Rank), sizeof(Rank)}) {
         const PartTree tree = tree_of(cloud, tolerance);
-        const Box box = bounding_box(cloud.points());
-        for (int rank = 0; rank < cloud.num_ranks(); ++rank) start(cloud, tree, box, rank);
+        for (int rank = 0; rank < cloud.num_ranks(); ++rank) start(cloud, tree, rank);
     }
 
     int num_ranks() const { return static_cast<int>(ranks_.size()); }
@@ -80,7 +80,7 @@ class VirtualSearch {
         }
         auto next = parts_.begin();
         for (auto& rank : ranks_) {
-            rank->search.finish();
+            rank->open->settle();
             next = std::ranges::copy(rank->passes.parts_here(), next).out;
         }
         for (const Memory& memory : memory_)
@@ -101,13 +101,16 @@ class VirtualSearch {
   private:
     struct Rank {
         HostPasses passes;
+        OpenMemory memory;
+        std::unique_ptr<OpenPoints> open;
         TreeSearch search;
         Butterfly butterfly;
 
-        Rank(const PartTree& tree, int rank, const Box& box, const Points& points)
+        Rank(const PartTree& tree, int rank, const Points& points)
             : passes(points, std::vector<Part>(points.count)),
-              search(tree, rank, box, passes, all_collected(points)),
-              butterfly(rank, tree.num_ranks, TreeSearch::join) {}
+              open(open_points(passes, {2, tree.num_parts, {}}, {}, false, memory)),
+              search(tree, rank, *open),
+              butterfly(rank, tree.num_owners, TreeSearch::join) {}
     };
     struct Memory {
         std::int64_t now;
@@ -126,7 +129,9 @@ class VirtualSearch {
 
     PartTree tree_of(const VirtualCloud& cloud, double tolerance) const {
         PartTree tree;
-        tree.num_parts = tree.num_ranks = cloud.num_ranks();
+        tree.dimension = 2;
+        tree.box = bounding_box(cloud.points());
+        tree.num_parts = tree.num_owners = cloud.num_ranks();
         tree.weight = static_cast<double>(parts_.size());
         tree.axes = first_axes(2);
         tree.rule.weight_per_size = tree.weight / tree.num_parts;
@@ -136,9 +141,9 @@ class VirtualSearch {
         return tree;
     }
 
-    void start(const VirtualCloud& cloud, const PartTree& tree, const Box& box, int rank) {
+    void start(const VirtualCloud& cloud, const PartTree& tree, int rank) {
         const Points mine = cloud.points_of(rank);
-        run(rank, [&] { ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, box, mine); });
+        run(rank, [&] { ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, mine); });
     }
 
     void ask(int rank) {

@@ -53,14 +53,14 @@ TEST(CountInBins, ends_at_both_edges_of_the_bracket) {
     decide_by_bins(search, target, layout, histogram_of({3, 1}));
     EXPECT_EQ(search.stage, CutSearch::done);
     EXPECT_EQ(search.cut.at[0], 0);
-    EXPECT_EQ(search.below, 3);
+    EXPECT_EQ(search.found_below, 3);
 
     search = search_in(CutSearch::over_points);
     target = target_of(1.25, 0.25);
     decide_by_bins(search, target, layout, histogram_of({1, 0, 0, 0, 0, 3}));
     EXPECT_EQ(search.stage, CutSearch::done);
     EXPECT_EQ(search.cut.at[0], 4);
-    EXPECT_EQ(search.below, 1);
+    EXPECT_EQ(search.found_below, 1);
 }
 
 TEST(CountInBins, counts_from_the_weight_known_below_the_bracket) {
@@ -69,7 +69,7 @@ TEST(CountInBins, counts_from_the_weight_known_below_the_bracket) {
     decide_by_bins(search, target, layout, histogram_of({0, 2, 3}));
     EXPECT_EQ(search.stage, CutSearch::done);
     EXPECT_EQ(search.cut.at[0], 1);
-    EXPECT_EQ(search.below, 12);
+    EXPECT_EQ(search.found_below, 12);
 }
 
 TEST(CountInBins, ends_at_edges_of_equal_numbers_of_doubles) {
@@ -111,7 +111,7 @@ TEST(Tie, of_many_candidates_in_one_double_is_broken_without_another_count) {
     EXPECT_EQ(search.cut.at[0], 1 + 0x1p-52);
     EXPECT_EQ(search.lower, 5);
     EXPECT_EQ(search.upper, std::nextafter(6.0, infinity));
-    EXPECT_EQ(target.base, 2);
+    EXPECT_EQ(target.weight_before, 2);
 }
 
 TEST(Tie, of_all_points_is_none_as_boxes_only_enclose_the_settled_ones) {
@@ -136,7 +136,7 @@ TEST(DecideAmong, weighs_candidates) {
     const std::vector<double> records{3, 1, 1, 6, 2, 2};  // in ascending order 6, 2, 1
     EXPECT_EQ(search_among(records, target_of(6.9)).cut.at[0], 1.5);
     EXPECT_EQ(search_among(records, target_of(7.1)).cut.at[0], 2.5);
-    EXPECT_EQ(search_among(records, target_of(7.1)).below, 8);
+    EXPECT_EQ(search_among(records, target_of(7.1)).found_below, 8);
 }
 
 TEST(DecideAmong, finds_a_value_between_the_outermost_and_the_nearest_doubles) {
@@ -155,7 +155,7 @@ TEST(DecideAmong, divides_no_lot_where_a_cut_beside_it_is_near_enough) {
         decide_among(search, target, std::vector<double>{1, 1, 2, 1, 2, 1, 2, 1, 3, 1}, 1);
         EXPECT_EQ(search.coincident, 1);
         EXPECT_EQ(search.lot_below > 0, is_divided);
-        EXPECT_EQ(search.below, 1);
+        EXPECT_EQ(search.found_below, 1);
     }
 }
 

@@ -33,11 +33,11 @@ inline CutSearch search_in(CutSearch::Stage stage, std::int32_t num_axes = 1) {
     return search;
 }
 
-inline CutTarget target_of(double weight, double slack = 0, double base = 0) {
+inline CutTarget target_of(double weight, double slack = 0, double weight_before = 0) {
     CutTarget target;
     target.target = weight;
     target.slack = slack;
-    target.base = base;
+    target.weight_before = weight_before;
     return target;
 }
 

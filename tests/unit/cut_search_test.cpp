@@ -137,7 +137,7 @@ class Search {
             clear_histogram(mine);
             count(rank.points, rank.entries, current_axis(search), bins_of(search, layout_),
                   layout_, mine);
-            round_weights(search.quantum, layout_, mine);
+            round_weights(search.quantum, layout_, sums_in(mine));
         }
         if (backwards) std::ranges::reverse(histograms);
         for (std::size_t r = 1; r < histograms.size(); ++r)
@@ -235,7 +235,7 @@ TEST(CutSearch, counts_at_most_13_times_along_an_axis_and_gathers_few_whatever_t
             EXPECT_LE(std::ranges::max(result.counts), 13) << cloud.name;
             EXPECT_LE(result.most_gathered, static_cast<std::size_t>(most_gathered)) << cloud.name;
             const double below = search.weight_below(result.search.cut);
-            EXPECT_EQ(below, result.search.below) << cloud.name;
+            EXPECT_EQ(below, result.search.found_below) << cloud.name;
             // One place apart, only points that no cut tells apart may hold the target.
             if (result.search.coincident == 0) {
                 EXPECT_NEAR(below, share * 60000, 0.5) << cloud.name;
@@ -249,9 +249,9 @@ TEST(CutSearch, finds_a_cut_that_divides_its_lot_by_the_weight_missing) {
     Search search(few_places, 21000, 4, false);
     const Result result = search.run(0.5, 0.5, across(0, 0, 7), false, true);
     EXPECT_EQ(result.search.coincident, 1);
-    EXPECT_EQ(result.search.below, search.weight_below(result.search.cut));
+    EXPECT_EQ(result.search.found_below, search.weight_below(result.search.cut));
     EXPECT_GT(result.search.lot_below, 0);
-    EXPECT_EQ(result.search.below + result.search.lot_below, 10500);
+    EXPECT_EQ(result.search.found_below + result.search.lot_below, 10500);
 }
 
 TEST(CutSearch, of_plain_cuts_keeps_a_plane_together_on_the_nearer_side) {
@@ -271,7 +271,7 @@ TEST(CutSearch, of_weighted_points_ends_within_the_slack_or_the_heaviest_point) 
         for (const double slack : {0.0, 0.01 * total}) {
             const Result result = search.run(0.3, slack, across(0, -1e307, infinity));
             const double below = search.weight_below(result.search.cut);
-            EXPECT_NEAR(below, result.search.below, 1e-12 * total) << cloud.name;
+            EXPECT_NEAR(below, result.search.found_below, 1e-12 * total) << cloud.name;
             if (result.search.coincident != 0) continue;
             const double heaviest = 1e3 / 7;
             EXPECT_NEAR(below, 0.3 * total, std::max(slack, heaviest)) << cloud.name;
@@ -286,7 +286,7 @@ TEST(CutSearch, does_not_depend_on_the_order_in_which_ranks_are_joined) {
         const Result forwards = search.run(0.37, 0, start);
         const Result backwards = search.run(0.37, 0, start, true);
         EXPECT_EQ(forwards.search.cut.at, backwards.search.cut.at) << cloud.name;
-        EXPECT_EQ(forwards.search.below, backwards.search.below) << cloud.name;
+        EXPECT_EQ(forwards.search.found_below, backwards.search.found_below) << cloud.name;
         EXPECT_EQ(forwards.rounds, backwards.rounds) << cloud.name;
     }
 }

@@ -36,13 +36,13 @@ TEST(CountInBins, ends_at_the_edge_that_is_near_enough) {
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.stage, CutSearch::done);
     EXPECT_EQ(search.cut.at[0], 2);  // below it 2 + 3 + 5.25
-    EXPECT_EQ(search.below, 10.25);
+    EXPECT_EQ(search.found_below, 10.25);
 
     search = search_in(CutSearch::over_points);
     target = target_of(5.25, 0.5);
     decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
     EXPECT_EQ(search.cut.at[0], 1);  // the lower edge of the slot is nearer
-    EXPECT_EQ(search.below, 5);
+    EXPECT_EQ(search.found_below, 5);
 }
 
 TEST(CountInBins, ends_at_once_where_nothing_belongs_below) {
@@ -74,7 +74,7 @@ TEST(Narrow, goes_on_in_the_slot_of_the_target) {
     EXPECT_EQ(search.lower, 1);
     EXPECT_EQ(search.upper, 2);
     EXPECT_EQ(search.by_bits, 0);
-    EXPECT_EQ(target.base, 5);
+    EXPECT_EQ(target.weight_before, 5);
     EXPECT_EQ(target.num_candidates, 5000);
 }
 
@@ -122,7 +122,7 @@ TEST(Tie, goes_on_along_the_next_axis) {
     EXPECT_EQ(search.cut.at[0], 2.5);
     EXPECT_EQ(search.lower, -1);
     EXPECT_EQ(search.upper, std::nextafter(6.0, infinity));
-    EXPECT_EQ(target.base, 3);
+    EXPECT_EQ(target.weight_before, 3);
 }
 
 TEST(Tie, on_all_axes_leaves_the_points_on_the_nearer_side) {
@@ -134,7 +134,7 @@ TEST(Tie, on_all_axes_leaves_the_points_on_the_nearer_side) {
         decide_by_bins(search, target, layout, histogram);
         EXPECT_EQ(search.stage, CutSearch::done);
         EXPECT_EQ(search.cut.at[0], at);
-        EXPECT_EQ(search.below, below);
+        EXPECT_EQ(search.found_below, below);
         EXPECT_EQ(search.coincident, 1);
         EXPECT_EQ(search.lot_below, 0);
     }
@@ -147,7 +147,7 @@ TEST(Tie, on_all_axes_divides_the_points_where_they_are_to_be_divided) {
     decide_by_bins(search, target, layout, histogram_of({0, 0, 0, 10}, many, 2.5, 2.5));
     EXPECT_EQ(search.cut.at[0], 2.5);
     EXPECT_EQ(search.lot_below, 4);
-    EXPECT_EQ(search.below, 3);
+    EXPECT_EQ(search.found_below, 3);
 }
 
 /// Ends among candidates of weight 1 on a line.
@@ -165,7 +165,7 @@ TEST(DecideAmong, cuts_halfway_between_two_candidates) {
     const CutSearch search = search_among({4, 1, 2}, target_of(12, 0, 10));
     EXPECT_EQ(search.stage, CutSearch::done);
     EXPECT_EQ(search.cut.at[0], 3);
-    EXPECT_EQ(search.below, 12);
+    EXPECT_EQ(search.found_below, 12);
     EXPECT_EQ(search.coincident, 0);
 }
 
@@ -179,12 +179,12 @@ TEST(DecideAmong, keeps_candidates_in_one_place_together_or_divides_them) {
     const CutSearch together = search_among(positions, target_of(2));
     EXPECT_EQ(together.coincident, 1);
     EXPECT_EQ(together.cut.at[0], 1.5);
-    EXPECT_EQ(together.below, 1);
+    EXPECT_EQ(together.found_below, 1);
     const CutSearch divided = search_among(positions, target_of(2), true);
     EXPECT_EQ(divided.coincident, 1);
     EXPECT_EQ(divided.cut.at[0], 2);
     EXPECT_EQ(divided.lot_below, 1);
-    EXPECT_EQ(divided.below, 1);
+    EXPECT_EQ(divided.found_below, 1);
 }
 
 TEST(DecideAmong, breaks_ties_along_the_next_axis) {
@@ -193,7 +193,7 @@ TEST(DecideAmong, breaks_ties_along_the_next_axis) {
     decide_among(search, target, std::vector<double>{1, 7, 1, 1, 3, 1}, 2);
     EXPECT_EQ(search.cut.at[0], 1);
     EXPECT_EQ(search.cut.at[1], 5);
-    EXPECT_EQ(search.below, 1);
+    EXPECT_EQ(search.found_below, 1);
 }
 
 TEST(Count, adds_up_points_and_settled_ones_and_keeps_those_of_a_slot) {

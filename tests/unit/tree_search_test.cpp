@@ -62,8 +62,10 @@ class Global {
 
     test::SearchCounts run(double tolerance = 1) {
         PartTree tree;
+        tree.dimension = case_.dimension;
+        tree.box = box();
         tree.num_parts = case_.num_parts;
-        tree.num_ranks = case_.num_ranks;
+        tree.num_owners = case_.num_ranks;
         tree.rule.part_sizes = case_.part_sizes;
         tree.axes = first_axes(static_cast<int>(d_));
         tree.weight = total();
@@ -88,6 +90,7 @@ class Global {
                          ranks_of_part(parts_[i], case_.num_parts, case_.num_ranks).first_rank)]
                 .push_back(i);
         searches_.clear();
+        opened_.clear();
         passes_.clear();
         cuts_.clear();
         return run(tolerance);
@@ -247,8 +250,8 @@ class Global {
         }
         const Points points = interleaved_points(coordinates, case_.dimension, weights);
         HostPasses& passes = passes_.emplace_back(points, std::vector<Part>(mine.size(), -1));
-        searches_.push_back(
-            std::make_unique<TreeSearch>(tree, rank, box(), passes, test::all_collected(points)));
+        opened_.push_back(test::all_open(passes, tree.num_parts));
+        searches_.push_back(std::make_unique<TreeSearch>(tree, rank, *opened_.back()));
     }
 
     std::map<std::size_t, Cut> known_by(int rank) const {
@@ -262,7 +265,7 @@ class Global {
     void collect() {
         parts_.assign(size(), -1);
         for (std::size_t rank = 0; rank < members_.size(); ++rank) {
-            searches_[rank]->finish();
+            opened_[rank]->settle();
             const std::span<const Part> parts = passes_[rank].parts_here();
             for (std::size_t k = 0; k < members_[rank].size(); ++k)
                 parts_[members_[rank][k]] = parts[k];
@@ -371,6 +374,7 @@ class Global {
     std::vector<double> weights_;
     std::vector<std::vector<std::size_t>> members_;  ///< points of each rank
     std::deque<HostPasses> passes_;
+    std::vector<std::unique_ptr<OpenPoints>> opened_;
     std::vector<std::unique_ptr<TreeSearch>> searches_;
     std::vector<Part> parts_;
     std::map<std::size_t, Cut> cuts_;  ///< that any rank knows

@@ -70,7 +70,7 @@ if(PROJECT_IS_TOP_LEVEL)
 endif()
 rrcb_part(RRCB_TESTS ${top_level_parts} "The tests (need GoogleTest)")
 rrcb_part(RRCB_ZOLTAN ${top_level_parts} "The Zoltan plug-in (needs Zoltan of Trilinos)")
-rrcb_part(RRCB_TEUCHOS ${top_level_parts} "The parameter lists and timers of Trilinos (needs Teuchos)")
+rrcb_part(RRCB_TEUCHOS ${top_level_parts} "The parameter lists of Trilinos (needs Teuchos)")
 rrcb_part(RRCB_FORTRAN ${top_level_parts} "The Fortran module (needs a Fortran compiler)")
 rrcb_part(RRCB_MPM ${examples} "The material point example")
 rrcb_part(RRCB_MPM_SCENES ${examples}

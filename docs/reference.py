@@ -15,8 +15,7 @@ import reference_python
 CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts", "neighbours",
        "groups", "remap", "quality", "controller", "cost", "restart", "stages", "error", "version", "eigen",
        "kokkos", "kokkos/passes", "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
-       "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters",
-       "teuchos/time_monitor")
+       "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters")
 C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/neighbours", "c/groups", "c/controller",
      "c/quality", "zoltan/rrcb_zoltan", "zoltan/optional_functions")
 FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "arrays.F90", "neighbours.f90", "groups.f90",

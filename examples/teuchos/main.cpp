@@ -1,14 +1,11 @@
-// Balances by parameters from a file and times the stages; without a file, prints what there is to
-// set.
+// Balances by parameters from a file; without a file, prints all parameters.
 #include <rrcb/rrcb.hpp>
 #include <rrcb/teuchos/parameters.hpp>
-#include <rrcb/teuchos/time_monitor.hpp>
 
 #include <mpi.h>
 
 #include <cstdio>
 #include <iostream>
-#include <string>
 #include <vector>
 
 // A square of 100 x 100 points for each rank, all of them in a row.
@@ -24,9 +21,7 @@ std::vector<double> square_of(int rank) {
 }
 
 void balance_by(const char* file, int rank) {
-    rrcb::teuchos::TimeMonitorObserver observer;
-    rrcb::Options options = rrcb::teuchos::options_from(rrcb::teuchos::read_parameters(file));
-    options.observer = &observer;
+    const rrcb::Options options = rrcb::teuchos::options_from(rrcb::teuchos::read_parameters(file));
     const std::vector<double> coordinates = square_of(rank);
     const rrcb::Points points = rrcb::interleaved_points(coordinates, 2);
     const rrcb::Balance balance = rrcb::balance(points, options, {}, MPI_COMM_WORLD);
@@ -34,11 +29,6 @@ void balance_by(const char* file, int rank) {
     std::printf("%lld points in %d parts, imbalance %.4f\n",
                 static_cast<long long>(balance.report.details.num_points), balance.cuts.num_parts,
                 balance.report.imbalance);
-    for (const rrcb::Stage stage : rrcb::stages) {
-        const auto timer =
-            Teuchos::TimeMonitor::lookupCounter(std::string("RRCB: ") + rrcb::name_of(stage));
-        std::printf("%s: %d\n", timer->name().c_str(), timer->numCalls());
-    }
 }
 
 int main(int argc, char** argv) {
@@ -63,9 +53,3 @@ int main(int argc, char** argv) {
 
 // Output on 4 ranks with parameters.yaml:
 // 40000 points in 8 parts, imbalance 1.0000
-// RRCB: moments: 1
-// RRCB: gather: 1
-// RRCB: bisection: 1
-// RRCB: broadcast: 1
-// RRCB: refinement: 1
-// RRCB: assignment: 0

@@ -1,5 +1,5 @@
 // Costs that appear late, and outliers: the ranks of a run in one process.
-#include "cost/cost_rule.hpp"
+#include "controller/cost_rule.hpp"
 
 #include "controller/step_record.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "controller/cost_rule.hpp"
 #include "controller/step_record.hpp"
-#include "cost/cost_rule.hpp"
 
 #include <rrcb/rrcb.hpp>
 

@@ -1,5 +1,5 @@
 // Costs by non-negative least squares: worked by hand, in long double, and over all active sets.
-#include "cost/nonnegative_fit.hpp"
+#include "controller/nonnegative_fit.hpp"
 
 #include <gtest/gtest.h>
 

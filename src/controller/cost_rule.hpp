@@ -1,8 +1,8 @@
 #pragma once
 
 #include "collective/saved_state.hpp"
-#include "cost/cost_guard.hpp"
-#include "cost/nonnegative_fit.hpp"
+#include "controller/cost_guard.hpp"
+#include "controller/nonnegative_fit.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "cost/cost_guard.hpp"
+#include "controller/cost_guard.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cost/nonnegative_fit.hpp"
+#include "controller/nonnegative_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

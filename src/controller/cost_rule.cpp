@@ -1,4 +1,4 @@
-#include "cost/cost_rule.hpp"
+#include "controller/cost_rule.hpp"
 
 #include <algorithm>
 #include <cmath>

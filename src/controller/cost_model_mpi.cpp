@@ -1,7 +1,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/saved_state_mpi.hpp"
 #include "controller/controller_state_mpi.hpp"
-#include "cost/cost_rule.hpp"
+#include "controller/cost_rule.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/cost.hpp>

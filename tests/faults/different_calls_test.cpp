@@ -9,19 +9,8 @@
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 const MPI_Comm world = MPI_COMM_WORLD;
 

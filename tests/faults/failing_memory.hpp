@@ -1,14 +1,8 @@
 #pragma once
 
+#include "../support/common.hpp"
 #include "memory_layer.hpp"
 #include "ranks.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
-#include <set>
-#include <utility>
 
 namespace rrcb::test {
 

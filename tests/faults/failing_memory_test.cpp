@@ -7,10 +7,6 @@
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
 
-#include <array>
-#include <optional>
-#include <utility>
-
 namespace rrcb {
 namespace {
 
@@ -44,7 +40,7 @@ void fail_in(Call&& call, ExpectResult&& expect_result) {
 }
 
 std::vector<double> cloud_here(int dimension) {
-    return test::uniform_cloud(120, dimension, static_cast<unsigned>(test::rank() + 1));
+    return test::uniform_cloud(120, dimension, static_cast<unsigned>(rank() + 1));
 }
 
 /// Balances again and again by `options`, from `previous` if given.
@@ -60,10 +56,7 @@ void fail_in_balance(const Options& options, const Cuts* previous = nullptr,
 }
 
 Options refining(Refine refine) {
-    Options options;
-    options.num_parts = 6;
-    options.refine = refine;
-    options.imbalance_tolerance = 1.01;
+    Options options{.num_parts = 6, .imbalance_tolerance = 1.01, .refine = refine};
     return options;
 }
 
@@ -75,9 +68,7 @@ TEST(FailingMemory, in_cuts_of_the_paper) {
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
     for (const PaperDomain domain : {PaperDomain::sampled, PaperDomain::points}) {
-        PaperOptions options;
-        options.num_parts = 6;
-        options.domain = domain;
+        PaperOptions options{.num_parts = 6, .domain = domain};
         const auto call = [&] { return balance_as_in_paper(points, options, MPI_COMM_WORLD); };
         const std::vector<Part> expected = call().parts;
         fail_in(call, [&](const Balance& result) { EXPECT_EQ(result.parts, expected); });
@@ -93,7 +84,7 @@ TEST(FailingMemory, in_exact_cuts) {
 }
 
 TEST(FailingMemory, in_parts_that_many_ranks_make) {
-    if (test::num_ranks() < 3) return;
+    if (num_ranks() < 3) return;
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         Options options = refining(refine);
         options.tuning.central_parts = 2;
@@ -115,7 +106,7 @@ TEST(FailingMemory, in_cuts_from_an_earlier_call) {
 }
 
 TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
-    if (test::num_ranks() < 3) return;
+    if (num_ranks() < 3) return;
     Options options = refining(Refine::tolerance);
     options.tuning.central_parts = 2;
     options.cuts = HeldCuts::own;
@@ -160,9 +151,7 @@ TEST(FailingMemory, in_groups) {
 }
 
 TEST(FailingMemory, in_earlier_cuts_that_move) {
-    Options options;
-    options.num_parts = 2;
-    options.imbalance_tolerance = 1.1;
+    Options options{.num_parts = 2, .imbalance_tolerance = 1.1};
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
     Cuts moved = balance(points, options, {}, MPI_COMM_WORLD).cuts;
@@ -174,8 +163,8 @@ TEST(FailingMemory, in_earlier_cuts_that_move) {
 /// The cloud in slabs, one for each rank, but for a share of it, which the first one has as well.
 std::vector<double> slab_here(std::size_t surplus) {
     std::vector<double> coordinates = cloud_here(2);
-    for (std::size_t i = 0; i < coordinates.size(); i += 2) coordinates[i] += test::rank();
-    if (test::rank() > 0) coordinates.resize(coordinates.size() - 2 * surplus);
+    for (std::size_t i = 0; i < coordinates.size(); i += 2) coordinates[i] += rank();
+    if (rank() > 0) coordinates.resize(coordinates.size() - 2 * surplus);
     return coordinates;
 }
 
@@ -186,8 +175,8 @@ TEST(FailingMemory, in_parts_that_stay) {
             Options options = refining(refine);
             options.num_parts = 0;
             options.imbalance_tolerance = 1.05;
-            options.axes.order = AxisOrder::given(
-                std::vector<int>(static_cast<std::size_t>(test::num_ranks() - 1), 0));
+            options.axes.order =
+                AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks() - 1), 0));
             fail_in_balance(options, nullptr, slab_here(surplus));
         }
     }
@@ -197,13 +186,13 @@ TEST(FailingMemory, in_parts_that_stay) {
 std::vector<Part> parts_here() {
     std::vector<Part> parts(60);
     for (std::size_t i = 0; i < parts.size(); ++i)
-        parts[i] = static_cast<Part>(i) % (2 * test::num_ranks());
+        parts[i] = static_cast<Part>(i) % (2 * num_ranks());
     return parts;
 }
 
 TEST(FailingMemory, in_a_plan) {
     const std::vector<Part> parts = parts_here();
-    const auto call = [&] { return plan(parts, 2 * test::num_ranks(), MPI_COMM_WORLD); };
+    const auto call = [&] { return plan(parts, 2 * num_ranks(), MPI_COMM_WORLD); };
     const Plan expected = call();
     fail_in(call, [&](const Plan& result) {
         EXPECT_EQ(result.export_indices, expected.export_indices);
@@ -215,7 +204,7 @@ TEST(FailingMemory, in_a_plan) {
 TEST(FailingMemory, in_new_part_numbers) {
     const std::vector<Part> parts = parts_here();
     const std::vector<Part> previous(parts.rbegin(), parts.rend());
-    const std::vector<RankRange> ranks = test::ranks_of_parts(2 * test::num_ranks());
+    const std::vector<RankRange> ranks = test::ranks_of_parts(2 * num_ranks());
     for (const bool on_rank : {true, false}) {
         const auto call = [&] {
             return on_rank ? remap(parts, ranks, MPI_COMM_WORLD)
@@ -232,15 +221,15 @@ TEST(FailingMemory, in_new_part_numbers) {
 TEST(FailingMemory, in_the_weights_of_the_parts) {
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
-    const std::vector<Part> parts(points.count, test::rank());
-    fail_in([&] { return part_weights(points, parts, test::num_ranks(), MPI_COMM_WORLD); },
+    const std::vector<Part> parts(points.count, rank());
+    fail_in([&] { return part_weights(points, parts, num_ranks(), MPI_COMM_WORLD); },
             [](const std::vector<double>& weights) { EXPECT_EQ(weights[0], 120); });
 }
 
 TEST(FailingMemory, in_columns_that_move) {
     const std::vector<Part> parts = parts_here();
-    const Plan lists = plan(parts, 2 * test::num_ranks(), MPI_COMM_WORLD);
-    const std::vector<double> positions(3 * parts.size(), test::rank());
+    const Plan lists = plan(parts, 2 * num_ranks(), MPI_COMM_WORLD);
+    const std::vector<double> positions(3 * parts.size(), rank());
     const auto call = [&] {
         return transfer(lists, columns(parts, column(positions, 3)), MPI_COMM_WORLD, {300});
     };
@@ -251,8 +240,7 @@ TEST(FailingMemory, in_columns_that_move) {
 TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
-    Options options;
-    options.num_parts = 2 * test::num_ranks();
+    Options options{.num_parts = 2 * num_ranks()};
     Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
     cuts.points = 0;  // the points stay where they are
     const auto call = [&] {
@@ -374,8 +362,8 @@ TEST(Memory, of_a_transfer_fifty_times_its_limit_stays_below_it) {
         std::array<char, 1 << 12> bytes;
     };
     const std::size_t num_points = 50 * limit / sizeof(Point) + 1;
-    const std::vector<Part> parts(num_points, (test::rank() + 1) % test::num_ranks());
-    const Plan lists = plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+    const std::vector<Part> parts(num_points, (rank() + 1) % num_ranks());
+    const Plan lists = plan(parts, num_ranks(), MPI_COMM_WORLD);
     const std::vector<Point> points(num_points);
     TransferReport report;
     memory_layer::restart_peak();

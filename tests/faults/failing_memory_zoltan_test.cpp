@@ -5,12 +5,8 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
-#include <array>
-#include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <string_view>
-#include <utility>
 
 namespace {
 long num_arrays = 0;  // that the plug-in asked Zoltan's allocator for
@@ -165,7 +161,7 @@ TEST(FailingMemoryInZoltan, moves_all_objects_or_none) {
 TEST(FailingMemoryInZoltan, while_inputs_of_failing_calls_are_written) {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() /
-        ("rrcb_failing_memory_" + std::to_string(getppid()) + "_" + std::to_string(test::rank()));
+        ("rrcb_failing_memory_" + std::to_string(getppid()) + "_" + std::to_string(rank()));
     {
         ShortProgram program;
         program.set("RETURN_LISTS", "NONE");
@@ -177,7 +173,7 @@ TEST(FailingMemoryInZoltan, while_inputs_of_failing_calls_are_written) {
         fail_in_partition(program);
     }
     MPI_Barrier(MPI_COMM_WORLD);
-    EXPECT_TRUE(test::rank() != 0 || std::filesystem::exists(folder / "call-1" / "call.txt"));
+    EXPECT_TRUE(rank() != 0 || std::filesystem::exists(folder / "call-1" / "call.txt"));
     std::filesystem::remove_all(folder);
 }
 

@@ -108,22 +108,20 @@ TEST(FailingMpi, reaches_the_caller_of_a_method_of_the_paper) {
 
 TEST(FailingMpi, reaches_the_caller_of_what_follows_a_balance) {
     const Cloud cloud;
-    const std::vector<Part> parts(cloud.points().count, (test::rank() + 1) % test::num_ranks());
+    const std::vector<Part> parts(cloud.points().count, (rank() + 1) % num_ranks());
     std::vector<RankRange> ranks;
-    for (int rank = 0; rank < test::num_ranks(); ++rank) ranks.push_back({rank, 1});
-    expect_errors([&] { plan(parts, test::num_ranks(), MPI_COMM_WORLD); });
+    for (int rank = 0; rank < num_ranks(); ++rank) ranks.push_back({rank, 1});
+    expect_errors([&] { plan(parts, num_ranks(), MPI_COMM_WORLD); });
     expect_errors([&] { remap(parts, ranks, MPI_COMM_WORLD); });
-    expect_errors([&] { part_weights(cloud.points(), parts, test::num_ranks(), MPI_COMM_WORLD); });
-    expect_errors(
-        [&] { moved_fraction(cloud.points(), parts, test::num_ranks(), MPI_COMM_WORLD); });
+    expect_errors([&] { part_weights(cloud.points(), parts, num_ranks(), MPI_COMM_WORLD); });
+    expect_errors([&] { moved_fraction(cloud.points(), parts, num_ranks(), MPI_COMM_WORLD); });
 }
 
 /// Every rank sends to every other one.
 Plan plan_of_all_pairs() {
-    std::vector<Part> parts(static_cast<std::size_t>(3 * test::num_ranks()));
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        parts[i] = static_cast<Part>(i) % test::num_ranks();
-    return plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+    std::vector<Part> parts(static_cast<std::size_t>(3 * num_ranks()));
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = static_cast<Part>(i) % num_ranks();
+    return plan(parts, num_ranks(), MPI_COMM_WORLD);
 }
 
 TEST(FailingMpi, reaches_the_caller_of_what_moves_columns) {
@@ -148,12 +146,12 @@ void fail_each_message(const std::function<void()>& call) {
     mpi_layer::fail_message(0);
     call();
     long num_messages = mpi_layer::counted_messages();
-    MPI_Bcast(&num_messages, 1, MPI_LONG, test::num_ranks() - 1, MPI_COMM_WORLD);
-    const long num_announced = num_messages - 2 * (test::num_ranks() - 1);
-    ASSERT_GE(num_announced, test::num_ranks() > 1 ? 2 : 0);
+    MPI_Bcast(&num_messages, 1, MPI_LONG, num_ranks() - 1, MPI_COMM_WORLD);
+    const long num_announced = num_messages - 2 * (num_ranks() - 1);
+    ASSERT_GE(num_announced, num_ranks() > 1 ? 2 : 0);
     for (long message = 1; message <= num_messages; ++message) {
         SCOPED_TRACE(message);
-        mpi_layer::fail_message(test::is_last_rank() ? message : 0);
+        mpi_layer::fail_message(is_last_rank() ? message : 0);
         bool threw = false;
         try {
             call();
@@ -161,7 +159,7 @@ void fail_each_message(const std::function<void()>& call) {
             EXPECT_EQ(error.code(), ErrorCode::mpi) << error.what();
             threw = true;
         }
-        EXPECT_EQ(threw, test::is_last_rank() || message <= num_announced);
+        EXPECT_EQ(threw, is_last_rank() || message <= num_announced);
         mpi_layer::fail_message(0);
         call();
     }
@@ -169,7 +167,7 @@ void fail_each_message(const std::function<void()>& call) {
 
 TEST(FailingMpi, of_one_message_of_a_column_leaves_no_rank_waiting_and_the_next_is_right) {
     const Plan lists = plan_of_all_pairs();
-    const std::vector<int> values(lists.num_points, test::rank());
+    const std::vector<int> values(lists.num_points, rank());
     const std::vector<int> expected = transfer(lists, values, MPI_COMM_WORLD);
     fail_each_message([&] { EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected); });
 }
@@ -201,10 +199,10 @@ void fail_each_message_of_each_rank(const Options& options, long step) {
     mpi_layer::fail_message(0);
     balance(points, options, {}, MPI_COMM_WORLD);
     const long mine = mpi_layer::counted_messages();
-    for (int rank = 0; rank < test::num_ranks(); ++rank) {
+    for (int rank = 0; rank < num_ranks(); ++rank) {
         long num_messages = mine;
         MPI_Bcast(&num_messages, 1, MPI_LONG, rank, MPI_COMM_WORLD);
-        if (test::num_ranks() > 1) {
+        if (num_ranks() > 1) {
             EXPECT_GT(num_messages, 0);
         }
         for (long message = 1; message <= num_messages; message += step) {
@@ -226,7 +224,7 @@ void expect_errors_where_messages_fail(const std::function<void()>& call) {
     mpi_layer::fail_message(0);
     call();
     const long mine = mpi_layer::counted_messages();
-    for (int rank = 0; rank < test::num_ranks(); ++rank) {
+    for (int rank = 0; rank < num_ranks(); ++rank) {
         long num_messages = mine;
         MPI_Bcast(&num_messages, 1, MPI_LONG, rank, MPI_COMM_WORLD);
         for (long message = 1; message <= num_messages; ++message) {
@@ -254,30 +252,25 @@ TEST(FailingMpi, of_one_rank_while_earlier_cuts_are_kept_reaches_its_caller) {
 
 TEST(FailingMpi, of_one_rank_in_a_remap_or_look_up_reaches_its_caller) {
     const Cloud cloud;
-    Options options;
-    options.tuning.central_parts = 2;
-    options.cuts = HeldCuts::own;
+    Options options{.cuts = HeldCuts::own, .tuning = {.central_parts = 2}};
     const Balance made = balance(cloud.points(), options, {}, MPI_COMM_WORLD);
     std::vector<RankRange> ranks;
-    for (int rank = 0; rank < test::num_ranks(); ++rank) ranks.push_back({rank, 1});
+    for (int rank = 0; rank < num_ranks(); ++rank) ranks.push_back({rank, 1});
     expect_errors_where_messages_fail(
         [&] { EXPECT_EQ(remap(made.parts, ranks, MPI_COMM_WORLD).numbers.size(), ranks.size()); });
-    if (test::num_ranks() > 4) return;
+    if (num_ranks() > 4) return;
     expect_errors_where_messages_fail(
         [&] { EXPECT_EQ(assign_all(made.cuts, cloud.points(), MPI_COMM_WORLD), made.parts); });
 }
 
 /// Options by which many ranks make the parts.
 Options wide() {
-    Options options;
-    options.refine = Refine::exact;
-    options.tuning.central_parts = 2;
+    Options options{.refine = Refine::exact, .tuning = {.central_parts = 2}};
     return options;
 }
 
 TEST(FailingMpi, of_one_rank_while_many_make_the_parts_reaches_the_callers_of_all) {
-    if (test::num_ranks() > 2)
-        fail_each_message_of_each_rank(wide(), test::num_ranks() > 4 ? 37 : 1);
+    if (num_ranks() > 2) fail_each_message_of_each_rank(wide(), num_ranks() > 4 ? 37 : 1);
 }
 
 TEST(FailingMpi, of_all_ranks_while_many_make_the_parts_reaches_their_callers) {

@@ -5,10 +5,7 @@
 // the fault, and calls again when all have returned.
 #include "program.hpp"
 
-#include <array>
-#include <cmath>
 #include <cstdio>
-#include <limits>
 #include <stdexcept>
 #include <string_view>
 

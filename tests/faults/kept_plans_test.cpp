@@ -6,17 +6,8 @@
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 const MPI_Comm world = MPI_COMM_WORLD;
 
@@ -24,8 +15,7 @@ class KeptPlans : public testing::Test {
   protected:
     KeptPlans() {
         const std::vector<double> all = test::uniform_cloud(400, 2, 3);
-        Options options;
-        options.num_parts = num_ranks();
+        Options options{.num_parts = num_ranks()};
         const Balance whole = balance(interleaved_points(all, 2), options, {}, MPI_COMM_SELF);
         for (std::size_t i = 0; i < 400; ++i) {
             if (whole.parts[i] != rank()) continue;

@@ -37,18 +37,18 @@ TEST(LongMessages, are_broadcast_in_pieces) {
     for (const std::size_t size : {std::size_t{0}, limit - 1, limit, 10 * limit + 1}) {
         std::vector<std::byte> expected(size);
         for (std::size_t i = 0; i < size; ++i) expected[i] = static_cast<std::byte>(i % 251);
-        const bool sends = test::is_last_rank();
+        const bool sends = is_last_rank();
         std::vector<std::byte> bytes = sends ? expected : std::vector<std::byte>(size);
         const ShortMessages pieces;
-        mpi::broadcast(bytes, test::num_ranks() - 1, MPI_COMM_WORLD);
+        mpi::broadcast(bytes, num_ranks() - 1, MPI_COMM_WORLD);
         EXPECT_EQ(bytes, expected);
     }
 }
 
 TEST(LongMessages, give_the_same_plan_in_pieces) {
     const int num_ranks = test::num_ranks();
-    std::vector<Part> parts(static_cast<std::size_t>(50 + 7 * test::rank()));
-    std::iota(parts.begin(), parts.end(), test::rank());
+    std::vector<Part> parts(static_cast<std::size_t>(50 + 7 * rank()));
+    std::iota(parts.begin(), parts.end(), rank());
     for (Part& part : parts) part %= num_ranks;
     const Plan expected = plan(parts, num_ranks, MPI_COMM_WORLD);
     const ShortMessages pieces;
@@ -61,12 +61,12 @@ TEST(LongMessages, give_the_same_plan_in_pieces) {
 }
 
 TEST(LongMessages, move_the_same_columns_in_pieces) {
-    std::vector<Part> parts(static_cast<std::size_t>(50 + 7 * test::rank()));
+    std::vector<Part> parts(static_cast<std::size_t>(50 + 7 * rank()));
     for (std::size_t i = 0; i < parts.size(); ++i)
-        parts[i] = (test::rank() + static_cast<Part>(i * i)) % test::num_ranks();
-    const Plan lists = plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+        parts[i] = (rank() + static_cast<Part>(i * i)) % num_ranks();
+    const Plan lists = plan(parts, num_ranks(), MPI_COMM_WORLD);
     std::vector<double> positions(2 * parts.size());
-    std::iota(positions.begin(), positions.end(), 1000 * test::rank());
+    std::iota(positions.begin(), positions.end(), 1000 * rank());
     const auto both = columns(parts, column(positions, 2));
     const auto expected = transfer(lists, both, MPI_COMM_WORLD);
     const ShortMessages pieces;

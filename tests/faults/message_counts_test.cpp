@@ -1,22 +1,15 @@
 // The meeting of a call costs no messages beyond those that the call needs: counted below the
 // library, over all ranks.
+#include "../support/common.hpp"
 #include "mpi_layer.hpp"
 #include "ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <array>
 #include <bit>
-#include <functional>
-#include <vector>
 
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 const MPI_Comm world = MPI_COMM_WORLD;
 

@@ -34,10 +34,9 @@ class NewCommunicator {
 /// Code of the Error of a first call with `comm`, ok when there is none.
 int code_of_balance(MPI_Comm comm) {
     static const std::vector<double> coordinates =
-        test::uniform_cloud(50, 2, static_cast<unsigned>(test::rank() + 1));
+        test::uniform_cloud(50, 2, static_cast<unsigned>(rank() + 1));
     try {
-        Options options;
-        options.refine = Refine::exact;
+        Options options{.refine = Refine::exact};
         balance(interleaved_points(coordinates, 2), options, {}, comm);
         return ok;
     } catch (const Error& error) {
@@ -56,7 +55,7 @@ void fail_each(const std::function<void(long)>& arm, const std::function<long()>
     for (int number = 1; number <= num_calls; ++number) {
         SCOPED_TRACE(number);
         const NewCommunicator comm;
-        arm(test::is_last_rank() ? number : 0);
+        arm(is_last_rank() ? number : 0);
         const int code = code_of_balance(comm.get());
         arm(0);
         EXPECT_TRUE(same_on_all_ranks(code)) << code;

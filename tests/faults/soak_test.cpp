@@ -1,27 +1,18 @@
 // All collective functions of the interface, one directly after the other in random order, while
 // ranks are late at random. Nothing else synchronises the ranks. What a call must give is what it
 // gives after a barrier, which the other tests check.
+#include "../support/common.hpp"
 #include "mpi_layer.hpp"
 #include "ranks.hpp"
 
 #include <rrcb/paper.hpp>
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
 #include <cstdlib>
-#include <numeric>
-#include <span>
-#include <string>
 #include <type_traits>
 
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Splitmix64 (Steele et al. 2014), one step for each number.
 template <class... Numbers>
@@ -114,9 +105,7 @@ struct Round {
 
 Options options_of(const Round& round) {
     constexpr std::array refinements = {Refine::none, Refine::tolerance, Refine::exact};
-    Options options;
-    options.num_parts = round.num_parts();
-    options.refine = refinements[round.drawn() / 3 % 3];
+    Options options{.num_parts = round.num_parts(), .refine = refinements[round.drawn() / 3 % 3]};
     return options;
 }
 
@@ -125,9 +114,9 @@ void balances(const Round& round, MPI_Comm comm, Answer& answer) {
 }
 
 void balances_as_in_paper(const Round& round, MPI_Comm comm, Answer& answer) {
-    PaperOptions options;
-    options.num_parts = round.num_parts();
-    options.domain = round.drawn() % 2 == 0 ? PaperDomain::sampled : PaperDomain::points;
+    PaperOptions options{
+        .num_parts = round.num_parts(),
+        .domain = round.drawn() % 2 == 0 ? PaperDomain::sampled : PaperDomain::points};
     answer << balance_as_in_paper(round.mine.points(), options, comm);
 }
 

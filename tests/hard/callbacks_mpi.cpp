@@ -4,17 +4,10 @@
 #include "checks_mpi.hpp"
 #include "methods.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-
 namespace rrcb::hard_test {
 
 namespace {
 
-using test::num_ranks;
-using test::rank;
 using zoltan_test::ListCopy;
 using zoltan_test::Outcome;
 using zoltan_test::parts_by_object;

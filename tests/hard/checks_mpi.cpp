@@ -4,11 +4,6 @@
 
 #include <rrcb/plan.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-
 namespace rrcb::hard_test {
 
 namespace {
@@ -58,8 +53,8 @@ std::vector<Part> join_parts(const Share& share, std::span<const Part> parts, in
 Share migrated(const Cloud& cloud, std::span<const Part> parts, int num_parts) {
     std::vector<int> owners;
     for (const Part part : parts)
-        owners.push_back(ranks_of_part(part, num_parts, test::num_ranks()).first_rank);
-    return share_of(cloud, owners, test::rank());
+        owners.push_back(ranks_of_part(part, num_parts, num_ranks()).first_rank);
+    return share_of(cloud, owners, rank());
 }
 
 int count_moves(const Share& share, std::span<const Part> parts, std::span<const Part> before) {

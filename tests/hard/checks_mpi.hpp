@@ -1,13 +1,9 @@
 #pragma once
 
+#include "../support/common.hpp"
 #include "share.hpp"
 
 #include <rrcb/cuts.hpp>
-
-#include <mpi.h>
-
-#include <cstdint>
-#include <vector>
 
 namespace rrcb::hard_test {
 

@@ -1,10 +1,5 @@
 #include "cloud.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <map>
 #include <numbers>
 #include <stdexcept>
 

@@ -1,11 +1,10 @@
 #pragma once
 
+#include "../support/common.hpp"
+
 #include <rrcb/points.hpp>
 
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace rrcb::hard_test {
 

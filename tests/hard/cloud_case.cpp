@@ -7,11 +7,7 @@
 #include "checks_mpi.hpp"
 #include "methods.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <map>
-#include <set>
 
 namespace {
 

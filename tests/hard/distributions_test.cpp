@@ -8,8 +8,6 @@
 namespace rrcb::hard_test {
 namespace {
 
-using test::rank;
-
 INSTANTIATE_TEST_SUITE_P(Distributions, HardCloud,
                          testing::ValuesIn(names_of(clouds_hard_by_distribution())), name_of);
 

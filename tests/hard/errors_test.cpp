@@ -6,18 +6,8 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
-#include <limits>
-
 namespace rrcb::hard_test {
 namespace {
-
-using test::is_last_rank;
-using test::num_ranks;
-using test::rank;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();

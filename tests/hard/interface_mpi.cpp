@@ -7,22 +7,12 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/plan.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace rrcb::hard_test {
 
 namespace {
 
-using test::num_ranks;
-using test::rank;
-
 Options options_for(int num_parts) {
-    Options options;
-    options.num_parts = num_parts;
-    options.imbalance_tolerance = asked_tolerance;
+    Options options{.num_parts = num_parts, .imbalance_tolerance = asked_tolerance};
     return options;
 }
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <rrcb/paper.hpp>
+#include "../support/common.hpp"
 
-#include <array>
-#include <optional>
-#include <span>
+#include <rrcb/paper.hpp>
 
 namespace rrcb::hard_test {
 
@@ -41,9 +39,7 @@ inline constexpr std::span own_methods = std::span(methods).first(3);
 /// `options`.
 inline Balance balance(const Points& points, const Method& method, Options options, MPI_Comm comm) {
     if (method.paper) {
-        PaperOptions paper;
-        paper.num_parts = options.num_parts;
-        paper.part_sizes = options.part_sizes;
+        PaperOptions paper{.num_parts = options.num_parts, .part_sizes = options.part_sizes};
         paper.domain = *method.paper;
         return balance_as_in_paper(points, paper, comm);
     }

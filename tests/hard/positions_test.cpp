@@ -9,14 +9,11 @@
 namespace rrcb::hard_test {
 namespace {
 
-using test::num_ranks;
-
 INSTANTIATE_TEST_SUITE_P(Positions, HardCloud,
                          testing::ValuesIn(names_of(clouds_hard_by_position())), name_of);
 
 TEST(Positions, that_coincide_are_told_in_the_report) {
-    Options options;
-    options.num_parts = 4;
+    Options options{.num_parts = 4};
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         options.refine = refine;
         const Share one_place = scattered_share(find_cloud("coincident"));
@@ -41,10 +38,7 @@ TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
                       0.01 * uniform(i, 2)};
     };
     const Share share = scattered_share(cloud);
-    Options options;
-    options.num_parts = 4;
-    options.tuning.support_mesh = 1;
-    options.refine = Refine::none;
+    Options options{.num_parts = 4, .refine = Refine::none, .tuning = {.support_mesh = 1}};
     const Balance blind = balance(share.points(), options, {}, MPI_COMM_WORLD);
     const auto weights = part_weights(share.points(), blind.parts, 4, MPI_COMM_WORLD);
     EXPECT_NEAR(blind.report.details.estimated_imbalance, 1, 1e-9);
@@ -66,8 +60,7 @@ TEST(Positions, of_equal_extents_stay_in_their_parts_from_call_to_call) {
                                           {"hollow_shell", 4},
                                           {"cantor_dust", 4},
                                           {"l_shaped", 3}}) {
-        Options options;
-        options.num_parts = num_parts;
+        Options options{.num_parts = num_parts};
         const Cloud& cloud = find_cloud(name);
         const Share share = scattered_share(cloud);
         const Balance first = balance(share.points(), options, {}, MPI_COMM_WORLD);
@@ -80,8 +73,7 @@ TEST(Positions, of_equal_extents_stay_in_their_parts_from_call_to_call) {
 
 TEST(Positions, outside_every_earlier_box_are_divided_from_earlier_cuts) {
     const Share earlier = scattered_share(find_cloud("spiral"));
-    Options options;
-    options.num_parts = parts_for(num_ranks());
+    Options options{.num_parts = parts_for(num_ranks())};
     const Cuts cuts = balance(earlier.points(), options, {}, MPI_COMM_WORLD).cuts;
     for (const double distance : {-1e7, 3e3, 1e150}) {
         Share later = earlier;

@@ -42,7 +42,7 @@ void print(int num_steps, const Resources& held) {
 std::vector<double> moving_cloud(int step) {
     std::vector<double> coordinates;
     for (int k = 0; k < 400; ++k) {
-        const int point = 400 * test::rank() + k;
+        const int point = 400 * rank() + k;
         const double angle = 0.02 * step + uniform(point, 0);
         const double radius = 1 + uniform(point, 1);
         coordinates.push_back(radius * std::cos(angle));
@@ -63,7 +63,7 @@ void expect_constant_resources(const std::function<void(int step)>& take_step) {
         take_step(step % period);
     }
     const Resources after = resources();
-    if (test::rank() == 0) {
+    if (rank() == 0) {
         print(first, before);
         print(num_steps, after);
     }

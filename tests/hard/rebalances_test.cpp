@@ -18,8 +18,7 @@ TEST(Rebalances, hold_what_they_held) {
     std::vector<double> weights(400, 1.5);
     std::vector<double> coordinates;
     Cuts cuts;
-    Options options;
-    options.num_parts = 5;
+    Options options{.num_parts = 5};
     expect_constant_resources([&](int step) {
         coordinates = moving_cloud(step);
         const Points points = interleaved_points(coordinates, 2, weights);
@@ -29,8 +28,7 @@ TEST(Rebalances, hold_what_they_held) {
                                       : balance(points, options, {}, MPI_COMM_WORLD);
         cuts = result.cuts;
         plan(result.parts, options.num_parts, MPI_COMM_WORLD);
-        PaperOptions paper;
-        paper.domain = step % 5 == 2 ? PaperDomain::sampled : PaperDomain::points;
+        PaperOptions paper{.domain = step % 5 == 2 ? PaperDomain::sampled : PaperDomain::points};
         balance_as_in_paper(points, paper, MPI_COMM_WORLD);
         part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD);
     });

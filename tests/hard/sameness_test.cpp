@@ -5,10 +5,6 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 
-#include <cstring>
-#include <functional>
-#include <numeric>
-
 namespace rrcb::hard_test {
 namespace {
 
@@ -25,9 +21,7 @@ constexpr std::array unusual = {
 };
 
 Options one_part_per_rank() {
-    Options options;
-    options.num_parts = parts_for(test::num_ranks());
-    options.imbalance_tolerance = asked_tolerance;
+    Options options{.num_parts = parts_for(num_ranks()), .imbalance_tolerance = asked_tolerance};
     return options;
 }
 
@@ -59,7 +53,7 @@ TEST_P(HardCloud, gives_the_same_bits_twice) {
 }
 
 std::vector<double> of_all_ranks(const std::vector<double>& mine) {
-    const auto size = static_cast<std::size_t>(test::num_ranks());
+    const auto size = static_cast<std::size_t>(num_ranks());
     std::vector<int> counts(size);
     std::vector<int> starts(size);
     const auto count = static_cast<int>(mine.size());
@@ -77,9 +71,7 @@ TEST_P(HardCloud, gives_the_cuts_of_one_rank_where_all_points_go_to_the_root) {
     Share all = mine;
     all.coordinates = of_all_ranks(mine.coordinates);
     all.weights = of_all_ranks(mine.weights);
-    PaperOptions options;
-    options.num_parts = parts_for(test::num_ranks());
-    options.domain = PaperDomain::points;
+    PaperOptions options{.num_parts = parts_for(num_ranks()), .domain = PaperDomain::points};
     const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
     const Balance alone = balance_as_in_paper(all.points(), options, MPI_COMM_SELF);
     EXPECT_TRUE(same_bits(numbers_of(result.cuts), numbers_of(alone.cuts)));
@@ -119,7 +111,7 @@ TEST(Sameness, of_any_arithmetic_is_enough) {
 
 /// One rank rounds differently: nobody gets cuts that others would not agree with.
 TEST(Sameness, of_the_arithmetic_is_asked_for) {
-    if (test::num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const Share share = scattered_share(find_cloud("lattice"));
     for (const Arithmetic& arithmetic : unusual) {
         for (const Method& method : methods) {
@@ -127,7 +119,7 @@ TEST(Sameness, of_the_arithmetic_is_asked_for) {
             std::string text;
             try {
                 FloatingPoint here;
-                if (test::is_last_rank()) arithmetic.set(here);
+                if (is_last_rank()) arithmetic.set(here);
                 balance(share.points(), method, one_part_per_rank(), MPI_COMM_WORLD);
             } catch (const Error& error) {
                 text = error.what();

@@ -25,8 +25,7 @@ TEST(Weights, near_the_ends_of_the_range_of_a_double) {
 
 TEST(Weights, heavier_than_a_part_make_the_least_imbalance_known) {
     // 599 points of 1 and one of 1e6, in 4 parts.
-    Options options;
-    options.num_parts = 4;
+    Options options{.num_parts = 4};
     const Report equal = report_of(find_cloud("one_giant_weight"), options);
     EXPECT_DOUBLE_EQ(equal.details.least_imbalance, 1e6 / ((1e6 + 599) / 4));
     EXPECT_GE(equal.imbalance, equal.details.least_imbalance);
@@ -40,8 +39,7 @@ TEST(Weights, heavier_than_a_part_make_the_least_imbalance_known) {
 
 TEST(Weights, of_zero_lie_in_every_part) {
     const Share share = scattered_share(find_cloud("half_the_weights_zero"));
-    Options options;
-    options.num_parts = 4;
+    Options options{.num_parts = 4};
     for (const Method& method : methods) {
         const Balance result = balance(share.points(), method, options, MPI_COMM_WORLD);
         std::array<int, 4> counts{};

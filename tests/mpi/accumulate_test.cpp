@@ -1,26 +1,12 @@
-#include "../support/clouds.hpp"
-#include "../support/ranks.hpp"
 #include "../support/same_error.hpp"
+#include "held_points.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <numeric>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 constexpr double radius = 0.3;
 constexpr std::size_t num_points = 300;
@@ -35,18 +21,11 @@ struct Scene {
 
 Scene make_scene() {
     Scene scene;
-    const Points all = interleaved_points(scene.positions, 2);
-    Options options;
-    options.num_parts = num_ranks();
-    const Balance whole = balance(all, options, {}, MPI_COMM_SELF);
-    std::vector<double> here;
-    for (std::size_t i = 0; i < num_points; ++i) {
-        if (whole.parts[i] != rank()) continue;
-        scene.mine.push_back(static_cast<std::int64_t>(i));
-        here.insert(here.end(), {scene.positions[2 * i], scene.positions[2 * i + 1]});
-    }
-    scene.plan =
-        ghosts(whole.cuts, interleaved_points(here, 2), {.radius = radius}, MPI_COMM_WORLD);
+    test::HeldPoints all{2, scene.positions};
+    const Cuts cuts = test::divide_on_each_rank(all, num_ranks()).cuts;
+    const test::Share here(all);
+    scene.mine.assign(here.indices.begin(), here.indices.end());
+    scene.plan = ghosts(cuts, here.points(), {.radius = radius}, MPI_COMM_WORLD);
     scene.near = fetch(scene.plan, scene.mine, MPI_COMM_WORLD);
     return scene;
 }
@@ -162,7 +141,7 @@ TEST(Accumulate, of_columns_of_a_wrong_length_on_one_rank_is_refused_on_all) {
     const Scene scene = make_scene();
     const auto refused = [&](const std::string& text, std::size_t more_ghosts,
                              std::size_t more_points, std::size_t components) {
-        const std::size_t last = test::is_last_rank() ? 1 : 0;
+        const std::size_t last = is_last_rank() ? 1 : 0;
         const std::vector<double> of_ghosts(2 * scene.near.size() + last * more_ghosts);
         const std::vector<double> of_points(2 * scene.mine.size() + last * more_points);
         test::expect_same_error(
@@ -201,7 +180,7 @@ TEST(Reply, returns_the_rows_of_each_rank_to_the_points_that_it_has_as_ghosts) {
     const auto [again, twice] =
         reply(scene.plan, columns(scene.near, column(scene.near)), MPI_COMM_WORLD);
     EXPECT_EQ(again, twice);
-    answers.resize(answers.size() + (test::is_last_rank() ? 1 : 0));
+    answers.resize(answers.size() + (is_last_rank() ? 1 : 0));
     EXPECT_THROW(static_cast<void>(reply(make_scene().plan, answers, MPI_COMM_WORLD)), Error);
 }
 

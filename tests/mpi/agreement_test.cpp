@@ -6,13 +6,6 @@
 #include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
@@ -183,8 +176,7 @@ TEST_F(Agreement, on_weights_given_on_some_ranks) {
 
 TEST_F(Agreement, on_earlier_cuts_that_do_not_fit) {
     const std::vector<double> x{0, 1, 2, 3};
-    Options options;
-    options.num_parts = 3;
+    Options options{.num_parts = 3};
     const Cuts cuts = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD).cuts;
     options.num_parts = last() ? 4 : 3;
     EXPECT_THROW(balance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD), Error);

@@ -1,27 +1,16 @@
 // Exact cuts across given axes are bit-identical on any number of ranks, however these hold the
 // points.
+#include "../support/common.hpp"
 #include "clouds.hpp"
 #include "ranks.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/points.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <numeric>
-#include <random>
-#include <vector>
 
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 struct Cloud {
     int dimension = 1;
@@ -105,10 +94,7 @@ void expect_same_division(const Cloud& cloud, const Options& options) {
 
 /// Options whose axes do not depend on estimates.
 std::vector<Options> options_for(int dimension, int num_parts) {
-    Options options;
-    options.num_parts = num_parts;
-    options.refine = Refine::exact;
-    options.tree = TreeShape{};
+    Options options{.num_parts = num_parts, .refine = Refine::exact, .tree = TreeShape{}};
     std::vector<int> axes;
     for (int k = 0; k + 1 < num_parts; ++k) axes.push_back(k % dimension);
     if (dimension > 1) options.axes.order = AxisOrder::given(axes);

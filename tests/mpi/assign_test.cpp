@@ -6,22 +6,11 @@
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
-using test::is_last_rank;
 using test::known_here;
-using test::num_ranks;
 using test::random_cuts;
-using test::rank;
 
 /// Positions of this rank on and off the cuts; every third rank has none.
 std::vector<double> positions_here(int dimension, int seed) {

@@ -4,15 +4,9 @@
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
 using test::share_of_cloud;
 using test::three_columns;
 
@@ -21,9 +15,7 @@ TEST(GivenAxes, are_crossed_in_groups) {
     const auto mine = share_of_cloud(
         8000, 2, [](std::size_t, int axis, double u) { return axis == 0 ? u : 5 * u; });
     const Points points = interleaved_points(mine, 2);
-    Options options;
-    options.num_parts = 8;
-    options.axes.order = AxisOrder::grouped({0, 1});
+    Options options{.num_parts = 8, .axes = {.order = AxisOrder::grouped({0, 1})}};
     const Balance tall = balance(points, options, {}, MPI_COMM_WORLD);
     for (const Cut& cut : tall.cuts.tree) EXPECT_EQ(cut.axis, 1);
 
@@ -40,9 +32,7 @@ TEST(GivenAxes, are_crossed_in_groups) {
 
 TEST(GivenAxes, of_each_cut_are_kept) {
     const auto mine = share_of_cloud(4000, 3, [](std::size_t, int, double u) { return u; });
-    Options options;
-    options.num_parts = 4;
-    options.axes.order = AxisOrder::given({2, 0, 1});
+    Options options{.num_parts = 4, .axes = {.order = AxisOrder::given({2, 0, 1})}};
     const Balance result = balance(interleaved_points(mine, 3), options, {}, MPI_COMM_WORLD);
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_EQ(result.cuts.tree[k].axis, options.axes.order.axes()[k]);
@@ -51,10 +41,8 @@ TEST(GivenAxes, of_each_cut_are_kept) {
 
 TEST(GivenAxes, of_each_cut_are_kept_also_by_many_ranks_and_where_nothing_is_to_be_cut) {
     const auto mine = share_of_cloud(3, 2, [](std::size_t, int, double u) { return u; });
-    Options options;
-    options.tuning.central_parts = 2;
-    options.cuts = HeldCuts::own;
-    options.num_parts = 2 * num_ranks();
+    Options options{
+        .num_parts = 2 * num_ranks(), .cuts = HeldCuts::own, .tuning = {.central_parts = 2}};
     options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
     options.part_sizes.front() = 0;
     options.axes.order =
@@ -68,9 +56,7 @@ TEST(AllowedAxes, are_crossed_by_all_cuts) {
     const auto mine = share_of_cloud(
         8000, 3, [](std::size_t, int axis, double u) { return axis == 0 ? 5 * u : u; });
     const Points points = interleaved_points(mine, 3);
-    Options options;
-    options.num_parts = 2 * num_ranks() + 1;
-    options.axes.order = AxisOrder::among({2});
+    Options options{.num_parts = 2 * num_ranks() + 1, .axes = {.order = AxisOrder::among({2})}};
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact})
         for (const int central : {2, 4096}) {
             options.refine = refine;
@@ -92,10 +78,7 @@ TEST(AllowedAxes, are_crossed_by_all_cuts) {
 TEST(PlainCuts, keep_points_on_a_plane_together) {
     const std::vector<double> mine = three_columns();
     const Points points = interleaved_points(mine, 2);
-    Options options;
-    options.refine = Refine::exact;
-    options.num_parts = 2;
-    options.axes.plain = true;
+    Options options{.num_parts = 2, .refine = Refine::exact, .axes = {.plain = true}};
     const Balance plain = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, plain.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{400, 200}));

@@ -1,24 +1,16 @@
 // Memory of repeated calls: allocations and page faults are counted, not timed.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/held_memory.hpp"
 #include "../support/memory_layer.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
-
-#include <functional>
-#include <limits>
-#include <span>
-#include <string>
 
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 constexpr std::size_t many = 120000;
 
@@ -58,11 +50,10 @@ struct Cloud {
 };
 
 Options options_of(Refine refine, double tolerance = 1.01) {
-    Options options;
-    options.num_parts = 2 * num_ranks();
-    options.refine = refine;
-    options.imbalance_tolerance = tolerance;
-    options.tuning.support_mesh = 4;
+    Options options{.num_parts = 2 * num_ranks(),
+                    .imbalance_tolerance = tolerance,
+                    .refine = refine,
+                    .tuning = {.support_mesh = 4}};
     return options;
 }
 

@@ -1,19 +1,11 @@
 // The messages of butterflies: whatever their length, and whatever fails on a rank.
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 #include "collective/butterfly_mpi.hpp"
 #include "collective/duplicate.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 void add_up(std::span<const double> a, std::span<const double> b, std::vector<double>& joined) {
     std::ranges::transform(a, b, std::back_inserter(joined), std::plus<>());

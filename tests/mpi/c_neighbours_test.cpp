@@ -1,25 +1,15 @@
 // The exchanges with neighbours in C beside those in C++, which are the reference.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 constexpr double radius = 0.1;
 constexpr double travel = 0.05;

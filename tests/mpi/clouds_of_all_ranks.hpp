@@ -1,11 +1,8 @@
 #pragma once
 
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
-
-#include <functional>
-#include <random>
-#include <vector>
 
 namespace rrcb::test {
 

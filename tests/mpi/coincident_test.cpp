@@ -1,26 +1,15 @@
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
-using test::rank;
-
 Options dividing(int num_parts, Refine refine = Refine::exact) {
-    Options options;
-    options.num_parts = num_parts;
-    options.refine = refine;
-    options.coincident = Coincident::divide;
+    Options options{.num_parts = num_parts, .refine = refine, .coincident = Coincident::divide};
     return options;
 }
 

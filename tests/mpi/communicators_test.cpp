@@ -5,11 +5,6 @@
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-
 namespace rrcb {
 namespace {
 
@@ -46,8 +41,8 @@ TEST(Communicators, that_are_null_are_refused) {
 }
 
 TEST(Communicators, of_two_groups_are_refused) {
-    if (test::num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
-    const int group = test::rank() % 2;
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const int group = rank() % 2;
     MPI_Comm mine = MPI_COMM_NULL;
     MPI_Comm_split(MPI_COMM_WORLD, group, 0, &mine);
     MPI_Comm both = MPI_COMM_NULL;
@@ -57,7 +52,7 @@ TEST(Communicators, of_two_groups_are_refused) {
     MPI_Intercomm_merge(both, 0, &merged);
     const std::vector<double> x{0, 1};
     EXPECT_EQ(balance(interleaved_points(x, 1), {}, {}, merged).report.details.num_points,
-              2 * test::num_ranks());
+              2 * num_ranks());
     MPI_Comm_free(&merged);
     MPI_Comm_free(&both);
     MPI_Comm_free(&mine);
@@ -65,7 +60,7 @@ TEST(Communicators, of_two_groups_are_refused) {
 
 /// Plans of the points of all ranks, and the calls that use them with a communicator.
 struct Plans {
-    std::vector<double> x = test::uniform_cloud(50, 1, static_cast<unsigned>(test::rank() + 1));
+    std::vector<double> x = test::uniform_cloud(50, 1, static_cast<unsigned>(rank() + 1));
     Balance made = balance(interleaved_points(x, 1), {}, {}, MPI_COMM_WORLD);
     Plan moves = plan(made, MPI_COMM_WORLD);
     std::vector<double> here = transfer(moves, x, MPI_COMM_WORLD);
@@ -96,10 +91,10 @@ void expect_refusals(const Plans& plans, MPI_Comm comm) {
 }
 
 TEST(Communicators, of_other_ranks_than_those_of_the_balance_are_refused) {
-    if (test::num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const Plans plans;
     expect_refusals(plans, MPI_COMM_SELF);
-    for (const auto& [color, key] : {std::pair{test::rank() % 2, 0}, {0, -test::rank()}}) {
+    for (const auto& [color, key] : {std::pair{rank() % 2, 0}, {0, -rank()}}) {
         MPI_Comm other = MPI_COMM_NULL;
         MPI_Comm_split(MPI_COMM_WORLD, color, key, &other);
         expect_refusals(plans, other);
@@ -110,7 +105,7 @@ TEST(Communicators, of_other_ranks_than_those_of_the_balance_are_refused) {
 TEST(Communicators, of_the_same_ranks_in_the_same_order_are_accepted) {
     Plans plans;
     MPI_Comm same = MPI_COMM_NULL;
-    MPI_Comm_split(MPI_COMM_WORLD, 0, test::rank(), &same);
+    MPI_Comm_split(MPI_COMM_WORLD, 0, rank(), &same);
     for (const auto& call : plans.calls(same)) call();
     MPI_Comm_free(&same);
     // Cuts that are to be used on other ranks.

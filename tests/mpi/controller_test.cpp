@@ -6,23 +6,8 @@
 #include <rrcb/cost.hpp>
 #include <rrcb/error.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::is_last_rank;
-using test::num_ranks;
-using test::rank;
 
 /// Rank 0 gains a hundredth of the mean at each step since the last rebalance, the others lose it;
 /// in at most 100 steps.

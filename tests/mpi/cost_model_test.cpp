@@ -6,22 +6,10 @@
 #include <rrcb/cost.hpp>
 #include <rrcb/error.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
 using test::expect_same_error;
-using test::is_last_rank;
-using test::num_ranks;
-using test::rank;
 
 /// Points and cells of this rank: as many points on each, but more cells on higher ranks.
 std::vector<double> columns_at(int step) {

@@ -1,21 +1,14 @@
 // Weights that are all the same, or all 0, give the parts of points without weights, to the bit.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bit>
-#include <cstdint>
-#include <vector>
 
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Divides points of one weight, of none if it is negative; then again after they have moved, by
 /// the cuts and from scratch on their new ranks.
@@ -50,9 +43,7 @@ bool are_bit_identical(const Balance& a, const Balance& b) {
 TEST(EqualWeights, change_no_bit) {
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact})
         for (int num_parts = 2; num_parts <= 17; ++num_parts) {
-            Options options;
-            options.num_parts = num_parts;
-            options.refine = refine;
+            Options options{.num_parts = num_parts, .refine = refine};
             if (num_parts % 4 == 3) options.tuning.central_parts = 2;
             const std::vector<Balance> none = results_with(-1, options);
             for (const double weight : {0.0, 1.0, 3.0, 0.1, 1e-300, 0x1p-20, 0x1p40}) {
@@ -77,9 +68,7 @@ TEST(EqualWeights, of_some_ranks_are_no_counts) {
     for (const double scale : {1.0, 0.0}) {
         std::vector<double> scaled = weights;
         if (rank() > 0) std::ranges::fill(scaled, scale);
-        Options options;
-        options.num_parts = 3;
-        options.refine = Refine::none;
+        Options options{.num_parts = 3, .refine = Refine::none};
         const Points points = interleaved_points(mine, 1, scaled);
         const Balance made = balance(points, options, {}, MPI_COMM_WORLD);
         const auto of_parts = part_weights(points, made.parts, 3, MPI_COMM_WORLD);

@@ -1,17 +1,12 @@
 // No call raises a floating-point exception, as programs may trap them: an invalid operation, a
 // division by zero or an overflow. Most other tests trap them as well (support/mpi_main.cpp).
+#include "../support/common.hpp"
 #include "ranks.hpp"
 
 #include <rrcb/cost.hpp>
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
 #include <cfenv>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 namespace rrcb {
 namespace {
@@ -49,7 +44,7 @@ TEST(Exceptions, are_raised_by_neither_controller_nor_cost_model) {
     Controller controller(MPI_COMM_WORLD);
     CostModel model(controller, 2);
     for (int step = 0; step < 50; ++step) {
-        model.step(step % 5 == 0 ? 0 : 1 + test::rank(), {{100.0 * test::rank(), 1.0 * step}});
+        model.step(step % 5 == 0 ? 0 : 1 + rank(), {{100.0 * rank(), 1.0 * step}});
         if (controller.due()) controller.rebalanced(0.5);
         model.weights({{1.0, 0.0, 1.0, 2.0}});
     }

@@ -1,23 +1,14 @@
 // Sizes of parts and weights over many decades: the part of a point is that of its position.
-#include "../support/clouds.hpp"
-#include "../support/ranks.hpp"
+#include "held_points.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
-using test::rank;
+using test::HeldPoints;
+using test::Share;
 
 constexpr double least = std::numeric_limits<double>::denorm_min();
 
@@ -37,38 +28,14 @@ class Random {
 };
 
 /// Points of all ranks, in few places or many.
-struct Cloud {
-    std::size_t count;
-    int dimension;
-    std::vector<double> coordinates;
-    std::vector<double> weights{};
-};
-
-Cloud any_cloud(std::size_t count, Random& random) {
-    Cloud all{count, 1 + random.below(3), {}};
+HeldPoints any_cloud(std::size_t count, Random& random) {
+    HeldPoints all{1 + random.below(3), {}};
     const int places = random.below(2) == 0 ? 3 : 1 << 20;
     for (std::size_t i = 0; i < count * static_cast<std::size_t>(all.dimension); ++i)
         all.coordinates.push_back(random.below(places));
+    all.scatter();
     return all;
 }
-
-/// The points that this rank holds.
-struct Share {
-    explicit Share(const Cloud& all) : dimension(all.dimension) {
-        const auto d = static_cast<std::size_t>(dimension);
-        for (std::size_t i = static_cast<std::size_t>(rank()); i < all.count;
-             i += static_cast<std::size_t>(num_ranks())) {
-            for (std::size_t a = 0; a < d; ++a) coordinates.push_back(all.coordinates[i * d + a]);
-            if (!all.weights.empty()) weights.push_back(all.weights[i]);
-        }
-    }
-
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
-
-    int dimension;
-    std::vector<double> coordinates{};
-    std::vector<double> weights{};
-};
 
 double any_size(int kind, Random& random) {
     switch (kind) {
@@ -101,11 +68,10 @@ double any_weight(int kind, Random& random) {
 }
 
 Options any_options(Random& random) {
-    Options options;
-    options.num_parts = 2 + random.below(12);
-    options.refine = random.below(2) == 0 ? Refine::tolerance : Refine::exact;
-    options.axes.plain = random.below(5) == 0;
-    options.tuning.central_parts = random.below(4) == 0 ? 2 : 4096;
+    Options options{.num_parts = 2 + random.below(12),
+                    .refine = random.below(2) == 0 ? Refine::tolerance : Refine::exact,
+                    .axes = {.plain = random.below(5) == 0},
+                    .tuning = {.central_parts = random.below(4) == 0 ? 2 : 4096}};
     const int kind = random.below(6);
     for (int part = 0; part < options.num_parts && kind < 5; ++part)
         options.part_sizes.push_back(any_size(kind, random));
@@ -131,9 +97,9 @@ TEST(ExtremeSizes, and_weights_give_the_parts_that_look_ups_find) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
         const int most = seed % 50 == 0 ? 1500 : 60;
-        Cloud all = any_cloud(static_cast<std::size_t>(1 + random.below(most)), random);
+        HeldPoints all = any_cloud(static_cast<std::size_t>(1 + random.below(most)), random);
         const int kind = random.below(6);
-        for (std::size_t i = 0; i < all.count && kind < 5; ++i)
+        for (std::size_t i = 0; i < all.count() && kind < 5; ++i)
             all.weights.push_back(any_weight(kind, random));
         const Options options = any_options(random);
         const Share mine(all);
@@ -143,13 +109,12 @@ TEST(ExtremeSizes, and_weights_give_the_parts_that_look_ups_find) {
 }
 
 TEST(ExtremeSizes, leave_nothing_to_a_part_too_small_for_half_a_point) {
-    Cloud all{19, 1, {}};
+    HeldPoints all{1, {}};
     for (int i = 0; i < 19; ++i) all.coordinates.push_back(i % 3);
+    all.scatter();
     const Share mine(all);
     for (const double tiny : {1e-4, 1e-5, 1e-12, 1e-20}) {
-        Options options;
-        options.num_parts = 3;
-        options.part_sizes = {tiny, tiny, 1};
+        Options options{.num_parts = 3, .part_sizes = {tiny, tiny, 1}};
         const Balance result = balance(mine.points(), options, {}, MPI_COMM_WORLD);
         expect_consistent(mine, options, result);
         EXPECT_EQ(result.report.part_weights, (std::vector<double>{0, 0, 19})) << tiny;

@@ -1,21 +1,12 @@
 // Look-ups of coincident points that cuts divide.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Some points in few places, the same on every rank.
 struct FewPlaces {

@@ -1,19 +1,12 @@
 // Parts that stay empty although there are points for all of them.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Points of this rank with weights of which some exceed a part.
 struct SkewedPoints {
@@ -42,10 +35,9 @@ auto num_empty(const Balance& result) {
 TEST(Parts, are_filled_whatever_the_weights) {
     std::mt19937_64 engine(9);
     for (int round = 0; round < 120; ++round) {
-        Options options;
-        options.num_parts = 2 + static_cast<int>(engine() % 30);
-        options.refine = round % 3 == 0 ? Refine::exact : Refine::tolerance;
-        options.tuning.central_parts = round % 5 == 0 ? 2 : 4096;
+        Options options{.num_parts = 2 + static_cast<int>(engine() % 30),
+                        .refine = round % 3 == 0 ? Refine::exact : Refine::tolerance,
+                        .tuning = {.central_parts = round % 5 == 0 ? 2 : 4096}};
         const bool is_power = round % 2 == 0;
         const SkewedPoints skewed(engine, (is_power ? 20 : 5) * options.num_parts, is_power);
         const Balance result = balance(skewed.points(), options, {}, MPI_COMM_WORLD);
@@ -56,9 +48,8 @@ TEST(Parts, are_filled_whatever_the_weights) {
 TEST(Parts, are_filled_within_a_wide_tolerance) {
     std::mt19937_64 engine(9);
     for (int round = 0; round < 60; ++round) {
-        Options options;
-        options.num_parts = 2 + static_cast<int>(engine() % 30);
-        options.imbalance_tolerance = 1.5;
+        Options options{.num_parts = 2 + static_cast<int>(engine() % 30),
+                        .imbalance_tolerance = 1.5};
         SkewedPoints points(engine, 2 * options.num_parts, false);
         std::ranges::fill(points.weights, 1.0);
         const Balance result = balance(points.points(), options, {}, MPI_COMM_WORLD);
@@ -72,10 +63,7 @@ TEST(Parts, of_different_sizes_may_stay_empty) {
     std::vector<double> x;
     if (rank() == 0) x = {0, 1, 2};
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
-        Options options;
-        options.num_parts = 2;
-        options.part_sizes = {0.8466, 0.1534};
-        options.refine = refine;
+        Options options{.num_parts = 2, .part_sizes = {0.8466, 0.1534}, .refine = refine};
         const Balance result = balance(interleaved_points(x, 1), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(result.report.part_weights, (std::vector<double>{3, 0}));
     }

@@ -7,21 +7,9 @@
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
-using test::rank;
 using test::slabs;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -42,11 +30,10 @@ TEST(Ghosts, within_no_radius_are_refused_on_all_ranks) {
     for (const double radius : {-1.0, std::nan(""), infinity, -infinity}) {
         expect_refusal("the radius must be finite",
                        [&] { ghosts(slabs(), points, {.radius = radius}, MPI_COMM_WORLD); });
-        expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": the radius must be finite",
-                       [&] {
-                           ghosts(slabs(), points, {.radius = test::is_last_rank() ? radius : 1.0},
-                                  MPI_COMM_WORLD);
-                       });
+        expect_refusal(
+            "rank " + std::to_string(num_ranks() - 1) + ": the radius must be finite", [&] {
+                ghosts(slabs(), points, {.radius = is_last_rank() ? radius : 1.0}, MPI_COMM_WORLD);
+            });
     }
 }
 
@@ -62,7 +49,7 @@ TEST(Ghosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
         const GhostOptions options{.radius = radius};
         expect_refusal("these are the points of the balance, some ",
                        [&] { ghosts(made.cuts, points, options, MPI_COMM_WORLD); });
-        const Points of_last = test::is_last_rank() ? points : moved;
+        const Points of_last = is_last_rank() ? points : moved;
         expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": these are the points",
                        [&] { ghosts(made.cuts, of_last, options, MPI_COMM_WORLD); });
         EXPECT_EQ(ghosts(made.cuts, moved, options, MPI_COMM_WORLD).num_points, moved.count);
@@ -90,8 +77,7 @@ void expect_loop(std::vector<double> x, const Options& options) {
 }
 
 TEST(Ghosts, of_divided_points_are_found_after_a_transfer_that_moves_none) {
-    Options options;
-    options.coincident = Coincident::divide;
+    Options options{.coincident = Coincident::divide};
     expect_loop({0.5, 0.5}, options);
     std::vector<double> tenth = test::uniform_cloud(1000, 2, static_cast<unsigned>(rank()));
     std::fill(tenth.begin(), tenth.begin() + 200, 0.5);
@@ -99,9 +85,7 @@ TEST(Ghosts, of_divided_points_are_found_after_a_transfer_that_moves_none) {
 }
 
 TEST(Ghosts, of_points_that_look_like_those_before_the_transfer_are_found) {
-    Options options;
-    options.coincident = Coincident::divide;
-    options.refine = Refine::exact;
+    Options options{.refine = Refine::exact, .coincident = Coincident::divide};
     // Rank 1 passes on one of the coincident points and gets another.
     const std::vector<double> two{0.5, 0.5, 0.5, 0.5};
     expect_loop(rank() == 0 ? two : std::vector<double>(rank() % 2 * 2, 0.5), options);
@@ -115,7 +99,7 @@ TEST(Ghosts, of_points_that_look_like_those_before_the_transfer_are_found) {
 }
 
 TEST(Ghosts, of_unusable_points_cuts_or_ranks_are_refused_on_all_ranks) {
-    const std::vector<double> x{0, test::is_last_rank() ? std::nan("") : 0};
+    const std::vector<double> x{0, is_last_rank() ? std::nan("") : 0};
     expect_refusal("is NaN or infinite", [&] {
         ghosts(slabs(), interleaved_points(x, 2), {.radius = 1}, MPI_COMM_WORLD);
     });
@@ -123,17 +107,17 @@ TEST(Ghosts, of_unusable_points_cuts_or_ranks_are_refused_on_all_ranks) {
     const Points points = interleaved_points(right, 2);
     expect_refusal("cuts must have the dimension of the points", [&] {
         Cuts cuts = slabs();
-        cuts.dimension = test::is_last_rank() ? 3 : 2;
+        cuts.dimension = is_last_rank() ? 3 : 2;
         ghosts(cuts, points, {.radius = 1}, MPI_COMM_WORLD);
     });
     expect_refusal("the tree must hold one cut less than there are parts", [&] {
         Cuts cuts = slabs();
-        if (test::is_last_rank()) cuts.tree.push_back({});
+        if (is_last_rank()) cuts.tree.push_back({});
         ghosts(cuts, points, {.radius = 1}, MPI_COMM_WORLD);
     });
     expect_refusal("must name ranks of this communicator", [&] {
         std::vector<RankRange> ranks(static_cast<std::size_t>(num_ranks()));
-        if (test::is_last_rank()) ranks[0].first_rank = num_ranks();
+        if (is_last_rank()) ranks[0].first_rank = num_ranks();
         ghosts(slabs(), points, {.radius = 1, .ranks_of_parts = ranks}, MPI_COMM_WORLD);
     });
     expect_refusal("one entry for each part", [&] {
@@ -146,7 +130,7 @@ TEST(Ghosts, of_arguments_that_differ_are_refused_on_all_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> x(2);
     const Points points = interleaved_points(x, 2);
-    const int other = test::is_last_rank() ? 1 : 0;
+    const int other = is_last_rank() ? 1 : 0;
     expect_refusal("the radius differs between rank 0 and rank",
                    [&] { ghosts(slabs(), points, {.radius = 1.0 + other}, MPI_COMM_WORLD); });
     expect_refusal("the tree of cuts differs between rank 0 and rank", [&] {
@@ -167,7 +151,7 @@ TEST(Fetch, by_a_plan_that_does_not_hold_together_is_refused_on_all_ranks) {
     const std::vector<int> values(1);
     const auto expect = [&](const std::string& text, const std::function<void(GhostPlan&)>& spoil) {
         GhostPlan wrong = right;
-        if (test::is_last_rank()) spoil(wrong);
+        if (is_last_rank()) spoil(wrong);
         expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": " + text,
                        [&] { fetch(wrong, values, MPI_COMM_WORLD); });
     };
@@ -199,7 +183,7 @@ TEST(Fetch, of_a_column_of_another_type_is_refused_on_all_ranks) {
     const std::vector<float> numbers(1);
     const std::vector<int> whole(1);
     expect_refusal("column 0 (the first is 0) has 1 per point, whole numbers of 4 bytes, but", [&] {
-        if (test::is_last_rank())
+        if (is_last_rank())
             fetch(plan, whole, MPI_COMM_WORLD);
         else
             fetch(plan, numbers, MPI_COMM_WORLD);

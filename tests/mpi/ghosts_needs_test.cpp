@@ -1,28 +1,16 @@
 // Ghosts by the radii of their receivers, compared with all pairs of points and images.
-#include "../support/clouds.hpp"
 #include "../support/distance.hpp"
-#include "../support/ranks.hpp"
 #include "../support/same_error.hpp"
+#include "held_points.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
 using test::distance;
-using test::num_ranks;
-using test::rank;
 
 constexpr Box unit{{0, 0, 0}, {1, 1, 1}};
 
@@ -71,20 +59,14 @@ struct Scene {
 Scene make_scene(int dimension, int num_parts, std::vector<double> positions,
                  std::vector<double> radii) {
     Scene scene{dimension, num_parts, std::move(positions), std::move(radii)};
-    Options options;
-    options.num_parts = num_parts;
-    const Balance whole =
-        balance(interleaved_points(scene.positions, dimension), options, {}, MPI_COMM_SELF);
+    test::HeldPoints all{dimension, scene.positions, scene.radii};
+    const Balance whole = test::divide_on_each_rank(all, num_parts);
     scene.cuts = whole.cuts;
     scene.parts = whole.parts;
-    for (int i = 0; i < scene.count(); ++i) {
-        const RankRange ranks = scene.ranks_of(scene.parts[static_cast<std::size_t>(i)]);
-        if (ranks.first_rank + i % ranks.count != rank()) continue;
-        scene.mine.push_back(i);
-        scene.radii_here.push_back(scene.radius(i));
-        const Vector x = scene.position(i);
-        scene.here.insert(scene.here.end(), x.begin(), x.begin() + dimension);
-    }
+    const test::Share mine(all);
+    scene.mine.assign(mine.indices.begin(), mine.indices.end());
+    scene.here = mine.coordinates;
+    scene.radii_here = mine.weights;
     return scene;
 }
 
@@ -221,7 +203,7 @@ TEST(GhostsThatNeed, something_else_on_another_rank_are_refused) {
                             "needs must be sender, receiver or either");
     if (num_ranks() == 1) return;
     test::expect_same_error(
-        [&] { find(test::is_last_rank() ? Needs::receiver : Needs::sender); },
+        [&] { find(is_last_rank() ? Needs::receiver : Needs::sender); },
         "needs differs between rank 0 and rank " + std::to_string(num_ranks() - 1));
 }
 

@@ -1,29 +1,16 @@
-#include "../support/clouds.hpp"
 #include "../support/distance.hpp"
-#include "../support/ranks.hpp"
 #include "../support/same_error.hpp"
+#include "held_points.hpp"
 #include "slabs.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
 using test::distance;
-using test::num_ranks;
-using test::rank;
 
 constexpr std::size_t num_points = 400;
 
@@ -44,19 +31,14 @@ struct Scene {
 
 Scene make_scene(int dimension) {
     Scene scene{dimension};
-    Options options;
-    options.num_parts = num_ranks();
-    const Balance whole =
-        balance(interleaved_points(scene.positions, dimension), options, {}, MPI_COMM_SELF);
-    scene.cuts = whole.cuts;
-    const auto d = static_cast<std::size_t>(dimension);
-    for (std::size_t i = 0; i < num_points; ++i) {
+    for (std::size_t i = 0; i < num_points; ++i)
         scene.radii.push_back(std::vector{0.0, 0.01, 0.1, 0.5, 2.0}[i % 5]);
-        if (whole.parts[i] != rank()) continue;
-        scene.mine.push_back(static_cast<int>(i));
-        scene.radii_here.push_back(scene.radii[i]);
-        for (std::size_t a = 0; a < d; ++a) scene.here.push_back(scene.positions[i * d + a]);
-    }
+    test::HeldPoints all{dimension, scene.positions, scene.radii};
+    scene.cuts = test::divide_on_each_rank(all, num_ranks()).cuts;
+    const test::Share mine(all);
+    scene.mine.assign(mine.indices.begin(), mine.indices.end());
+    scene.here = mine.coordinates;
+    scene.radii_here = mine.weights;
     return scene;
 }
 
@@ -131,7 +113,7 @@ TEST(GhostsOfRadii, are_those_of_one_radius_if_all_are_equal) {
 TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
     const std::vector<double> x(4);
     const auto refused = [&](const std::string& text, const std::vector<double>& wrong) {
-        const std::vector<double> radii = test::is_last_rank() ? wrong : std::vector{1.0, 0.0};
+        const std::vector<double> radii = is_last_rank() ? wrong : std::vector{1.0, 0.0};
         test::expect_same_error(
             [&] {
                 ghosts(test::slabs(), interleaved_points(x, 2), {.radii = radii}, MPI_COMM_WORLD);
@@ -153,17 +135,17 @@ TEST(GhostsOfRadii, on_some_ranks_alone_are_refused_unless_the_others_have_no_po
     const std::vector<double> x(2);
     const std::vector<double> radii(1);
     const auto find = [&](const Points& of_last) {
-        return test::is_last_rank() ? ghosts(test::slabs(), of_last, {}, MPI_COMM_WORLD)
-                                    : ghosts(test::slabs(), interleaved_points(x, 2),
-                                             {.radii = radii}, MPI_COMM_WORLD);
+        return is_last_rank() ? ghosts(test::slabs(), of_last, {}, MPI_COMM_WORLD)
+                              : ghosts(test::slabs(), interleaved_points(x, 2), {.radii = radii},
+                                       MPI_COMM_WORLD);
     };
     EXPECT_NO_THROW(find({.dimension = 2}));
     EXPECT_THROW(find(interleaved_points(x, 2)), Error);
     test::expect_same_error(
         [&] {
             const Points points = interleaved_points(x, 2);
-            test::is_last_rank() ? ghosts(test::slabs(), points, {.radius = 1}, MPI_COMM_WORLD)
-                                 : ghosts(test::slabs(), points, {.radii = radii}, MPI_COMM_WORLD);
+            is_last_rank() ? ghosts(test::slabs(), points, {.radius = 1}, MPI_COMM_WORLD)
+                           : ghosts(test::slabs(), points, {.radii = radii}, MPI_COMM_WORLD);
         },
         "whether radii are given differs between rank 0 and rank " +
             std::to_string(num_ranks() - 1) + "; give one for each point");

@@ -1,4 +1,5 @@
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/distance.hpp"
 #include "../support/ranks.hpp"
 #include "slabs.hpp"
@@ -7,21 +8,8 @@
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numeric>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -81,9 +69,7 @@ Division divide(const Cloud& cloud, int num_parts, int turn = 0) {
         const auto begin = cloud.coordinates.begin() + static_cast<std::ptrdiff_t>(i) * d;
         mine.insert(mine.end(), begin, begin + d);
     }
-    Options options;
-    options.num_parts = num_parts;
-    options.refine = Refine::exact;
+    Options options{.num_parts = num_parts, .refine = Refine::exact};
     const Balance balance =
         rrcb::balance(interleaved_points(mine, cloud.dimension), options, {}, MPI_COMM_WORLD);
     division.cuts = balance.cuts;
@@ -171,7 +157,7 @@ TEST(Ghosts, come_from_neighbours_alone_in_one_message_each) {
     const GhostPlan lists = ghosts(test::slabs(), points, {.radius = 0.2}, MPI_COMM_WORLD);
     std::vector<std::pair<int, LocalIndex>> expected;
     if (rank() > 0) expected.emplace_back(rank() - 1, 0);
-    if (!test::is_last_rank()) expected.emplace_back(rank() + 1, 2);
+    if (!is_last_rank()) expected.emplace_back(rank() + 1, 2);
     ASSERT_EQ(lists.send.size(), expected.size());
     ASSERT_EQ(lists.receive.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -202,7 +188,7 @@ TEST(Ghosts, at_exactly_the_radius_count) {
     const GhostPlan lists =
         ghosts(test::slabs(), interleaved_points(coordinates, 2), {.radius = 0.25}, MPI_COMM_WORLD);
     EXPECT_EQ(lists.send_indices,
-              test::is_last_rank() ? std::vector<LocalIndex>{} : std::vector<LocalIndex>{0});
+              is_last_rank() ? std::vector<LocalIndex>{} : std::vector<LocalIndex>{0});
 }
 
 TEST(Ghosts, go_to_no_rank_whose_part_is_empty) {

@@ -1,71 +1,39 @@
-#include "../support/clouds.hpp"
 #include "../support/distance.hpp"
-#include "../support/ranks.hpp"
 #include "../support/same_error.hpp"
+#include "held_points.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/groups.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <map>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
-using test::rank;
+/// Points that every rank knows, and their groups.
+struct Scene : test::HeldPoints {
+    explicit Scene(int dimension_of_points) { dimension = dimension_of_points; }
 
-/// Points that every rank knows, and their ranks.
-struct Scene {
-    int dimension;
-    std::vector<double> positions{};
-    std::vector<double> weights{};
     std::vector<std::uint64_t> keys{};
-    std::vector<int> ranks{};
 
-    std::size_t count() const { return keys.size(); }
     Vector position(std::size_t i) const {
-        return interleaved_points(positions, dimension).position(i);
+        return interleaved_points(coordinates, dimension).position(i);
     }
 };
 
 /// What this rank has of a scene.
-struct Share {
-    explicit Share(const Scene& scene) : dimension(scene.dimension) {
-        const auto d = static_cast<std::size_t>(dimension);
-        for (std::size_t i = 0; i < scene.count(); ++i) {
-            if (scene.ranks[i] != rank()) continue;
-            numbers.push_back(i);
-            keys.push_back(scene.keys[i]);
-            weights.push_back(scene.weights[i]);
-            for (std::size_t a = 0; a < d; ++a) positions.push_back(scene.positions[i * d + a]);
-        }
+struct Share : test::Share {
+    explicit Share(const Scene& scene) : test::Share(scene) {
+        for (const std::size_t i : indices) keys.push_back(scene.keys[i]);
     }
 
-    Points points() const { return interleaved_points(positions, dimension, weights); }
-
-    int dimension;
-    std::vector<std::size_t> numbers{};
     std::vector<std::uint64_t> keys{};
-    std::vector<double> weights{};
-    std::vector<double> positions{};
 };
 
 /// Groups of up to `most` points near each other, a fifth of the points without; every third rank
 /// is empty.
 Scene make_scene(int dimension, std::size_t num_points, std::size_t most, unsigned seed) {
-    Scene scene{dimension};
-    scene.positions = test::uniform_cloud(num_points, dimension, seed);
+    Scene scene(dimension);
+    scene.coordinates = test::uniform_cloud(num_points, dimension, seed);
     std::mt19937_64 engine(seed + 1);
     const auto d = static_cast<std::size_t>(dimension);
     std::uint64_t key = 0;
@@ -76,14 +44,14 @@ Scene make_scene(int dimension, std::size_t num_points, std::size_t most, unsign
             left = 1 + engine() % most;
         } else {
             for (std::size_t a = 0; a < d; ++a)
-                scene.positions[i * d + a] = scene.positions[(i - 1) * d + a] + 0.001;
+                scene.coordinates[i * d + a] = scene.coordinates[(i - 1) * d + a] + 0.001;
             --left;
         }
         scene.keys.push_back(engine() % 5 == 0 ? no_group : key);
         scene.weights.push_back(test::uniform(engine, 0.5, 1.5));
         int to = static_cast<int>(engine() % static_cast<std::uint64_t>(num_ranks()));
         if (to % 3 == 1 && num_ranks() > 2) to = 0;
-        scene.ranks.push_back(to);
+        scene.owners.push_back(to);
     }
     return scene;
 }
@@ -94,7 +62,7 @@ std::vector<std::vector<std::size_t>> expected_groups(const Scene& scene) {
     std::vector<std::vector<std::size_t>> all;
     for (int r = 0; r < num_ranks(); ++r) {
         for (std::size_t i = 0; i < scene.count(); ++i) {
-            if (scene.ranks[i] != r) continue;
+            if (scene.owners[i] != r) continue;
             if (scene.keys[i] == no_group) all.push_back({i});
             if (scene.keys[i] != no_group) by_key[scene.keys[i]].push_back(i);
         }
@@ -120,7 +88,7 @@ void expect_groups(const Scene& scene, GroupPlace place) {
     const auto d = static_cast<std::size_t>(scene.dimension);
     const std::vector<double> places = fetch(found, column(found.coordinates, d), MPI_COMM_WORLD);
     const std::vector<double> weights = fetch(found, found.weights, MPI_COMM_WORLD);
-    ASSERT_EQ(weights.size(), mine.numbers.size());
+    ASSERT_EQ(weights.size(), mine.indices.size());
     std::vector<double> squares;
     for (const double weight : mine.weights) {
         squares.push_back(1);
@@ -130,7 +98,7 @@ void expect_groups(const Scene& scene, GroupPlace place) {
     const std::vector<double> summed = fetch(found, column(sums_of_groups, 2), MPI_COMM_WORLD);
     std::size_t owned = 0;
     for (const std::vector<std::size_t>& group : expected_groups(scene)) {
-        owned += scene.ranks[group[0]] == rank() ? 1 : 0;
+        owned += scene.owners[group[0]] == rank() ? 1 : 0;
         const Vector centre =
             place == GroupPlace::centre ? centre_of(scene, group) : scene.position(group[0]);
         double weight = 0;
@@ -138,9 +106,9 @@ void expect_groups(const Scene& scene, GroupPlace place) {
         for (const std::size_t i : group) weight += scene.weights[i];
         for (const std::size_t i : group) square += scene.weights[i] * scene.weights[i];
         for (const std::size_t i : group) {
-            if (scene.ranks[i] != rank()) continue;
+            if (scene.owners[i] != rank()) continue;
             const auto k =
-                static_cast<std::size_t>(std::ranges::find(mine.numbers, i) - mine.numbers.begin());
+                static_cast<std::size_t>(std::ranges::find(mine.indices, i) - mine.indices.begin());
             EXPECT_NEAR(weights[k], weight, 1e-12 * weight);
             EXPECT_EQ(summed[2 * k], static_cast<double>(group.size()));
             EXPECT_NEAR(summed[2 * k + 1], square, 1e-12 * square);
@@ -167,7 +135,7 @@ TEST(Groups, hold_all_points_or_one_point_of_each_rank) {
     expect_groups(scene, GroupPlace::centre);
     for (std::size_t i = 0; i < scene.count(); ++i) scene.keys[i] = i % 17;
     expect_groups(scene, GroupPlace::first_point);
-    expect_groups({3}, GroupPlace::centre);
+    expect_groups(Scene(3), GroupPlace::centre);
 }
 
 /// Checks that points of a group share their part, that parts are those of the groups' places, and
@@ -177,7 +145,7 @@ void expect_whole(const Scene& scene, const Groups& found, const Balance& result
     const std::vector<Part> parts = fetch(found, result.parts, MPI_COMM_WORLD);
     EXPECT_EQ(assign_all(result.cuts, found.points(), MPI_COMM_WORLD), result.parts);
     std::vector<int> all(scene.count(), 0);
-    for (std::size_t k = 0; k < parts.size(); ++k) all[mine.numbers[k]] = parts[k] + 1;
+    for (std::size_t k = 0; k < parts.size(); ++k) all[mine.indices[k]] = parts[k] + 1;
     MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_INT, MPI_SUM,
                   MPI_COMM_WORLD);
     std::vector<double> weights(static_cast<std::size_t>(result.cuts.num_parts));
@@ -260,11 +228,11 @@ std::size_t missing_pairs(const Scene& scene, const std::vector<int>& owners, co
 }
 
 TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
-    Scene scene{2};
-    scene.positions = test::uniform_cloud(600, 2, 21);
+    Scene scene(2);
+    scene.coordinates = test::uniform_cloud(600, 2, 21);
     for (std::size_t i = 0; i < 600; ++i) scene.keys.push_back(i / 6);  // each all over the box
     scene.weights.assign(600, 1);
-    scene.ranks.assign(600, 0);
+    scene.owners.assign(600, 0);
     const Share first(scene);
     const Points points = first.points();
     const std::vector<std::uint64_t>& keys = first.keys;
@@ -274,21 +242,21 @@ TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
     balance = rrcb::balance(bonds.points(), {}, balance.cuts, comm);
     const std::vector<rrcb::Part> parts = rrcb::fetch(bonds, balance.parts, comm);
     const rrcb::Plan plan = rrcb::plan(parts, balance.cuts.num_parts, comm);
-    const std::vector<std::size_t> numbers = transfer(plan, first.numbers, comm);
+    const std::vector<std::size_t> numbers = transfer(plan, first.indices, comm);
     std::vector<int> owners(600);
     for (const std::size_t i : numbers) owners[i] = rank();
     MPI_Allreduce(MPI_IN_PLACE, owners.data(), 600, MPI_INT, MPI_SUM, comm);
-    scene.ranks = owners;
+    scene.owners = owners;
     const Share mine(scene);
     const Box region = box_of(balance.cuts, rank());
     double farthest = 0;
-    for (const std::size_t i : mine.numbers)
+    for (const std::size_t i : mine.indices)
         farthest =
             std::max(farthest, static_cast<double>(test::distance(scene.position(i), region, 2)));
     MPI_Allreduce(MPI_IN_PLACE, &farthest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     const auto missing = [&](double greater) {
         const GhostPlan near = ghosts(balance.cuts, mine.points(), {.radius = greater}, comm);
-        return missing_pairs(scene, owners, near, mine.numbers, 0.03);
+        return missing_pairs(scene, owners, near, mine.indices, 0.03);
     };
     EXPECT_EQ(missing(0.03 + farthest), 0u);
     const std::size_t with_less = missing(0.03);
@@ -303,7 +271,7 @@ TEST(Groups, that_do_not_fit_on_one_rank_are_refused_on_all) {
     const std::vector<double> x{rank() + 0.5, 0, rank() + 0.6, 0};
     const std::vector<std::uint64_t> keys{1, 2};
     const std::vector<std::uint64_t> none;
-    const bool last = test::is_last_rank();
+    const bool last = is_last_rank();
     expect_refusal("keys must have one entry for each point",
                    [&] { groups(interleaved_points(x, 2), last ? none : keys, MPI_COMM_WORLD); });
     const std::vector<double> wrong{0, std::nan(""), 0, 0};

@@ -1,17 +1,12 @@
 #pragma once
 
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
-
-#include <mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <vector>
 
 namespace rrcb::test {
 
@@ -51,6 +46,19 @@ struct Share {
 
     Points points() const { return interleaved_points(coordinates, dimension, weights); }
 };
+
+/// Divides the points by number, on each rank by itself, and gives them to the ranks of their
+/// parts.
+inline Balance divide_on_each_rank(HeldPoints& all, int num_parts) {
+    Balance whole = balance(interleaved_points(all.coordinates, all.dimension),
+                            {.num_parts = num_parts}, {}, MPI_COMM_SELF);
+    all.owners.clear();
+    for (std::size_t i = 0; i < all.count(); ++i) {
+        const RankRange ranks = ranks_of_part(whole.parts[i], num_parts, num_ranks());
+        all.owners.push_back(ranks.first_rank + static_cast<Part>(i) % ranks.count);
+    }
+    return whole;
+}
 
 /// Of the ranks, by count where all weights are 0.
 inline double imbalance_of(const HeldPoints& all, const Options& options) {

@@ -7,13 +7,7 @@
 #include <rrcb/ghosts.hpp>
 #include <rrcb/views.hpp>
 
-#include <gtest/gtest.h>
-
 #include <bit>
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <vector>
 
 namespace rrcb {
 namespace {
@@ -31,7 +25,7 @@ template <class T>
 struct Cloud {
     Cloud(std::size_t count, int dimension_of_points) : dimension(dimension_of_points) {
         for (const double x : test::uniform_cloud(count * static_cast<std::size_t>(dimension), 1,
-                                                  static_cast<unsigned>(5 + test::rank())))
+                                                  static_cast<unsigned>(5 + rank())))
             values.push_back(static_cast<T>(x));
         doubles.assign(values.begin(), values.end());
         const auto d = static_cast<std::size_t>(dimension);
@@ -96,18 +90,18 @@ void expect_same_bits(std::size_t count) {
 }
 
 TEST(Inputs, of_any_arrangement_give_the_same_bits) {
-    const bool is_empty = test::num_ranks() > 2 && test::rank() == 1;
+    const bool is_empty = num_ranks() > 2 && rank() == 1;
     expect_same_bits<double>(is_empty ? 0 : 1500);
     expect_same_bits<float>(is_empty ? 0 : 1500);
 }
 
 void expect_refusal(const Points& points, const std::string& text) {
     test::expect_same_error([&] { balance(points, {}, {}, MPI_COMM_WORLD); },
-                            "rank " + std::to_string(test::num_ranks() - 1) + ": " + text);
+                            "rank " + std::to_string(num_ranks() - 1) + ": " + text);
 }
 
 TEST(Inputs, that_are_unusable_on_one_rank_are_refused_on_all) {
-    const bool last = test::is_last_rank();
+    const bool last = is_last_rank();
     std::vector<float> x{0, 1, 2, 3};
     Points points = interleaved_points(x, 2);
     if (last) points.stride = static_cast<std::size_t>(-2);

@@ -6,19 +6,9 @@
 #include <rrcb/groups.hpp>
 #include <rrcb/rrcb.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <random>
-#include <set>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
-using test::rank;
 using Keys = std::vector<std::uint64_t>;
 
 /// Returns the joined key of each point, by repeated passes over all of them.
@@ -94,8 +84,7 @@ TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
     const Points points = interleaved_points(mine, 1);
     const Keys joined = join_keys(here(all, 2, homes), 2, MPI_COMM_WORLD);
     const Groups wells = groups(points, joined, MPI_COMM_WORLD);
-    Options options;
-    options.num_parts = 3;
+    Options options{.num_parts = 3};
     const Balance result = balance(wells.points(), options, {}, MPI_COMM_WORLD);
     const std::vector<Part> parts = fetch(wells, result.parts, MPI_COMM_WORLD);
     std::vector<Part> of_all(x.size(), -1);
@@ -115,7 +104,7 @@ TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
 }
 
 TEST(JoinedKeys, of_a_wrong_length_are_refused_on_all_ranks) {
-    const Keys keys(test::is_last_rank() ? 3 : 4);
+    const Keys keys(is_last_rank() ? 3 : 4);
     test::expect_same_error([&] { (void)join_keys(keys, 2, MPI_COMM_WORLD); }, "keys_per_point");
     test::expect_same_error([&] { (void)join_keys({}, 0, MPI_COMM_WORLD); }, "keys_per_point");
 }

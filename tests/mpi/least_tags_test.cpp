@@ -1,14 +1,10 @@
 // An MPI whose greatest tag is the least that the standard allows: the functions by which the
 // library sends and receives refuse any other.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <vector>
 
 namespace {
 
@@ -79,18 +75,15 @@ void call_all(const std::vector<double>& cloud, const Options& options) {
 }
 
 TEST(LeastTags, are_enough_for_any_number_of_calls) {
-    const std::vector<double> cloud =
-        test::uniform_cloud(50, 2, static_cast<unsigned>(test::rank()));
+    const std::vector<double> cloud = test::uniform_cloud(50, 2, static_cast<unsigned>(rank()));
     Options by_root;
-    Options by_many;
-    by_many.tuning.central_parts = 2;
-    by_many.cuts = HeldCuts::own;
+    Options by_many{.cuts = HeldCuts::own, .tuning = {.central_parts = 2}};
     // More calls than the numbers that tags distinguish, of every kind.
     for (int round = 0; round < 12; ++round) {
         call_all(cloud, by_root);
         call_all(cloud, by_many);
     }
-    if (test::num_ranks() > 1) {
+    if (num_ranks() > 1) {
         EXPECT_GT(greatest_tag, 100) << "no tag of a meeting was seen";
     }
 }

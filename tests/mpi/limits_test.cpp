@@ -1,23 +1,14 @@
 // Axes::min_width and Axes::grid on clouds large enough to be searched round by round.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <random>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -77,9 +68,7 @@ TEST(MinWidth, holds_for_every_part_while_the_rest_is_balanced) {
     const Box box = box_of_all(points);
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         for (const int num_parts : {2, 5, 12}) {
-            Options options;
-            options.refine = refine;
-            options.num_parts = num_parts;
+            Options options{.num_parts = num_parts, .refine = refine};
             const Balance free = balance(points, options, {}, MPI_COMM_WORLD);
             options.axes.min_width = {0.15, 0.1};
             const Balance wide = balance(points, options, {}, MPI_COMM_WORLD);
@@ -108,9 +97,7 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
     if (rank() == 0) coordinates = {0, 0, 8, 2};
     for (const double x : dense_corner(500, 2)) coordinates.push_back(2 * x);
     const Points points = interleaved_points(coordinates, 2);
-    Options options;
-    options.axes.min_width = {1, 0.5};
-    options.num_parts = 32;
+    Options options{.num_parts = 32, .axes = {.min_width = {1, 0.5}}};
     const Balance full = balance(points, options, {}, MPI_COMM_WORLD);
     for (const Cut& cut : full.cuts.tree) {
         const double unit = options.axes.min_width[static_cast<std::size_t>(cut.axis)];
@@ -131,10 +118,8 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
 TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
     const auto coordinates = dense_corner(1000, 3);
     const Points points = interleaved_points(coordinates, 2);
-    Options options;
-    options.num_parts = 4;
-    options.axes.min_width = {0.3, 0.1};
-    options.axes.order = AxisOrder::given({0, 0, 0});
+    Options options{.num_parts = 4,
+                    .axes = {.order = AxisOrder::given({0, 0, 0}), .min_width = {0.3, 0.1}}};
     EXPECT_EQ(
         message_of(points, options),
         "rank 0: axes.min_width leaves room for 3 x 4 parts side by side, not enough for the given "
@@ -150,10 +135,9 @@ TEST(Grid, holds_all_cuts_on_its_lines) {
     const Points points = interleaved_points(coordinates, 2);
     for (const double spacing : {0.3, 0.02, 1.0 / 1024, 1e-6}) {
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
-            Options options;
-            options.num_parts = 7;
-            options.refine = refine;
-            options.axes.grid = {{0.1, spacing}, {-7, spacing / 3}};
+            Options options{.num_parts = 7,
+                            .refine = refine,
+                            .axes = {.grid = {{0.1, spacing}, {-7, spacing / 3}}}};
             const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             for (const Cut& cut : result.cuts.tree) {
                 const auto axis = static_cast<std::size_t>(cut.axis);
@@ -177,9 +161,7 @@ TEST(Grid, holds_all_cuts_on_its_lines) {
 TEST(Grid, that_coordinates_cannot_tell_apart_is_refused) {
     std::vector<double> coordinates{1e15 + rank(), 3, 1e15, 4};
     const Points points = interleaved_points(coordinates, 2);
-    Options options;
-    options.num_parts = 2;
-    options.axes.grid = {{0, 0.1}, {0, 0.1}};
+    Options options{.num_parts = 2, .axes = {.grid = {{0, 0.1}, {0, 0.1}}}};
     EXPECT_EQ(message_of(points, options),
               "rank 0: axes.grid is finer along axis 0 than doubles resolve at these coordinates; "
               "give a larger "
@@ -189,8 +171,7 @@ TEST(Grid, that_coordinates_cannot_tell_apart_is_refused) {
 TEST(Limits, that_differ_between_ranks_are_an_error_on_all) {
     if (num_ranks() == 1) GTEST_SKIP();
     const auto coordinates = dense_corner(1000, 5);
-    Options options;
-    options.axes.min_width = {0.1, rank() == num_ranks() - 1 ? 0.1 : 0.2};
+    Options options{.axes = {.min_width = {0.1, rank() == num_ranks() - 1 ? 0.1 : 0.2}}};
     const std::string message = message_of(interleaved_points(coordinates, 2), options);
     EXPECT_NE(message.find("axes.min_width, axes.grid differs between rank"), std::string::npos)
         << message;
@@ -200,8 +181,7 @@ TEST(Limits, move_earlier_cuts_that_break_them) {
     const auto coordinates = dense_corner(6000, 6);
     const Points points = interleaved_points(coordinates, 2);
     const Box box = box_of_all(points);
-    Options options;
-    options.num_parts = 12;
+    Options options{.num_parts = 12};
     const Cuts previous = balance(points, options, {}, MPI_COMM_WORLD).cuts;
     for (const Refine refine : {Refine::none, Refine::tolerance}) {
         options.refine = refine;
@@ -226,11 +206,10 @@ TEST(Limits, hold_where_nothing_has_weight) {
         for (std::size_t i = 0; i < coordinates.size(); i += 2)
             weights.push_back(std::fmod(coordinates[i], 0.25) < 0.02 ? 1 : 0);
         const Points points = interleaved_points(coordinates, 2, weights);
-        Options options;
-        options.num_parts = 11;
-        options.tuning.support_mesh = 1;
-        options.refine = Refine::exact;
-        options.axes.min_width = {0.07, 0.07};
+        Options options{.num_parts = 11,
+                        .refine = Refine::exact,
+                        .axes = {.min_width = {0.07, 0.07}},
+                        .tuning = {.support_mesh = 1}};
         const Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), 0.07) << seed;
         EXPECT_GE(least_width(cuts, box_of_all(points), 1), 0.07) << seed;
@@ -247,11 +226,10 @@ TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
     if (rank() > 0) coordinates.clear();
     if (rank() > 0) weights.clear();
     const Points points = interleaved_points(coordinates, 1, weights);
-    Options options;
-    options.num_parts = 10;
-    options.imbalance_tolerance = 1.3;
-    options.coincident = Coincident::divide;
-    options.axes.min_width = {width};
+    Options options{.num_parts = 10,
+                    .imbalance_tolerance = 1.3,
+                    .coincident = Coincident::divide,
+                    .axes = {.min_width = {width}}};
     for (const bool larger_below : {false, true}) {
         options.tree.larger_below = larger_below;
         const Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
@@ -262,10 +240,8 @@ TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
 }
 
 TEST(Limits, need_no_points) {
-    Options options;
-    options.axes.min_width = {1, 1, 1};
-    options.axes.grid = {{0, 1}, {0, 1}, {0, 1}};
-    options.num_parts = 9;
+    Options options{.num_parts = 9,
+                    .axes = {.min_width = {1, 1, 1}, .grid = {{0, 1}, {0, 1}, {0, 1}}}};
     const Balance result = balance(interleaved_points({}, 3), options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(result.cuts.tree.size(), 8u);
 }

@@ -4,18 +4,8 @@
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <functional>
-#include <numeric>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Machine of each rank of a communicator, by the rank and the number of ranks.
 std::function<int(int, int)> machine_of = [](int, int) { return 0; };
@@ -66,8 +56,7 @@ TEST(Machines, are_the_groups_of_the_tree_where_halving_would_divide_them) {
 }
 
 TEST(Machines, count_several_parts_on_a_rank) {
-    Options options;
-    options.num_parts = 3 * num_ranks();
+    Options options{.num_parts = 3 * num_ranks()};
     for (const int size : {2, 3, 4})
         EXPECT_EQ(group_size(blocks_of(size), options), matters(size) ? 3 * size : 1) << size;
     options.num_parts = 3 * num_ranks() + 1;
@@ -92,8 +81,7 @@ TEST(Machines, to_which_ranks_are_dealt_in_turn_have_the_parts_of_these_ranks) {
         }
         for (const int parts_each : {1, 3}) {
             SCOPED_TRACE(testing::Message() << machines << " machines, " << parts_each << " parts");
-            Options options;
-            options.num_parts = parts_each * num_ranks();
+            Options options{.num_parts = parts_each * num_ranks()};
             with_machines(dealt_to(machines), [&](MPI_Comm comm) {
                 const Balance made = balance(cloud.points, options, {}, comm);
                 const int size = (num_ranks() - 1) / machines + 1;
@@ -128,8 +116,7 @@ TEST(Machines, that_are_not_alike_are_not_looked_at) {
 }
 
 TEST(Machines, leave_a_tree_that_was_asked_for) {
-    Options options;
-    options.tree = TreeShape{};
+    Options options{.tree = TreeShape{}};
     EXPECT_EQ(group_size(blocks_of(2), options), 1);
     options.tree.group_size = 4;
     EXPECT_EQ(group_size(blocks_of(2), options), 4);
@@ -138,9 +125,8 @@ TEST(Machines, leave_a_tree_that_was_asked_for) {
 TEST(Machines, ask_for_the_shape_of_the_tree_that_given_axes_are_for) {
     if (!matters(2)) return;
     const Cloud cloud(2);
-    Options options;
-    options.axes.order =
-        AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 0));
+    Options options{.axes = {.order = AxisOrder::given(
+                                 std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 0))}};
     with_machines(blocks_of(2), [&](MPI_Comm comm) {
         EXPECT_THROW(balance(cloud.points, options, {}, comm), Error);
         options.tree.group_size = 2;
@@ -182,8 +168,7 @@ void expect_fewer_ghosts(std::function<int(int, int)> machine) {
         SCOPED_TRACE(dimension);
         const Cloud cloud(dimension, 24000);
         with_machines(machine, [&](MPI_Comm comm) {
-            Options halving;
-            halving.tree = TreeShape{};
+            Options halving{.tree = TreeShape{}};
             const Balance halved = balance(cloud.points, halving, {}, comm);
             const Balance grouped = balance(cloud.points, {}, {}, comm);
             const auto [off, all] = ghosts_of(grouped, cloud, comm);

@@ -1,26 +1,14 @@
 // A call between neighbours that fails on a rank fails on all, each within as many calls as it is
 // away; nobody hangs, no point is lost, and the next balance is right.
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <functional>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 const MPI_Comm world = MPI_COMM_WORLD;
 
@@ -29,8 +17,7 @@ class Row : public testing::Test {
   protected:
     /// Long rows exceed what MPI sends before the receiver asks for it.
     explicit Row(std::size_t words = 4000) : words_(words) {
-        Options options;
-        options.num_parts = num_ranks();
+        Options options{.num_parts = num_ranks()};
         std::vector<double> all;
         for (int i = 0; i < per_rank * num_ranks(); ++i) all.push_back((i + 0.5) / per_rank);
         cuts_ = balance(interleaved_points(all, 1), options, {}, MPI_COMM_SELF).cuts;

@@ -1,21 +1,10 @@
 #pragma once
 
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numeric>
-#include <optional>
-#include <random>
-#include <string>
-#include <tuple>
-#include <vector>
 
 namespace rrcb::test {
 

@@ -12,8 +12,6 @@ namespace {
 
 using test::NeighbourCase;
 using test::NeighbourRun;
-using test::num_ranks;
-using test::rank;
 
 const MPI_Comm world = MPI_COMM_WORLD;
 

@@ -1,12 +1,8 @@
 // Calls before MPI_Init and after MPI_Finalize are errors, in C as well.
+#include "../support/common.hpp"
+
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
-
-#include <gtest/gtest.h>
-
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace rrcb {
 namespace {

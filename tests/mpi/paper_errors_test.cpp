@@ -4,19 +4,10 @@
 #include <rrcb/error.hpp>
 #include <rrcb/paper.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-
 namespace rrcb {
 namespace {
 
 using test::crowded_share;
-using test::is_last_rank;
-using test::num_ranks;
-using test::rank;
 using test::Share;
 using test::weighted_share;
 
@@ -36,8 +27,7 @@ std::string last_rank() {
 
 TEST(PaperErrors, of_points_of_one_rank_reach_all) {
     for (const PaperDomain domain : {PaperDomain::sampled, PaperDomain::points}) {
-        PaperOptions options;
-        options.domain = domain;
+        PaperOptions options{.domain = domain};
         Share broken = crowded_share(rank());
         if (is_last_rank()) broken.coordinates[3] = nan;
         expect_error(broken, options, last_rank() + "coordinate of point 1 on axis 1");
@@ -74,8 +64,7 @@ TEST(PaperErrors, of_options_name_the_range) {
 }
 
 TEST(PaperErrors, of_a_mesh_in_space_begin_at_257_cells) {
-    PaperOptions options;
-    options.support_mesh = 257;
+    PaperOptions options{.support_mesh = 257};
     expect_error(weighted_share(rank()), options, "in 3-D 1 ... 256");
 }
 

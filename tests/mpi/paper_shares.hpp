@@ -1,12 +1,10 @@
 #pragma once
 
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/points.hpp>
-
-#include <functional>
-#include <vector>
 
 namespace rrcb::test {
 

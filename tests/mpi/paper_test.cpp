@@ -4,24 +4,12 @@
 #include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
-#include <numeric>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
 using test::crowded_share;
 using test::lattice_share;
 using test::MakeShare;
-using test::num_ranks;
-using test::rank;
 using test::Share;
 using test::weighted_share;
 
@@ -128,10 +116,9 @@ TEST(PaperRcb, gives_the_parts_of_a_bisection_by_sorting) {
         for (const std::vector<double>& sizes :
              {std::vector<double>(4, 1.0), std::vector<double>(6, 1.0), std::vector<double>(13, 2),
               std::vector<double>{1, 0, 3, 0.5}, std::vector<double>{0, 2, 0}}) {
-            PaperOptions options;
-            options.domain = PaperDomain::points;
-            options.num_parts = static_cast<int>(sizes.size());
-            options.part_sizes = sizes;
+            PaperOptions options{.num_parts = static_cast<int>(sizes.size()),
+                                 .part_sizes = sizes,
+                                 .domain = PaperDomain::points};
             const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
             EXPECT_EQ(result.parts, sorted_parts(make, sizes));
         }
@@ -163,11 +150,10 @@ TEST(PaperRrcb, bisects_the_sampled_points_of_the_cells_of_all_ranks) {
         const Share mine = make(rank());
         for (const int mesh : {1, 4, 7}) {
             for (const CutRule rule : {CutRule::weighted_fraction, CutRule::midpoint}) {
-                PaperOptions options;
-                options.num_parts = 6;
-                options.support_mesh = mesh;
-                options.sample_fraction = mesh == 4 ? 0.25 : 1;
-                options.seed = static_cast<std::uint64_t>(mesh);
+                PaperOptions options{.num_parts = 6,
+                                     .support_mesh = mesh,
+                                     .sample_fraction = mesh == 4 ? 0.25 : 1,
+                                     .seed = static_cast<std::uint64_t>(mesh)};
                 if (mesh == 7) options.part_sizes = {0, 3, 0, 0, 1, 2};
                 options.cut_rule = rule;
                 const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
@@ -193,9 +179,7 @@ TEST(PaperRrcb, comes_nearer_to_the_points_with_a_finer_mesh) {
     for (double& x : cloud) x = x * x * x;
     const Points points = interleaved_points(cloud, 2);
     const auto imbalance_with = [&](int mesh) {
-        PaperOptions options;
-        options.num_parts = 4;
-        options.support_mesh = mesh;
+        PaperOptions options{.num_parts = 4, .support_mesh = mesh};
         const Balance result = balance_as_in_paper(points, options, MPI_COMM_WORLD);
         return imbalance(part_weights(points, result.parts, 4, MPI_COMM_WORLD));
     };
@@ -209,9 +193,7 @@ TEST(Paper, reports_what_it_bisected_and_measures_nothing) {
     const Points points = all.points();
     const double total = std::accumulate(all.weights.begin(), all.weights.end(), 0.0);
     for (const PaperDomain domain : domains) {
-        PaperOptions options;
-        options.domain = domain;
-        options.num_parts = 3;
+        PaperOptions options{.num_parts = 3, .domain = domain};
         const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
         const Report& report = result.report;
         EXPECT_EQ(report.details.num_points, static_cast<GlobalCount>(points.count));
@@ -232,8 +214,7 @@ TEST(Paper, reports_what_it_bisected_and_measures_nothing) {
 
 TEST(Paper, reports_the_least_imbalance_of_points_of_one_weight) {
     const std::vector<double> x(rank() == 0 ? 4 : 0, 0.5);
-    PaperOptions options;
-    options.num_parts = 3;
+    PaperOptions options{.num_parts = 3};
     for (const PaperDomain domain : domains) {
         options.domain = domain;
         const Balance result =
@@ -246,9 +227,7 @@ TEST(Paper, balances_by_number_if_all_weights_are_zero) {
     Share mine = crowded_share(rank());
     mine.weights.assign(300, 0.0);
     for (const PaperDomain domain : domains) {
-        PaperOptions options;
-        options.domain = domain;
-        options.num_parts = 4;
+        PaperOptions options{.num_parts = 4, .domain = domain};
         const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
         EXPECT_TRUE(result.report.details.all_weights_zero);
         mine.weights.clear();

@@ -1,28 +1,15 @@
-#include "../support/clouds.hpp"
 #include "../support/distance.hpp"
-#include "../support/ranks.hpp"
+#include "held_points.hpp"
 #include "slabs.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
 using test::distance;
-using test::num_ranks;
-using test::rank;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -82,19 +69,11 @@ Scene make_scene(int dimension, unsigned axes, int num_parts) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
         if ((axes >> a & 1) != 0)
             std::tie(scene.box.lower[a], scene.box.upper[a]) = std::pair(-1., .5);
-    Options options;
-    options.num_parts = num_parts;
-    const Balance whole =
-        balance(interleaved_points(scene.positions, dimension), options, {}, MPI_COMM_SELF);
-    scene.cuts = whole.cuts;
-    for (int i = 0; i < scene.count(); ++i) {
-        const Part part = whole.parts[static_cast<std::size_t>(i)];
-        const RankRange ranks = ranks_of_part(part, num_parts, num_ranks());
-        if (ranks.first_rank + i % ranks.count != rank()) continue;
-        scene.mine.push_back(i);
-        const Vector x = scene.image(i, {});
-        scene.here.insert(scene.here.end(), x.begin(), x.begin() + dimension);
-    }
+    test::HeldPoints all{dimension, scene.positions};
+    scene.cuts = test::divide_on_each_rank(all, num_parts).cuts;
+    const test::Share mine(all);
+    scene.mine.assign(mine.indices.begin(), mine.indices.end());
+    scene.here = mine.coordinates;
     return scene;
 }
 
@@ -310,7 +289,7 @@ TEST(PeriodicGhosts, in_no_usable_box_are_refused_on_all_ranks) {
     const Scene scene = make_scene(2, 1, 1);
     const auto refused = [&](const std::string& text, double radius, double lower, double upper) {
         GhostOptions options{radius, {}, scene.box, {}};
-        if (test::is_last_rank()) {
+        if (is_last_rank()) {
             options.periodic->lower[0] = lower;
             options.periodic->upper[0] = upper;
         }

@@ -5,18 +5,8 @@
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <numeric>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 TEST(RanksOfPart, remainder_goes_to_the_last_ranks) {
     // 7 parts on 3 ranks: 2, 2, 3.
@@ -85,7 +75,7 @@ TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
 
 TEST(PartWeights, of_points_without_a_part_are_refused_on_all_ranks) {
     const std::vector<double> x(2);
-    const std::vector<Part> parts(test::is_last_rank() ? 1 : 2);
+    const std::vector<Part> parts(is_last_rank() ? 1 : 2);
     test::expect_same_error(
         [&] { part_weights(interleaved_points(x, 1), parts, 2, MPI_COMM_WORLD); },
         "rank " + std::to_string(num_ranks() - 1) +
@@ -114,7 +104,7 @@ const std::vector<Call>& calls() {
 }
 
 TEST(Parts, that_are_none_on_one_rank_are_refused_on_all) {
-    const std::vector<Part> parts{test::is_last_rank() ? 7 : 0};
+    const std::vector<Part> parts{is_last_rank() ? 7 : 0};
     for (const Call& call : calls())
         test::expect_same_error(
             [&] { call(parts, 2); },
@@ -128,7 +118,7 @@ TEST(Parts, of_numbers_that_differ_are_refused_on_all_ranks) {
     const std::vector<Part> parts(5);
     for (const Call& call : calls())
         for (const int other : {2, 3, 5000}) {
-            test::expect_same_error([&] { call(parts, test::is_last_rank() ? other : 1); },
+            test::expect_same_error([&] { call(parts, is_last_rank() ? other : 1); },
                                     "num_parts differs between rank 0 and rank " +
                                         std::to_string(num_ranks() - 1) +
                                         "; give the same value on every rank");
@@ -159,7 +149,7 @@ TEST(Parts, that_are_no_number_of_are_refused_on_all_ranks) {
     for (const int num_parts : {0, -1})
         for (const Call& call : calls()) {
             EXPECT_THROW(call({}, num_parts), Error);
-            EXPECT_THROW(call({}, test::is_last_rank() ? num_parts : 1), Error);
+            EXPECT_THROW(call({}, is_last_rank() ? num_parts : 1), Error);
         }
 }
 

@@ -1,4 +1,5 @@
 // Counts between ranks, against a number for each pair of them.
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
@@ -6,17 +7,8 @@
 
 #include <rrcb/error.hpp>
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Of counts that are a LocalIndex.
 constexpr int shifts = std::numeric_limits<LocalIndex>::digits - 24;
@@ -82,7 +74,7 @@ TEST(RankCounts, that_contradict_a_plan_are_told_of_where_nothing_else_failed) {
     const std::string last = std::to_string(num_ranks() - 1);
     for (const bool only : {true, false}) {
         Participant self{mpi::enter(MPI_COMM_WORLD, CallName::none).comm};
-        if (!only && test::is_last_rank())
+        if (!only && is_last_rank())
             self.attempt([] { throw Error(ErrorCode::internal, "broken"); });
         self.compare([] { throw Error(ErrorCode::invalid_argument, "other counts"); });
         expect(self, only ? "rank 0: other counts" : "rank " + last + ": broken");

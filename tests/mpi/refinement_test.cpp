@@ -3,22 +3,11 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numeric>
-#include <string>
-#include <vector>
 
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
-using test::rank;
 using test::share_of_cloud;
 using test::three_columns;
 
@@ -61,9 +50,7 @@ TEST(Refinement, exact_leaves_each_part_within_one_object_of_the_ideal) {
             for (const int num_parts : {2, 5, 8}) {
                 const auto mine = share_of_cloud(4096, dimension, cloud.coordinate);
                 const Points points = interleaved_points(mine, dimension);
-                Options options;
-                options.refine = Refine::exact;
-                options.num_parts = num_parts;
+                Options options{.num_parts = num_parts, .refine = Refine::exact};
                 const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
                 const auto weights = part_weights(points, result.parts, num_parts, MPI_COMM_WORLD);
                 for (const double weight : weights)
@@ -80,17 +67,14 @@ TEST(Refinement, exact_leaves_each_part_within_one_object_of_the_ideal) {
 
 TEST(Refinement, a_good_estimate_takes_one_look) {
     const auto mine = share_of_cloud(100000, 2, [](std::size_t, int, double u) { return u; });
-    Options options;
-    options.num_parts = 4;
+    Options options{.num_parts = 4};
     const Balance result = balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(result.report.details.rounds, 1);
 }
 
 TEST(Refinement, exact_takes_two_rounds_a_level_on_a_smooth_cloud) {
     const auto mine = share_of_cloud(40000, 2, [](std::size_t, int, double u) { return u; });
-    Options options;
-    options.refine = Refine::exact;
-    options.num_parts = 8;
+    Options options{.num_parts = 8, .refine = Refine::exact};
     const Balance result = balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD);
     EXPECT_LE(result.report.details.rounds, 2 * 3);
 }
@@ -101,9 +85,7 @@ TEST(Refinement, takes_at_most_sixteen_rounds_a_level_over_hundreds_of_decades) 
             20000, 2, [&](std::size_t, int, double u) { return std::pow(10, -decades * u); });
         const Points points = interleaved_points(mine, 2);
         for (const Refine refine : {Refine::tolerance, Refine::exact}) {
-            Options options;
-            options.refine = refine;
-            options.num_parts = 8;
+            Options options{.num_parts = 8, .refine = refine};
             const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             EXPECT_LE(result.report.imbalance, refine == Refine::exact ? 1.0004 : 1.01);
             EXPECT_LE(result.report.details.rounds, 1 + 16 * 3) << decades << " decades";
@@ -117,9 +99,7 @@ TEST(Refinement, fewer_points_than_parts_leave_cuts_that_are_numbers) {
         rank() == 0 ? std::vector<double>{0, 1, 2, 3} : std::vector<double>();
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         for (const int num_parts : {3, 4, 9}) {
-            Options options;
-            options.refine = refine;
-            options.num_parts = num_parts;
+            Options options{.num_parts = num_parts, .refine = refine};
             const Points points = interleaved_points(mine, 2);
             const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
             for (const Cut& cut : result.cuts.tree)
@@ -133,8 +113,7 @@ TEST(Refinement, fewer_points_than_parts_leave_cuts_that_are_numbers) {
 TEST(EarlierCuts, of_the_same_points_are_found_good_at_one_look) {
     const auto mine = share_of_cloud(4000, 2, [](std::size_t, int, double u) { return u * u; });
     const Points points = interleaved_points(mine, 2);
-    Options options;
-    options.num_parts = 6;
+    Options options{.num_parts = 6};
     const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
     const Balance second = balance(points, options, first.cuts, MPI_COMM_WORLD);
     EXPECT_EQ(second.report.details.rounds, 1);
@@ -145,9 +124,7 @@ TEST(EarlierCuts, of_the_same_points_are_found_good_at_one_look) {
 TEST(EarlierCuts, make_room_for_other_part_sizes) {
     const auto mine = share_of_cloud(4000, 2, [](std::size_t, int, double u) { return u; });
     const Points points = interleaved_points(mine, 2);
-    Options options;
-    options.refine = Refine::exact;
-    options.num_parts = 4;
+    Options options{.num_parts = 4, .refine = Refine::exact};
     const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
     options.part_sizes = {0, 2, 1, 1};
     const Balance second = balance(points, options, first.cuts, MPI_COMM_WORLD);
@@ -159,10 +136,8 @@ TEST(EarlierCuts, make_room_for_other_part_sizes) {
 TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
     const std::vector<double> mine = three_columns();
     const Points points = interleaved_points(mine, 2);
-    Options options;
-    options.refine = Refine::exact;
-    options.num_parts = 2;
-    options.axes.order = AxisOrder::longest();
+    Options options{
+        .num_parts = 2, .refine = Refine::exact, .axes = {.order = AxisOrder::longest()}};
     const Balance tilted = balance(points, options, {}, MPI_COMM_WORLD);
     ASSERT_GT(tilted.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
     options.axes.plain = true;

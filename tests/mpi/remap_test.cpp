@@ -4,19 +4,9 @@
 #include <rrcb/error.hpp>
 #include <rrcb/remap.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <string>
-
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
-using test::rank;
 using test::ranks_of_parts;
 
 TEST(Remap, undoes_a_rotation_of_the_parts) {
@@ -223,7 +213,7 @@ TEST(Remap, refuses_groups_without_parts_and_different_ones) {
     const std::vector<RankRange> ranks = ranks_of_parts(3);
     EXPECT_THROW(remap({}, ranks, MPI_COMM_WORLD, {-1}), Error);
     if (num_ranks() == 1) return;
-    EXPECT_THROW(remap({}, ranks, MPI_COMM_WORLD, {test::is_last_rank() ? 2 : 3}), Error);
+    EXPECT_THROW(remap({}, ranks, MPI_COMM_WORLD, {is_last_rank() ? 2 : 3}), Error);
 }
 
 TEST(Remap, undoes_a_rotation_of_few_and_of_many_parts) {
@@ -245,7 +235,7 @@ TEST(Remap, undoes_a_rotation_of_few_and_of_many_parts) {
 
 TEST(Remap, needs_no_previous_parts_on_a_rank_without_points) {
     const std::vector<RankRange> ranks = ranks_of_parts(2 * num_ranks());
-    std::vector<Part> parts(test::is_last_rank() ? 0 : 3, 2 * rank() + 1);
+    std::vector<Part> parts(is_last_rank() ? 0 : 3, 2 * rank() + 1);
     const std::vector<Part> previous(parts.size(), 2 * rank());
     const Remap expected = remap(parts, previous, ranks, MPI_COMM_WORLD);
     const Remap found = parts.empty() ? remap(parts, ranks, MPI_COMM_WORLD)
@@ -264,17 +254,17 @@ TEST(Remap, refuses_arguments_that_differ_between_ranks) {
     };
     const std::vector<Part> parts(3);
     for (const int other : {1, 129, 10000}) {
-        const std::vector<RankRange> ranks = ranks_of_parts(test::is_last_rank() ? other : 100);
+        const std::vector<RankRange> ranks = ranks_of_parts(is_last_rank() ? other : 100);
         expect_difference("ranks_of_parts", [&] { remap(parts, ranks, MPI_COMM_WORLD); });
         expect_difference("ranks_of_parts", [&] { remap(parts, parts, ranks, MPI_COMM_WORLD); });
     }
     std::vector<RankRange> elsewhere = ranks_of_parts(2);
-    if (test::is_last_rank()) elsewhere[1].first_rank = 0;
+    if (is_last_rank()) elsewhere[1].first_rank = 0;
     expect_difference("ranks_of_parts", [&] { remap(parts, elsewhere, MPI_COMM_WORLD); });
     test::expect_same_error(
         [&] {
-            test::is_last_rank() ? (void)remap(parts, ranks_of_parts(3), MPI_COMM_WORLD)
-                                 : (void)remap(parts, parts, ranks_of_parts(3), MPI_COMM_WORLD);
+            is_last_rank() ? (void)remap(parts, ranks_of_parts(3), MPI_COMM_WORLD)
+                           : (void)remap(parts, parts, ranks_of_parts(3), MPI_COMM_WORLD);
         },
         "whether previous is given differs between rank 0 and rank " +
             std::to_string(num_ranks() - 1) + "; give the earlier part of each point");
@@ -292,11 +282,11 @@ TEST(Remap, refuses_on_all_ranks_what_one_gets_wrong) {
     const std::vector<Part> too_few{0, 0};
     for (const Part bad : {-1, num_ranks()}) {
         const std::vector<Part> wrong{0, bad, 0};
-        expect_error(test::is_last_rank() ? wrong : fine, fine,
+        expect_error(is_last_rank() ? wrong : fine, fine,
                      "part " + std::to_string(bad) + " of point 1 is none of the " + number +
                          " parts; they count from 0");
     }
-    expect_error(fine, test::is_last_rank() ? too_few : fine,
+    expect_error(fine, is_last_rank() ? too_few : fine,
                  "previous has 2 entries, parts has 3; give one of each per point");
 }
 

@@ -1,4 +1,5 @@
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
@@ -6,19 +7,10 @@
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <random>
-#include <string>
 
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Objects of very different weight, dealt out to the ranks.
 struct WeightedCloud {
@@ -103,9 +95,7 @@ TEST(Report, measures_parts_of_tiny_sizes_as_they_are) {
         if (i % num_ranks() == rank()) mine.push_back(i);
     const Points points = interleaved_points(mine, 1);
     for (const double tiny : {1e-310, 1e-120, 1e-20}) {
-        Options options;
-        options.num_parts = 3;
-        options.part_sizes = {1, tiny, 1};
+        Options options{.num_parts = 3, .part_sizes = {1, tiny, 1}};
         for (const Refine refine : {Refine::tolerance, Refine::exact}) {
             options.refine = refine;
             const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
@@ -119,8 +109,7 @@ TEST(Report, measures_parts_of_tiny_sizes_as_they_are) {
 TEST(Measures, of_a_balance_are_those_of_its_parts) {
     const std::vector<double> mine = test::uniform_cloud(500, 2, static_cast<unsigned>(rank() + 1));
     const Points points = interleaved_points(mine, 2);
-    Options options;
-    options.num_parts = 2 * num_ranks() + 1;
+    Options options{.num_parts = 2 * num_ranks() + 1};
     const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, result, MPI_COMM_WORLD),
               part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD));
@@ -150,9 +139,7 @@ TEST(PartSizes, of_any_magnitude_mean_the_same) {
     for (const double weight : {1.0, 1e300, 1e-300}) {
         const std::vector<double> weights(500, weight);
         const Points points = interleaved_points(mine, 2, weights);
-        Options options;
-        options.num_parts = 4;
-        options.part_sizes = {3, 1, 2, 2};
+        Options options{.num_parts = 4, .part_sizes = {3, 1, 2, 2}};
         const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
         EXPECT_LE(first.report.imbalance, 1.01);
         for (const double scale : {0x1p-1030, 0x1p1000}) {
@@ -186,8 +173,7 @@ TEST(PartSizes, of_zero_keep_a_part_empty_of_weightless_points_too) {
         for (const Part part : result.parts) EXPECT_GT(sizes[static_cast<std::size_t>(part)], 0);
     };
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
-        Options options;
-        options.refine = refine;
+        Options options{.refine = refine};
         expect_empty(interleaved_points(many, 2, weights), {2, 1e-4, 0}, options);
         expect_empty(interleaved_points(many, 2, weights), {0, 3, 0, 0, 1}, options);
         expect_empty(interleaved_points(few, 1), {1, 0, 2, 2, 2}, options);

@@ -1,19 +1,10 @@
 // Points at rest, balanced again and again without earlier cuts: after two calls nothing moves.
 #include "held_points.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
 using test::HeldPoints;
-using test::num_ranks;
 
 /// Several points at each site of a lattice.
 struct Lattice {
@@ -86,9 +77,7 @@ void expect_rest_on(const Lattice& lattice) {
                 SCOPED_TRACE("weights " + kind.name + ", refine " +
                              std::to_string(static_cast<int>(refine)) + ", coincident " +
                              std::to_string(static_cast<int>(coincident)));
-                Options options;
-                options.refine = refine;
-                options.coincident = coincident;
+                Options options{.refine = refine, .coincident = coincident};
                 expect_rest(all, options);
             }
     }

@@ -6,22 +6,12 @@
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bit>
-#include <cstdint>
-#include <cstring>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace rrcb {
 namespace {
 
 using test::expect_same_error;
-using test::num_ranks;
-using test::rank;
 
 using Bytes = std::vector<std::byte>;
 
@@ -144,8 +134,7 @@ TEST(Restart, uses_costs_from_the_first_step_on_with_another_number_of_ranks) {
 Cuts cuts_of(int num_parts) {
     const std::vector<double> cloud =
         test::uniform_cloud(200, 2, static_cast<unsigned>(rank() + 3));
-    Options options;
-    options.num_parts = num_parts;
+    Options options{.num_parts = num_parts};
     return balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD).cuts;
 }
 
@@ -173,8 +162,7 @@ TEST(Restart, reads_cuts_on_any_ranks_and_in_either_byte_order) {
         parts = assign_all(loaded, points, MPI_COMM_WORLD);
         EXPECT_EQ(parts, expected);
         (void)transfer(plan(parts, 8, MPI_COMM_WORLD), column(cloud, 2), MPI_COMM_WORLD);
-        Options options;
-        options.num_parts = 7;
+        Options options{.num_parts = 7};
         expect_same_error([&] { (void)balance(points, options, loaded, MPI_COMM_WORLD); },
                           "previous cuts have 8 parts, not 7");
         options.num_parts = loaded.num_parts;

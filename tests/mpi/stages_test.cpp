@@ -1,16 +1,12 @@
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/paper.hpp>
 
-#include <gtest/gtest.h>
-
 #include <cfenv>
-#include <limits>
-#include <string>
-#include <vector>
 
 namespace rrcb {
 namespace {
@@ -25,7 +21,7 @@ struct Recorder : StageObserver {
 /// The whole call up to the last stage; only the root bisects.
 std::string start_of_call() {
     return std::string(" +moments -moments +gather -gather") +
-           (test::rank() == 0 ? " +bisection -bisection" : "") + " +broadcast -broadcast";
+           (rank() == 0 ? " +bisection -bisection" : "") + " +broadcast -broadcast";
 }
 
 std::string stages_seen(const Options& asked, const std::vector<double>& coordinates,
@@ -40,7 +36,7 @@ std::string stages_seen(const Options& asked, const std::vector<double>& coordin
 }
 
 TEST(Stages, are_seen_in_their_order) {
-    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(rank()));
     Options options;
     EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +refinement -refinement");
     options.refine = Refine::none;
@@ -48,7 +44,7 @@ TEST(Stages, are_seen_in_their_order) {
 }
 
 TEST(Stages, of_methods_of_the_paper_are_seen_in_their_order) {
-    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(rank()));
     for (const PaperDomain domain : {PaperDomain::sampled, PaperDomain::points}) {
         Recorder recorder;
         const PaperOptions options{.domain = domain, .observer = &recorder};
@@ -58,12 +54,9 @@ TEST(Stages, of_methods_of_the_paper_are_seen_in_their_order) {
 }
 
 TEST(Stages, come_again_where_many_ranks_make_the_parts) {
-    if (test::num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
-    auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
-    Options options;
-    options.tuning.central_parts = 2;
-    options.cuts = HeldCuts::own;
-    options.refine = Refine::exact;
+    if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
+    auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(rank()));
+    Options options{.refine = Refine::exact, .cuts = HeldCuts::own, .tuning = {.central_parts = 2}};
     const std::string anew = start_of_call() + " +refinement -refinement";
     EXPECT_EQ(stages_seen(options, cloud), anew);
     options.refine = Refine::tolerance;
@@ -94,9 +87,8 @@ struct EnvironmentRecorder : StageObserver {
 
 TEST(Stages, are_observed_in_the_floating_point_environment_of_the_program) {
     EnvironmentRecorder recorder;
-    Options options;
-    options.observer = &recorder;
-    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    Options options{.observer = &recorder};
+    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(rank()));
     std::fenv_t before;
     std::feholdexcept(&before);
     std::feraiseexcept(FE_INEXACT);
@@ -110,24 +102,23 @@ TEST(Stages, are_observed_in_the_floating_point_environment_of_the_program) {
 
 TEST(Stages, end_when_a_call_fails) {
     auto cloud = test::uniform_cloud(500, 2, 1);
-    if (test::is_last_rank()) cloud[7] = std::numeric_limits<double>::quiet_NaN();
+    if (is_last_rank()) cloud[7] = std::numeric_limits<double>::quiet_NaN();
     Recorder recorder;
-    Options options;
-    options.observer = &recorder;
+    Options options{.observer = &recorder};
     EXPECT_THROW(balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD), Error);
     // The failure is broadcast where the cuts would be; there is nothing to bisect.
     EXPECT_EQ(recorder.text, " +moments -moments +gather -gather +broadcast -broadcast");
 }
 
 TEST(Stages, may_be_watched_on_one_rank_alone_and_change_nothing) {
-    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(rank()));
     const Points points = interleaved_points(cloud, 2);
     Recorder recorder;
     Options options;
     const Balance unwatched = balance(points, options, {}, MPI_COMM_WORLD);
-    if (test::is_last_rank()) options.observer = &recorder;
+    if (is_last_rank()) options.observer = &recorder;
     EXPECT_EQ(balance(points, options, {}, MPI_COMM_WORLD).parts, unwatched.parts);
-    EXPECT_EQ(recorder.text.empty(), !test::is_last_rank());
+    EXPECT_EQ(recorder.text.empty(), !is_last_rank());
 }
 
 }  // namespace

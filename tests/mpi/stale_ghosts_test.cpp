@@ -7,16 +7,8 @@
 #include <rrcb/ghosts.hpp>
 #include <rrcb/plan.hpp>
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 const std::string stale = "the points were transferred since these ghosts were found";
 
@@ -96,7 +88,7 @@ TEST(StaleGhosts, are_not_those_of_other_points_or_of_points_that_stay) {
     static_cast<void>(transfer(shift_by(0, 2), column(slab.x, 2), MPI_COMM_WORLD));
     EXPECT_NO_THROW(slab.fetched());
     // As many on all ranks but one.
-    const std::vector<int> others(test::is_last_rank() ? 3 : 2);
+    const std::vector<int> others(is_last_rank() ? 3 : 2);
     static_cast<void>(transfer(shift_by(1, others.size()), others, MPI_COMM_WORLD));
     EXPECT_NO_THROW(slab.fetched());
 }

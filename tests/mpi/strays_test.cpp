@@ -3,11 +3,6 @@
 
 #include <rrcb/balance.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
@@ -25,8 +20,7 @@ TEST(Strays, cost_no_rounds) {
                 SCOPED_TRACE(testing::Message() << dimension << "-D, width " << width << ", "
                                                 << num_parts << " parts");
                 const std::vector<double> mine = in_a_box(dimension, width);
-                Options options;
-                options.num_parts = num_parts;
+                Options options{.num_parts = num_parts};
                 const Report report =
                     balance(interleaved_points(mine, dimension), options, {}, MPI_COMM_WORLD)
                         .report;

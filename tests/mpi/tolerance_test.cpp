@@ -5,17 +5,10 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
 using test::HeldPoints;
-using test::num_ranks;
 using test::Share;
 
 /// Clusters, the same for any number of ranks; every third rank holds none of them.
@@ -59,9 +52,7 @@ void expect_as_looked_up(const HeldPoints& all, const Points& mine, const Balanc
 }
 
 Options with_parts(int num_parts, double tolerance) {
-    Options options;
-    options.num_parts = num_parts;
-    options.imbalance_tolerance = tolerance;
+    Options options{.num_parts = num_parts, .imbalance_tolerance = tolerance};
     return options;
 }
 

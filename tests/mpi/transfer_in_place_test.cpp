@@ -3,18 +3,8 @@
 
 #include <rrcb/transfer.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <random>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Points of this rank, numbered over all ranks, with two more values each.
 struct Rows {
@@ -81,7 +71,7 @@ TEST(TransferInPlace, leaves_vectors_unchanged_if_it_is_refused) {
     const std::vector<Part> parts(10, (rank() + 1) % num_ranks());
     const Plan lists = plan(parts, num_ranks(), MPI_COMM_WORLD);
     Rows rows(10);
-    if (test::is_last_rank()) rows.values.pop_back();
+    if (is_last_rank()) rows.values.pop_back();
     const Rows before = rows;
     test::expect_same_error(
         [&] {

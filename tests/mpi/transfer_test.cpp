@@ -4,22 +4,8 @@
 #include <rrcb/error.hpp>
 #include <rrcb/transfer.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <set>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 /// Names a point by where it lay before.
 std::int64_t number_of(int origin, LocalIndex index) {
@@ -214,7 +200,7 @@ TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
     if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks, so that rank 0 sends the last nothing";
     // The last rank sends to rank 1 and gets from the one before it.
     const int next = rank() == num_ranks() - 2 ? num_ranks() - 1 : rank();
-    const std::vector<Part> parts(7, test::is_last_rank() ? 1 : next);
+    const std::vector<Part> parts(7, is_last_rank() ? 1 : next);
     const Plan lists = plan(parts, num_ranks(), MPI_COMM_WORLD);
     const std::vector<double> values(7, rank());
     const auto expected = transfer(lists, values, MPI_COMM_WORLD);
@@ -222,7 +208,7 @@ TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
         Plan wrong = lists;
         std::vector<double> column = values;
         TransferLimits limits;
-        if (test::is_last_rank()) fault.make(wrong, column, limits);
+        if (is_last_rank()) fault.make(wrong, column, limits);
         const std::vector<double> before = column;
         test::expect_same_error([&] { transfer(wrong, column, MPI_COMM_WORLD, limits); },
                                 "rank " + std::to_string(num_ranks() - 1) + ": ");
@@ -236,7 +222,7 @@ TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
 TEST(Transfer, refuses_limits_that_differ_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> values(4);
-    const TransferLimits limits{test::is_last_rank() ? std::size_t{2000} : std::size_t{1000}};
+    const TransferLimits limits{is_last_rank() ? std::size_t{2000} : std::size_t{1000}};
     test::expect_same_error([&] { transfer(shift(4), values, MPI_COMM_WORLD, limits); },
                             "TransferLimits::bytes differs between rank 0 and rank");
 }
@@ -247,7 +233,7 @@ void expect_refusal(const auto& columns, const auto& of_last_rank, const std::st
     const std::string expected = "rank " + std::to_string(num_ranks() - 1) + ": " + text;
     test::expect_same_error(
         [&] {
-            if (test::is_last_rank())
+            if (is_last_rank())
                 transfer(lists, of_last_rank, MPI_COMM_WORLD);
             else
                 transfer(lists, columns, MPI_COMM_WORLD);

@@ -8,18 +8,9 @@
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
-using test::num_ranks;
-using test::rank;
 using test::share_of_cloud;
 
 struct Machines {
@@ -32,9 +23,8 @@ constexpr Machines machines[] = {{3, 4},    {5, 3},    {6, 2},    {3, 28},
                                  {3, 4, 1}, {5, 4, 2}, {6, 2, 1}, {4, 9, 3}};
 
 Options options_for(const Machines& all, bool larger_below) {
-    Options options;
-    options.num_parts = all.count * all.parts_each;
-    options.tree = {all.parts_each, larger_below, all.dealt};
+    Options options{.num_parts = all.count * all.parts_each,
+                    .tree = {all.parts_each, larger_below, all.dealt}};
     return options;
 }
 
@@ -169,8 +159,7 @@ TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
 }
 
 TEST(TreeShape, is_that_of_earlier_cuts) {
-    Options options;
-    options.tree = {2, true};
+    Options options{.tree = {2, true}};
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
     const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
@@ -184,8 +173,7 @@ TEST(TreeShape, is_that_of_earlier_cuts) {
 }
 
 TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
-    Options options;
-    options.tree.group_size = -1;
+    Options options{.tree = {.group_size = -1}};
     EXPECT_THROW(balance(interleaved_points({}, 2), options, {}, MPI_COMM_WORLD), Error);
     options.num_parts = 10;
     for (const TreeShape& shape :

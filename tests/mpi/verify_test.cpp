@@ -7,22 +7,8 @@
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
 constexpr Box unit{{0, 0, 0}, {1, 1, 1}};
@@ -163,11 +149,11 @@ TEST(Verify, names_ids_that_are_lost_or_new_or_on_two_ranks) {
         EXPECT_EQ(fault.rank, rank());
     }
     scene.ids[3] = lost;
-    if (test::is_last_rank() && rank() > 0) scene.ids[4] = 999999;
+    if (is_last_rank() && rank() > 0) scene.ids[4] = 999999;
     if (rank() == 0) scene.ids[4] = 999999;
     const Verification twice = scene.seen(near, {.sample = 0});
     EXPECT_EQ(twice.num_faults, num_ranks() > 1 ? 2 : 0);
-    const bool has_it = num_ranks() > 1 && (rank() == 0 || test::is_last_rank());
+    const bool has_it = num_ranks() > 1 && (rank() == 0 || is_last_rank());
     ASSERT_EQ(twice.twice.size(), has_it ? 1u : 0u);
     if (has_it) {
         EXPECT_EQ(twice.twice[0].rank, rank() == 0 ? num_ranks() - 1 : 0);
@@ -183,7 +169,7 @@ TEST(Verify, refuses_what_does_not_fit_on_one_rank_on_all) {
     };
     const std::vector<double> few(2);
     const std::vector<std::uint64_t> ids(1);
-    const bool is_last = test::is_last_rank();
+    const bool is_last = is_last_rank();
     refused("give it or radii", {}, scene.points());
     VerifyOptions options{.radius = 0.1};
     refused("points must be as many as the plan", options,

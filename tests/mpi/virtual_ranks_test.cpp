@@ -2,18 +2,13 @@
 // the contributions merge up the tree of so many ranks, the root bisects what arrives, and the cuts
 // are refined by what all sub-domains hold.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "call_mpi.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "options/validation.hpp"
 #include "passes/host_passes.hpp"
 
 #include <rrcb/quality.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <utility>
 
 namespace rrcb {
 namespace {

@@ -1,22 +1,13 @@
 #pragma once
 
+#include "../support/common.hpp"
 #include "parallel/communicator_mpi.hpp"
 #include "slope.hpp"
 
-#include <gtest/gtest.h>
-#include <mpi.h>
 #include <mpm/region.hpp>
 #include <mpm/simulation.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
 #include <numbers>
-#include <numeric>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace mpm::test {
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
+#include "../support/common.hpp"
 
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace mpm::test {
 

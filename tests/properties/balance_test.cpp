@@ -8,14 +8,7 @@
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstring>
-#include <numeric>
-#include <tuple>
 
 namespace rrcb::test {
 namespace {

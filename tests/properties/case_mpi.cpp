@@ -1,8 +1,5 @@
 #include "case_mpi.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <ostream>
 #include <type_traits>
 
@@ -116,8 +113,7 @@ void broadcast(std::vector<T>& list, MPI_Comm comm) {
 }  // namespace
 
 Options Case::options() const {
-    Options options;
-    options.num_parts = shape.num_parts;
+    Options options{.num_parts = shape.num_parts};
     for (const std::int32_t number : part_sizes)
         options.part_sizes.push_back(
             size(shape.sizes, number, static_cast<std::int32_t>(options.part_sizes.size())));
@@ -131,8 +127,7 @@ Options Case::options() const {
 }
 
 PaperOptions Case::paper_options() const {
-    PaperOptions options;
-    options.num_parts = shape.num_parts;
+    PaperOptions options{.num_parts = shape.num_parts};
     options.part_sizes = this->options().part_sizes;
     options.domain = shape.choice % 2 == 0 ? PaperDomain::sampled : PaperDomain::points;
     options.cut_rule = shape.choice / 2 % 4 == 0 ? CutRule::midpoint : CutRule::weighted_fraction;

@@ -1,12 +1,10 @@
 #pragma once
 
+#include "../support/common.hpp"
+
 #include <rrcb/paper.hpp>
 
-#include <mpi.h>
-
-#include <cstdint>
 #include <iosfwd>
-#include <vector>
 
 namespace rrcb::test {
 

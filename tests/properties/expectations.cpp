@@ -1,10 +1,5 @@
 #include "expectations.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <span>
 #include <sstream>
 
 namespace rrcb::test {

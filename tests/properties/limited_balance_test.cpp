@@ -7,12 +7,7 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <optional>
 
 namespace rrcb::test {
 namespace {

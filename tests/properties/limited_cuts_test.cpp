@@ -1,4 +1,5 @@
 // Cuts of limited places, of a few points that one process bisects: against all there is.
+#include "../support/common.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "cuts/axis_limits.hpp"
 #include "cuts/box_packing.hpp"
@@ -7,17 +8,11 @@
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
-#include <numeric>
 #include <sstream>
-#include <vector>
 
 namespace rrcb::test {
 namespace {

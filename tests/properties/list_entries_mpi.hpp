@@ -1,11 +1,7 @@
 #pragma once
 
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
-
-#include <algorithm>
-#include <array>
-#include <numeric>
-#include <vector>
 
 namespace rrcb::test {
 

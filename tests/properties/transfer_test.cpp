@@ -7,14 +7,6 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/ghosts.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <numeric>
-
 namespace rrcb::test {
 namespace {
 

@@ -7,15 +7,6 @@
 
 #include <rrcb/plan.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <map>
-#include <numeric>
-#include <optional>
-#include <set>
-
 namespace rrcb::test {
 namespace {
 

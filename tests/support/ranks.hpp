@@ -34,3 +34,9 @@ inline bool same_on_all_ranks(double value) {
 }
 
 }  // namespace rrcb::test
+
+namespace rrcb {
+using test::is_last_rank;
+using test::num_ranks;
+using test::rank;
+}  // namespace rrcb

@@ -1,13 +1,9 @@
 #include "bisection/axis_choice.hpp"
 
+#include "../support/common.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/tree.hpp"
 #include "options/allowed_axes.hpp"
-
-#include <gtest/gtest.h>
-
-#include <utility>
-#include <vector>
 
 namespace rrcb {
 namespace {
@@ -20,8 +16,7 @@ Box box_of(double x, double y, double z = 0) {
 }
 
 Options options_of(int num_parts) {
-    Options options;
-    options.num_parts = num_parts;
+    Options options{.num_parts = num_parts};
     return options;
 }
 
@@ -89,9 +84,7 @@ StatisticalDomain layer_with_strays() {
 
 Cuts cuts_by(const AxisOrder& order, StatisticalDomain domain, int num_parts,
              GlobalCount num_points = 0) {
-    Options options;
-    options.num_parts = num_parts;
-    options.tree = TreeShape{};
+    Options options{.num_parts = num_parts, .tree = TreeShape{}};
     options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1);
     options.axes.order = order;
     return bisect(std::move(domain), options, false, num_points).cuts;

@@ -1,11 +1,6 @@
 #include "passes/bins.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
+#include "../support/common.hpp"
 
 namespace rrcb {
 namespace {

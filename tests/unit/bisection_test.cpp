@@ -1,11 +1,7 @@
+#include "../support/common.hpp"
+
 #include <rrcb/error.hpp>
 #include <rrcb/method/bisection.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 namespace rrcb {
 namespace {

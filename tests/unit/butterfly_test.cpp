@@ -1,17 +1,10 @@
 // Records of virtual ranks reach their owners joined, and answers come back to all that asked.
 #include "collective/butterfly.hpp"
 
+#include "../support/common.hpp"
 #include "../support/virtual_butterfly.hpp"
 
-#include <gtest/gtest.h>
-
 #include <bit>
-#include <map>
-#include <numeric>
-#include <random>
-#include <set>
-#include <utility>
-#include <vector>
 
 namespace rrcb {
 namespace {

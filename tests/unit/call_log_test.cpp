@@ -1,10 +1,8 @@
 #include "collective/call_log.hpp"
 
-#include <gtest/gtest.h>
+#include "../support/common.hpp"
 
 #include <initializer_list>
-#include <set>
-#include <vector>
 
 namespace rrcb {
 namespace {

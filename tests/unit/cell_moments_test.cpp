@@ -1,14 +1,8 @@
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "passes/cell_finder.hpp"
 
 #include <rrcb/method/moments.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <numeric>
-#include <vector>
 
 namespace rrcb {
 namespace {

@@ -1,9 +1,5 @@
+#include "../support/common.hpp"
 #include "estimate/cell_records.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
 
 namespace rrcb {
 namespace {

@@ -2,21 +2,14 @@
 
 #include "../support/brute_passes.hpp"
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "estimate/mesh.hpp"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 namespace rrcb {
 namespace {
 
 int cells_for(int dimension, LocalIndex num_points, int num_parts) {
-    Options options;
-    options.num_parts = num_parts;
+    Options options{.num_parts = num_parts};
     return automatic_cells_per_axis(dimension, num_points, options);
 }
 
@@ -55,14 +48,12 @@ TEST(AutomaticMesh, has_no_more_cells_than_passes_add_up_fast) {
     EXPECT_EQ(mesh_by_options(points, box, options).cells, (std::array<int, 3>{5, 5, 5}));
     test::BrutePasses others(x, 3);
     EXPECT_EQ(mesh_by_options(others, box, options).cells, (std::array<int, 3>{10, 10, 10}));
-    Options given;
-    given.tuning.support_mesh = 9;
+    Options given{.tuning = {.support_mesh = 9}};
     EXPECT_EQ(mesh_by_options(points, box, given).cells, (std::array<int, 3>{9, 9, 9}));
 }
 
 Options asking_for_mesh(int cells) {
-    Options options;
-    options.tuning.support_mesh = cells;
+    Options options{.tuning = {.support_mesh = cells}};
     return options;
 }
 
@@ -72,8 +63,7 @@ TEST(MostCells, is_a_fixed_number_unless_the_mesh_was_asked_for) {
 }
 
 Summary summary_of(int rank, int num_parts) {
-    Options options;
-    options.num_parts = num_parts;
+    Options options{.num_parts = num_parts};
     Summary summary;
     summary.first_rank = rank;
     summary.request = request_of(options, 2, nullptr);

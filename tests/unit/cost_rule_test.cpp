@@ -1,12 +1,8 @@
 // Costs that appear late, and outliers: the ranks of a run in one process.
 #include "controller/cost_rule.hpp"
 
+#include "../support/common.hpp"
 #include "controller/step_record.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 
 namespace rrcb {
 namespace {

@@ -1,17 +1,10 @@
 #pragma once
 
+#include "../support/common.hpp"
 #include "controller/cost_rule.hpp"
 #include "controller/step_record.hpp"
 
 #include <rrcb/rrcb.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <random>
-#include <string>
-#include <vector>
 
 namespace rrcb::test {
 
@@ -114,9 +107,7 @@ class TraceRun {
     }
 
     void divide() {
-        Options options;
-        options.num_parts = trace_.num_ranks;
-        options.refine = Refine::exact;
+        Options options{.num_parts = trace_.num_ranks, .refine = Refine::exact};
         std::vector<double> weights;
         ++num_rebalances_;
         if (learns_ && rules_.front().uses_costs()) {

@@ -1,12 +1,6 @@
 // The edges of every stage of the search for one cut: where it may end and where it must go on.
 #include "cut_search_cases.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <utility>
-
 namespace rrcb {
 namespace {
 

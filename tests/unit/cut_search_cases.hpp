@@ -1,11 +1,8 @@
 #pragma once
 
+#include "../support/common.hpp"
 #include "passes/histogram.hpp"
 #include "search/cut_search.hpp"
-
-#include <algorithm>
-#include <limits>
-#include <vector>
 
 namespace rrcb::test {
 

@@ -4,18 +4,11 @@
 
 #include "../support/all_collected.hpp"
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "arithmetic/quantum.hpp"
 #include "passes/histogram.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numeric>
-#include <string>
 
 namespace rrcb {
 namespace {

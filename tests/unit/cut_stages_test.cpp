@@ -3,11 +3,6 @@
 #include "arithmetic/quantum.hpp"
 #include "cut_search_cases.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <utility>
-
 namespace rrcb {
 namespace {
 

@@ -1,15 +1,7 @@
+#include "../support/common.hpp"
+
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <span>
-#include <vector>
 
 namespace rrcb {
 namespace {

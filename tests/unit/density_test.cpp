@@ -1,14 +1,8 @@
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "bisection/cell_density.hpp"
 #include "bisection/patches.hpp"
 #include "bisection/profile.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <span>
-#include <vector>
 
 namespace rrcb {
 namespace {

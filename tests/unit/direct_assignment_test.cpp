@@ -1,12 +1,7 @@
 // Parts of points and what they hold, in one pass, beside the look-up of every point.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "passes/assignment.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 namespace rrcb {
 namespace {

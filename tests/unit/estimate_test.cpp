@@ -1,6 +1,7 @@
 // How good the cuts are that the statistics alone give, before any is moved: points of many ranks
 // in one process, whose contributions merge up the tree that so many ranks have.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "collective/merge_tree.hpp"
 #include "estimate/contribution.hpp"
 #include "options/validation.hpp"
@@ -9,12 +10,7 @@
 #include <rrcb/method/bisection.hpp>
 #include <rrcb/quality.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace rrcb {
 namespace {

@@ -1,17 +1,9 @@
+#include "../support/common.hpp"
 #include "arithmetic/position_order.hpp"
 #include "estimate/kept_tree.hpp"
 #include "passes/summary.hpp"
 
 #include <rrcb/error.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace rrcb {
 namespace {

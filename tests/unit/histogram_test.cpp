@@ -1,9 +1,6 @@
 #include "passes/histogram.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
+#include "../support/common.hpp"
 
 namespace rrcb {
 namespace {

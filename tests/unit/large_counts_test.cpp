@@ -68,10 +68,7 @@ Contribution large_contribution(const Options& options) {
 }
 
 TEST(LargeCounts, are_divided_and_reported_by_the_root) {
-    Options options;
-    options.num_parts = 2;
-    options.part_sizes = {1, 1};
-    options.refine = Refine::none;
+    Options options{.num_parts = 2, .part_sizes = {1, 1}, .refine = Refine::none};
     Decision decision;
     make_buffers(decision, options, 1, false);
     decide(large_contribution(options), options, decision);

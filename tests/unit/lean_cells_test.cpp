@@ -1,14 +1,8 @@
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "estimate/cell_records.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
 
 namespace rrcb {
 namespace {

@@ -19,8 +19,7 @@ StatisticalDomain two_cells(int dimension) {
 
 /// Widths and lines that leave little more room than the parts need.
 Options tight_options(int num_parts, int dimension) {
-    Options options;
-    options.num_parts = num_parts;
+    Options options{.num_parts = num_parts};
     options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
     const double along = std::ceil(1.5 * std::pow(num_parts, 1.0 / dimension)) + 1;
     for (int axis = 0; axis < dimension; ++axis) {

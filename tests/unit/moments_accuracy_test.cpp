@@ -2,16 +2,6 @@
 #include "../support/clouds.hpp"
 #include "moments_reference.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <functional>
-#include <numeric>
-#include <string>
-#include <tuple>
-#include <vector>
-
 namespace rrcb {
 namespace {
 

@@ -1,12 +1,8 @@
 #pragma once
 
+#include "../support/common.hpp"
+
 #include <rrcb/method/moments.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace rrcb::test {
 

@@ -3,14 +3,6 @@
 
 #include <rrcb/method/moments.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
 namespace rrcb {
 namespace {
 
@@ -18,8 +10,7 @@ using test::expect_reference_moments;
 
 TEST(Moments, of_four_points_worked_out_by_hand) {
     const std::vector<double> x{0, 1, 4, 5};
-    const std::array<std::span<const double>, 1> columns{x};
-    const Points points = column_points(columns);
+    const Points points = interleaved_points(x, 1);
     const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
     ASSERT_EQ(cells.size(), 1u);
     EXPECT_EQ(cells[0].moments.count, 4);
@@ -31,8 +22,7 @@ TEST(Moments, of_four_points_worked_out_by_hand) {
 TEST(Moments, weights_count_like_repeated_points) {
     const std::vector<double> x{0, 4};
     const std::vector<double> weights{3, 1};
-    const std::array<std::span<const double>, 1> columns{x};
-    const Points points = column_points(columns, weights);
+    const Points points = interleaved_points(x, 1, weights);
     const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
     EXPECT_EQ(cells[0].moments.count, 2);
     EXPECT_EQ(cells[0].moments.weight, 4);
@@ -51,8 +41,7 @@ TEST(Moments, survive_extreme_weights) {
     for (const double magnitude : {5e-324, 1e-300, 1e300}) {
         const std::vector<double> x{0, 4e6};
         const std::vector<double> weights{3 * magnitude, magnitude};
-        const std::array<std::span<const double>, 1> columns{x};
-        const Points points = column_points(columns, weights);
+        const Points points = interleaved_points(x, 1, weights);
         const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
         EXPECT_EQ(cells[0].moments.weight, 3 * magnitude + magnitude);
         EXPECT_DOUBLE_EQ(cells[0].moments.mean[0], 1e6);
@@ -63,8 +52,7 @@ TEST(Moments, survive_extreme_weights) {
 TEST(Moments, cells_without_weight_are_left_out) {
     const std::vector<double> x{0, 1, 2};
     const std::vector<double> weights{1, 0, 1};
-    const std::array<std::span<const double>, 1> columns{x};
-    const Points points = column_points(columns, weights);
+    const Points points = interleaved_points(x, 1, weights);
     const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 3));
     ASSERT_EQ(cells.size(), 2u);
     EXPECT_EQ(cells[0].cell, 0u);
@@ -74,8 +62,7 @@ TEST(Moments, cells_without_weight_are_left_out) {
 TEST(Moments, without_any_weight_are_those_of_the_positions) {
     const std::vector<double> x{0, 2};
     const std::vector<double> weights{0, 0};
-    const std::array<std::span<const double>, 1> columns{x};
-    const Points points = column_points(columns, weights);
+    const Points points = interleaved_points(x, 1, weights);
     const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
     ASSERT_EQ(cells.size(), 1u);
     EXPECT_EQ(cells[0].moments.count, 2);

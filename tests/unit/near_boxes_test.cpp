@@ -1,17 +1,10 @@
 #include "lists/near_boxes.hpp"
 
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/distance.hpp"
 #include "lists/periodic_images.hpp"
 #include "lists/quiet_boxes.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
 
 namespace rrcb {
 namespace {

@@ -1,11 +1,9 @@
 // Costs by non-negative least squares: worked by hand, in long double, and over all active sets.
 #include "controller/nonnegative_fit.hpp"
 
-#include <gtest/gtest.h>
+#include "../support/common.hpp"
 
 #include <Eigen/Dense>
-#include <cmath>
-#include <random>
 
 namespace rrcb {
 namespace {

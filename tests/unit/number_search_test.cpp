@@ -3,17 +3,9 @@
 #include "lists/number_search.hpp"
 
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/part_ranks.hpp"
 #include "../support/virtual_butterfly.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <map>
-#include <numeric>
-#include <tuple>
-#include <vector>
 
 namespace rrcb {
 namespace {

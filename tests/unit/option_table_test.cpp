@@ -1,15 +1,12 @@
 #include "options/option_table.hpp"
 
+#include "../support/common.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
 
 #include <rrcb/error.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -31,8 +28,7 @@ bool reads(std::string_view name, std::string_view text) {
 /// What the check of options says of these; empty when they are legal.
 template <class Change>
 std::string complaint(Change&& change, int dimension = 2) {
-    Options options;
-    options.num_parts = 4;
+    Options options{.num_parts = 4};
     change(options);
     try {
         check_options(options, dimension);

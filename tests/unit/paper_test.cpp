@@ -1,16 +1,8 @@
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/paper.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <vector>
 
 namespace rrcb {
 namespace {
@@ -43,9 +35,7 @@ TEST(SamplePoints, shares_points_by_number_if_all_weights_are_zero) {
 
 TEST(SamplePoints, draws_the_fraction_asked_for_within_the_multiplier) {
     const std::vector<CellMoments> cells{cell(1000, 1000, 0.5, 0.1)};
-    PaperOptions options;
-    options.sample_fraction = 0.125;
-    options.sigma_multiplier = 2;
+    PaperOptions options{.sigma_multiplier = 2, .sample_fraction = 0.125};
     const std::vector<MassPoint> points = sample_points(cells, 1, options);
     ASSERT_EQ(points.size(), 125u);
     double mean = 0;
@@ -59,8 +49,7 @@ TEST(SamplePoints, draws_the_fraction_asked_for_within_the_multiplier) {
 }
 
 TEST(SamplePoints, draws_one_point_at_least_and_none_of_no_cells) {
-    PaperOptions options;
-    options.sample_fraction = 1e-9;
+    PaperOptions options{.sample_fraction = 1e-9};
     EXPECT_EQ(sample_points(std::vector{cell(10, 1, 0.5, 0.1)}, 1, options).size(), 1u);
     EXPECT_TRUE(sample_points({}, 2, {}).empty());
 }
@@ -68,8 +57,7 @@ TEST(SamplePoints, draws_one_point_at_least_and_none_of_no_cells) {
 TEST(SamplePoints, takes_the_points_from_the_seed) {
     const std::vector<CellMoments> cells{cell(50, 50, 0.5, 0.1)};
     const auto first_point = [&](std::uint64_t seed) {
-        PaperOptions options;
-        options.seed = seed;
+        PaperOptions options{.seed = seed};
         return sample_points(cells, 1, options)[0].position[0];
     };
     EXPECT_EQ(first_point(1), first_point(1));
@@ -224,8 +212,7 @@ TEST(PaperStages, refuse_arguments_out_of_range) {
     EXPECT_THROW(bisect_points({}, 9, 2), Error);
     EXPECT_THROW(mass_points({.dimension = 2, .count = 3}), Error);
     EXPECT_THROW(sample_points({}, 0, {}), Error);
-    PaperOptions options;
-    options.sample_fraction = -1;
+    PaperOptions options{.sample_fraction = -1};
     EXPECT_THROW(sample_points({}, 2, options), Error);
     options.sample_fraction = 1;
     options.sigma_multiplier = infinity;

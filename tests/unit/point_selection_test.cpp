@@ -1,15 +1,8 @@
 #include "paper/point_selection.hpp"
 
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "bisection/weighted_quantile.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <string>
 
 namespace rrcb {
 namespace {

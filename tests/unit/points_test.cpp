@@ -1,17 +1,11 @@
 #include "../support/all_collected.hpp"
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 
 #include <rrcb/eigen.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/method/moments.hpp>
 #include <rrcb/points.hpp>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <vector>
 
 namespace rrcb {
 namespace {

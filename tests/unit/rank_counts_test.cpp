@@ -1,15 +1,7 @@
 // Counts of many ranks in one process reach the ranks that they are for.
+#include "../support/common.hpp"
 #include "../support/virtual_butterfly.hpp"
 #include "collective/rank_counts_mpi.hpp"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <map>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace rrcb {
 namespace {

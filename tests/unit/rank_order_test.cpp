@@ -1,14 +1,7 @@
 // The order of entries by rank, against a stable sort.
 #include "collective/rank_order.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <map>
-#include <numeric>
-#include <random>
-#include <vector>
+#include "../support/common.hpp"
 
 namespace rrcb {
 namespace {

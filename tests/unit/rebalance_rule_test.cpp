@@ -1,16 +1,8 @@
 // When a rebalance is due: series of loads whose answer is worked out by hand, and noise.
 #include "controller/rebalance_rule.hpp"
 
+#include "../support/common.hpp"
 #include "controller/point_cost.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
-#include <vector>
 
 namespace rrcb {
 namespace {

@@ -1,14 +1,7 @@
+#include "../support/common.hpp"
+
 #include <rrcb/method/statistical_domain.hpp>
 #include <rrcb/method/support_mesh.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
 
 namespace rrcb {
 namespace {
@@ -69,27 +62,28 @@ double least_density(const Patch& patch, std::size_t axis) {
     return least;
 }
 
-TEST(AnalyticDomain, is_quadratic_on_its_cell) {
-    // On [0, 1] the density 2 x has the mean 2/3 and the variance 1/18.
-    const std::vector<CellMoments> cells{cell(0, 1, 5, 5, 2.0 / 3, std::sqrt(1.0 / 18))};
-    const StatisticalDomain domain = analytic_domain(cells, 1, interval(0, 10));
-    ASSERT_EQ(domain.patches.size(), 1u);
-    EXPECT_EQ(domain.patches[0].lower[0], 0);
-    EXPECT_EQ(domain.patches[0].upper[0], 1);
-    EXPECT_EQ(domain.patches[0].weight, 5);
-    EXPECT_NEAR(domain.patches[0].slope[0], 1, 1e-14);
-    EXPECT_NEAR(domain.patches[0].bow[0], 0, 1e-14);
-}
-
-TEST(AnalyticDomain, is_a_parabola_about_what_is_narrower) {
-    // The parabola 1 - u^2 on [-1, 1] has the variance 1/5.
-    const std::vector<CellMoments> cells{cell(0, 10, 5, 5, 4, 1)};
-    const StatisticalDomain domain = analytic_domain(cells, 1, interval(0, 10));
-    ASSERT_EQ(domain.patches.size(), 1u);
-    EXPECT_DOUBLE_EQ(domain.patches[0].lower[0], 4 - std::sqrt(5.0));
-    EXPECT_DOUBLE_EQ(domain.patches[0].upper[0], 4 + std::sqrt(5.0));
-    EXPECT_NEAR(domain.patches[0].slope[0], 0, 1e-14);
-    EXPECT_NEAR(domain.patches[0].bow[0], -1, 1e-14);
+TEST(AnalyticDomain, is_one_patch_about_points_of_a_cell) {
+    struct Row {
+        CellMoments cell;
+        double lower, upper, slope, bow;
+    };
+    const double root = std::sqrt(5.0);
+    // On [0, 1] the density 2 x has the mean 2/3 and the variance 1/18. The parabola 1 - u^2 on
+    // [-1, 1] has the variance 1/5. A uniform cell is restored. No extent is a point.
+    for (const auto& [cell, lower, upper, slope, bow] :
+         {Row{cell(0, 1, 5, 5, 2.0 / 3, std::sqrt(1.0 / 18)), 0, 1, 1, 0},
+          {cell(0, 10, 5, 5, 4, 1), 4 - root, 4 + root, 0, -1},
+          {cell(2, 6, 5, 5, 4, 4 / std::sqrt(12.0)), 2, 6, 0, 0},
+          {cell(3, 3, 5, 5, 3, 0), 3, 3, 0, 0},
+          {cell(0, 10, 5, 5, 10, 0), 10, 10, 0, 0}}) {
+        const StatisticalDomain domain = analytic_domain(std::span(&cell, 1), 1, interval(0, 10));
+        ASSERT_EQ(domain.patches.size(), 1u);
+        EXPECT_NEAR(domain.patches[0].lower[0], lower, 1e-14);
+        EXPECT_NEAR(domain.patches[0].upper[0], upper, 1e-14);
+        EXPECT_EQ(domain.patches[0].weight, 5);
+        EXPECT_NEAR(domain.patches[0].slope[0], slope, 1e-14);
+        EXPECT_NEAR(domain.patches[0].bow[0], bow, 1e-14);
+    }
 }
 
 TEST(AnalyticDomain, ends_in_the_cell_where_points_fill_a_side_of_it) {
@@ -242,24 +236,6 @@ TEST(AnalyticDomain, survives_extreme_coordinates) {
     const StatisticalDomain domain = analytic_domain(cells, 1, interval(-1e300, 1e300));
     EXPECT_DOUBLE_EQ(spread_of(domain).mean, -9e299);
     EXPECT_DOUBLE_EQ(spread_of(domain).deviation, 1e299);
-}
-
-TEST(AnalyticDomain, without_extent_is_a_point) {
-    const std::vector<CellMoments> cells{cell(3, 3, 5, 5, 3, 0), cell(0, 10, 5, 5, 10, 0)};
-    const StatisticalDomain domain = analytic_domain(cells, 1, interval(0, 10));
-    ASSERT_EQ(domain.patches.size(), 2u);
-    EXPECT_EQ(domain.patches[0].lower[0], 3);
-    EXPECT_EQ(domain.patches[0].upper[0], 3);
-    EXPECT_EQ(domain.patches[1].lower[0], 10);
-    EXPECT_EQ(domain.patches[1].upper[0], 10);
-}
-
-TEST(AnalyticDomain, a_uniform_cell_is_restored) {
-    const std::vector<CellMoments> cells{cell(2, 6, 100, 100, 4, 4 / std::sqrt(12.0))};
-    const StatisticalDomain domain = analytic_domain(cells, 1, interval(2, 6));
-    ASSERT_EQ(domain.patches.size(), 1u);
-    EXPECT_NEAR(domain.patches[0].lower[0], 2, 1e-14);
-    EXPECT_NEAR(domain.patches[0].upper[0], 6, 1e-14);
 }
 
 TEST(AnalyticDomain, counts_stand_in_where_all_weights_are_zero) {

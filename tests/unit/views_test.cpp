@@ -1,11 +1,7 @@
+#include "../support/common.hpp"
+
 #include <rrcb/error.hpp>
 #include <rrcb/views.hpp>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdint>
-#include <vector>
 
 #ifdef RRCB_WITH_KOKKOS
 #include <Kokkos_Core.hpp>

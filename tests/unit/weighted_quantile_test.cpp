@@ -1,13 +1,8 @@
 #include "bisection/weighted_quantile.hpp"
 
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "bisection/profile.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace rrcb {
 namespace {

@@ -15,10 +15,8 @@ std::vector<int> counts(const Outcome& outcome, int num_parts) {
 constexpr int num_parts = 4;
 
 std::vector<int> counts_with(Program& program, const char* method) {
-    program.set({{"LB_METHOD", method},
-                 {"RRCB_REFINE", "EXACT"},
-                 {"RETURN_LISTS", "PARTS"},
-                 {"NUM_GLOBAL_PARTS", std::to_string(num_parts)}});
+    program.set({{"LB_METHOD", method}, {"RRCB_REFINE", "EXACT"}, {"RETURN_LISTS", "PARTS"}});
+    program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
     const Outcome outcome = program.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
     return counts(outcome, num_parts);

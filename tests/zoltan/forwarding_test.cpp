@@ -175,9 +175,8 @@ TEST(Forwarding, leaves_no_look_ups_without_kept_cuts_or_under_another_method) {
 struct Divided : Cloud {
     Divided(const char* method, const Setting& setting, int num_parts) : Cloud(method) {
         set(setting.name, setting.value);
-        set({{"RRCB_REFINE", "EXACT"},
-             {"NUM_GLOBAL_PARTS", std::to_string(num_parts)},
-             {"RETURN_LISTS", "PARTS"}});
+        set({{"RRCB_REFINE", "EXACT"}, {"NUM_GLOBAL_PARTS", std::to_string(num_parts)}});
+        set("RETURN_LISTS", "PARTS");
         set_size(num_parts / 2, 2);
         outcome = partition();
     }
@@ -219,16 +218,6 @@ TEST(Forwarding, survives_copies) {
     }
 }
 
-std::vector<char> bytes_of(const Zoltan_Struct* zz) {
-    std::vector<char> bytes(Zoltan_Serialize_Size(zz));
-    EXPECT_EQ(Zoltan_Serialize(zz, bytes.size(), bytes.data()), ZOLTAN_OK);
-    return bytes;
-}
-
-void unpack(Zoltan_Struct* zz, std::vector<char> bytes) {
-    EXPECT_EQ(Zoltan_Deserialize(zz, bytes.size(), bytes.data()), ZOLTAN_OK);
-}
-
 TEST(Forwarding, survives_serialization_as_rcb_does) {
     for (const Setting& setting : settings) {
         SCOPED_TRACE(setting.name);
@@ -236,8 +225,8 @@ TEST(Forwarding, survives_serialization_as_rcb_does) {
         const int num_parts = Program().num_ranks;
         Divided ours("RRCB", setting, num_parts), zoltans("RCB", setting, num_parts);
         Program received(3), received_by_zoltan(3);
-        unpack(received.zz, bytes_of(ours.zz));
-        unpack(received_by_zoltan.zz, bytes_of(zoltans.zz));
+        EXPECT_EQ(unpack(received.zz, bytes_of(ours.zz)), ZOLTAN_OK);
+        EXPECT_EQ(unpack(received_by_zoltan.zz, bytes_of(zoltans.zz)), ZOLTAN_OK);
         for (int time = 0; time < 2; ++time) {
             EXPECT_EQ(look_ups(received.zz, num_parts), look_ups(received_by_zoltan.zz, num_parts));
             ours.register_callbacks(received.zz);
@@ -247,7 +236,7 @@ TEST(Forwarding, survives_serialization_as_rcb_does) {
         expect_same_without_settings(ours, received.zz);
         // Cuts of RRCB for a handle that Zoltan has divided.
         Divided used("RRCB", setting, 5);
-        unpack(used.zz, bytes_of(ours.zz));
+        EXPECT_EQ(unpack(used.zz, bytes_of(ours.zz)), ZOLTAN_OK);
         EXPECT_EQ(look_ups(used.zz, num_parts), look_ups(ours.zz, num_parts));
     }
 }
@@ -257,7 +246,7 @@ TEST(Forwarding, of_cuts_that_are_not_kept_gives_a_buffer_without_cuts) {
     program.set({{"KEEP_CUTS", "0"}, {"OBJ_WEIGHT_DIM", "2"}});
     program.partition();
     Program received(3);
-    unpack(received.zz, bytes_of(program.zz));
+    EXPECT_EQ(unpack(received.zz, bytes_of(program.zz)), ZOLTAN_OK);
     EXPECT_FALSE(has_cuts(received.zz));
     program.register_callbacks(received.zz);
     expect_same(program.partition(received.zz), program.partition());

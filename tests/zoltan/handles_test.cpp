@@ -28,10 +28,8 @@ TEST(Forwarding, leaves_look_ups_of_rcb_to_zoltan) {
 TEST(Handles, copies_keep_method_parameters_sizes_and_cuts) {
     Program program;
     scatter_points(program, 300);
-    program.set({{"LB_METHOD", "RRCB"},
-                 {"RRCB_DOMAIN", "SAMPLED"},
-                 {"NUM_GLOBAL_PARTS", "5"},
-                 {"KEEP_CUTS", "1"}});
+    program.set({{"LB_METHOD", "RRCB"}, {"RRCB_DOMAIN", "SAMPLED"}, {"NUM_GLOBAL_PARTS", "5"}});
+    program.set("KEEP_CUTS", "1");
     program.set_size(1, 2);
     const Outcome original = program.partition();
 
@@ -138,16 +136,11 @@ TEST(Handles, serialized_from_rcb_work_and_do_not_switch_to_rrcb) {
     scatter_points(program, 200);
     program.set({{"LB_METHOD", "RCB"}, {"KEEP_CUTS", "1"}});
     program.partition();
-    const std::size_t size = Zoltan_Serialize_Size(program.zz);
-    ASSERT_GT(size, 0U);
-    std::vector<char> buffer(size);
-    ASSERT_EQ(Zoltan_Serialize(program.zz, size, buffer.data()), ZOLTAN_OK);
-    Zoltan_Struct* copy = Zoltan_Create(MPI_COMM_WORLD);
-    ASSERT_EQ(Zoltan_Deserialize(copy, size, buffer.data()), ZOLTAN_OK);
-    EXPECT_EQ(program.place_of(program.coordinates.data(), copy),
+    Program copy;
+    ASSERT_EQ(unpack(copy.zz, bytes_of(program.zz)), ZOLTAN_OK);
+    EXPECT_EQ(program.place_of(program.coordinates.data(), copy.zz),
               program.place_of(program.coordinates.data()));
-    EXPECT_EQ(Zoltan_Set_Param(copy, "LB_METHOD", "RRCB"), ZOLTAN_FATAL);
-    Zoltan_Destroy(&copy);
+    EXPECT_EQ(copy.set("LB_METHOD", "RRCB"), ZOLTAN_FATAL);
 }
 
 TEST(Handles, work_on_a_part_of_the_ranks) {

@@ -92,10 +92,8 @@ TEST(KeptParts, do_not_count_where_a_rank_has_several) {
     come_to_rest(program, "TOLERANCE", "0");
     Successor next(program);
     use_rrcb(next, "TOLERANCE", "0");
-    next.set({{"NUM_LOCAL_PARTS", next.rank == 0   ? "2"
-                                  : next.rank == 1 ? "0"
-                                                   : "1"},
-              {"RETURN_LISTS", "PARTS"}});
+    next.set("NUM_LOCAL_PARTS", next.rank == 0 ? "2" : next.rank == 1 ? "0" : "1");
+    next.set("RETURN_LISTS", "PARTS");
     const Outcome outcome = next.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
     EXPECT_LE(imbalance(next, outcome, next.num_ranks), 1.1);

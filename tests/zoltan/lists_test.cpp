@@ -45,9 +45,8 @@ TEST(Lists, have_the_shape_of_rcb_for_every_word_and_width_of_ids) {
                 SCOPED_TRACE(std::string(word) + " " + std::to_string(gid) + std::to_string(lid));
                 Program program;
                 scatter_points(program, 200);
-                program.set({{"RETURN_LISTS", word},
-                             {"NUM_GID_ENTRIES", std::to_string(gid)},
-                             {"NUM_LID_ENTRIES", std::to_string(lid)}});
+                program.set({{"RETURN_LISTS", word}, {"NUM_GID_ENTRIES", std::to_string(gid)}});
+                program.set("NUM_LID_ENTRIES", std::to_string(lid));
                 expect_shape_of_rcb(program);
             }
         }

@@ -14,11 +14,8 @@ struct Crowded : Program {
         scatter_points(*this, 600);
         for (double& x : coordinates) x *= x;
         for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(i % 4);
-        set({{"LB_METHOD", "RRCB"},
-             {"OBJ_WEIGHT_DIM", "1"},
-             {"RETURN_LISTS", "PARTS"},
-             {"REMAP", "0"},
-             {"DEBUG_LEVEL", "1"}});
+        set({{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}, {"RETURN_LISTS", "PARTS"}});
+        set({{"REMAP", "0"}, {"DEBUG_LEVEL", "1"}});
         for (const auto& [name, value] : settings) set(name.c_str(), value);
     }
 

@@ -143,8 +143,8 @@ TEST(Parameters, for_lists_may_differ_between_ranks_as_in_zoltan) {
                 Program program;
                 if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
                 scatter_points(program, 100);
-                program.set({{"LB_METHOD", ours ? "RRCB" : "RCB"},
-                             {"RETURN_LISTS", program.rank == 0 ? first : others}});
+                program.set("LB_METHOD", ours ? "RRCB" : "RCB");
+                program.set("RETURN_LISTS", program.rank == 0 ? first : others);
                 shapes[ours ? 1 : 0] = shape_of(program, program.partition());
                 EXPECT_EQ(shape_of(program, program.partition()), shapes[ours ? 1 : 0]);
             }

@@ -79,8 +79,8 @@ TEST(Parts, asked_for_locally_lie_where_zoltan_puts_them) {
 TEST(Parts, asked_for_locally_must_add_up) {
     Program program;
     scatter_points(program, 10);
-    program.set({{"NUM_LOCAL_PARTS", "2"},
-                 {"NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks + 1)}});
+    program.set("NUM_LOCAL_PARTS", "2");
+    program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks + 1));
     EXPECT_EQ(partition_with(program, "RRCB").code, ZOLTAN_FATAL);
     program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks));
     EXPECT_EQ(partition_with(program, "RRCB").code, ZOLTAN_OK);
@@ -234,10 +234,8 @@ TEST(Parts, that_callbacks_name_decide_what_changes) {
             return 2 * self.rank + static_cast<int>(*lid % 2);
         };
         Zoltan_Set_Part_Fn(program.zz, part, &program);
-        program.set({{"NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks)},
-                     {"REMAP", "0"},
-                     {"RETURN_LISTS", word},
-                     {"LB_METHOD", "RCB"}});
+        program.set({{"NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks)}, {"REMAP", "0"}});
+        program.set({{"RETURN_LISTS", word}, {"LB_METHOD", "RCB"}});
         const Outcome zoltans = program.partition();
         program.set("LB_METHOD", "RRCB");
         const Outcome ours = program.partition();

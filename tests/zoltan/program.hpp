@@ -87,6 +87,10 @@ void use_hier(Program& program, const char* inner_method);
 /// Partitions again and again.
 void repeat(Program& program, int times);
 
+/// The contents of a handle, and a handle with them.
+std::vector<char> bytes_of(const Zoltan_Struct* zz);
+int unpack(Zoltan_Struct* zz, std::vector<char> bytes);
+
 /// Lets Zoltan migrate objects, which it then counts.
 void count_migration(Zoltan_Struct* handle, Migration& migration);
 

@@ -34,9 +34,8 @@ std::vector<Layout> layouts_on(int num_ranks) {
 struct Divided : Program {
     Divided(const char* method, const Layout& layout) {
         scatter_points(*this, 60);
-        set({{"LB_METHOD", method},
-             {"RETURN_LISTS", "PARTS"},
-             {"NUM_GLOBAL_PARTS", std::to_string(layout.num_parts)}});
+        set({{"LB_METHOD", method}, {"RETURN_LISTS", "PARTS"}});
+        set("NUM_GLOBAL_PARTS", std::to_string(layout.num_parts));
         const int here = rank == 0 ? layout.on_first : layout.on_others;
         if (here != unset) set("NUM_LOCAL_PARTS", std::to_string(here));
         outcome = partition();

@@ -22,10 +22,8 @@ TEST(SetDirections, cuts_across_the_axes_in_each_of_the_six_orders) {
         for (const char* method : methods) {
             Program program(3);
             fill_box(program, {1.00, 0.99, 0.98}, 2000);
-            program.set({{"LB_METHOD", method},
-                         {"RCB_SET_DIRECTIONS", std::to_string(setting)},
-                         {"NUM_GLOBAL_PARTS", "8"},
-                         {"KEEP_CUTS", "1"}});
+            program.set({{"LB_METHOD", method}, {"RCB_SET_DIRECTIONS", std::to_string(setting)}});
+            program.set({{"NUM_GLOBAL_PARTS", "8"}, {"KEEP_CUTS", "1"}});
             program.partition();
             const auto planes = planes_per_axis(program, 8);
             const std::string order = orders[static_cast<std::size_t>(setting - 1)];
@@ -47,10 +45,8 @@ TEST(SetDirections, works_in_the_plane_and_warns_out_of_bounds) {
     for (const char* setting : {"4", "7"}) {
         Program program;
         fill_box(program, {4, 1, 0}, 500);
-        program.set({{"LB_METHOD", "RRCB"},
-                     {"RCB_SET_DIRECTIONS", setting},
-                     {"KEEP_CUTS", "1"},
-                     {"NUM_GLOBAL_PARTS", "2"}});
+        program.set({{"LB_METHOD", "RRCB"}, {"RCB_SET_DIRECTIONS", setting}, {"KEEP_CUTS", "1"}});
+        program.set("NUM_GLOBAL_PARTS", "2");
         EXPECT_EQ(program.partition().code, ZOLTAN_OK);
         const auto planes = planes_per_axis(program, 2);
         EXPECT_EQ(planes[0] + planes[1], 1);
@@ -63,10 +59,8 @@ TEST(LockDirections, keep_the_axes_of_the_first_call) {
             SCOPED_TRACE(std::string(method) + (locked ? " locked" : " free"));
             Program program;
             fill_box(program, {4, 1, 0}, 1000);
-            program.set({{"LB_METHOD", method},
-                         {"RCB_LOCK_DIRECTIONS", locked ? "1" : "0"},
-                         {"KEEP_CUTS", "1"},
-                         {"NUM_GLOBAL_PARTS", "2"}});
+            program.set({{"LB_METHOD", method}, {"RCB_LOCK_DIRECTIONS", locked ? "1" : "0"}});
+            program.set({{"KEEP_CUTS", "1"}, {"NUM_GLOBAL_PARTS", "2"}});
             program.partition();
             EXPECT_EQ(planes_per_axis(program, 2), (std::array{1, 0, 0}));
             for (std::size_t i = 1; i < program.coordinates.size(); i += 2) {
@@ -93,12 +87,9 @@ TEST(Reuse, balances_from_the_cuts_of_the_last_call) {
         SCOPED_TRACE(method);
         Program program;
         fill_box(program, {1, 1, 0}, 3000);
-        program.set({{"LB_METHOD", method},
-                     {"RCB_REUSE", "1"},
-                     {"RETURN_LISTS", "PARTS"},
-                     {"IMBALANCE_TOL", "1.005"},
-                     {"OBJ_WEIGHT_DIM", "1"},
-                     {"NUM_GLOBAL_PARTS", "5"}});
+        program.set({{"LB_METHOD", method}, {"RCB_REUSE", "1"}, {"RETURN_LISTS", "PARTS"}});
+        program.set({{"IMBALANCE_TOL", "1.005"}, {"OBJ_WEIGHT_DIM", "1"}});
+        program.set("NUM_GLOBAL_PARTS", "5");
         for (int step = 0; step < 4; ++step) {
             const Outcome outcome = program.partition();
             EXPECT_EQ(outcome.code, ZOLTAN_OK);
@@ -122,10 +113,9 @@ TEST(RectilinearBlocks, keep_points_of_one_plane_together) {
             SCOPED_TRACE(std::string(method) + (rectilinear ? " rectilinear" : ""));
             Program program;
             fill_lattice(program, 9);
-            program.set({{"LB_METHOD", method},
-                         {"RCB_RECTILINEAR_BLOCKS", rectilinear ? "1" : "0"},
-                         {"RETURN_LISTS", "PARTS"},
-                         {"NUM_GLOBAL_PARTS", "2"}});
+            program.set("LB_METHOD", method);
+            program.set("RCB_RECTILINEAR_BLOCKS", rectilinear ? "1" : "0");
+            program.set({{"RETURN_LISTS", "PARTS"}, {"NUM_GLOBAL_PARTS", "2"}});
             const Outcome outcome = program.partition();
             std::array<std::array<int, 9>, 2> columns{};
             const std::vector<int> parts = parts_by_object(outcome);
@@ -144,10 +134,8 @@ TEST(RectilinearBlocks, keep_points_of_one_plane_together) {
 TEST(Shortcomings, are_told_and_do_not_change_the_code) {
     Program program;
     fill_box(program, {1, 1, 0}, 200);
-    program.set({{"LB_METHOD", "RRCB"},
-                 {"DEBUG_LEVEL", "1"},
-                 {"RCB_SET_DIRECTIONS", "9"},
-                 {"RCB_OUTPUT_LEVEL", "1"}});
+    program.set({{"LB_METHOD", "RRCB"}, {"DEBUG_LEVEL", "1"}, {"RCB_SET_DIRECTIONS", "9"}});
+    program.set("RCB_OUTPUT_LEVEL", "1");
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
     EXPECT_EQ(program.partition().code, ZOLTAN_OK);

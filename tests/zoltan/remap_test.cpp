@@ -115,9 +115,8 @@ struct ManyParts : Program {
     static constexpr int num_parts = 50000;
     ManyParts() {
         scatter_points(*this, 2 * num_parts / num_ranks);
-        set({{"LB_METHOD", "RRCB"},
-             {"NUM_GLOBAL_PARTS", std::to_string(num_parts)},
-             {"RETURN_LISTS", "PARTS"}});
+        set({{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", std::to_string(num_parts)}});
+        set("RETURN_LISTS", "PARTS");
     }
 };
 

@@ -78,10 +78,8 @@ std::vector<std::array<double, 3>> faces_of_regions(const Program& program) {
 TEST(Replacement, leaves_cuts_within_the_tolerance_unless_told_not_to) {
     Program program;
     scatter_points(program, 2000);
-    program.set({{"KEEP_CUTS", "1"},
-                 {"IMBALANCE_TOL", "1.1"},
-                 {"REMAP", "0"},
-                 {"NUM_GLOBAL_PARTS", std::to_string(num_regions)}});
+    program.set({{"KEEP_CUTS", "1"}, {"IMBALANCE_TOL", "1.1"}, {"REMAP", "0"}});
+    program.set("NUM_GLOBAL_PARTS", std::to_string(num_regions));
     const auto faces_after_a_move = [&] {
         for (double& x : program.coordinates) x += 1e-3 * x;
         EXPECT_EQ(program.partition().code, ZOLTAN_OK);

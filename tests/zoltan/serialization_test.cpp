@@ -7,21 +7,12 @@
 namespace rrcb::zoltan_test {
 namespace {
 
-std::vector<char> bytes_of(const Zoltan_Struct* zz) {
-    std::vector<char> bytes(Zoltan_Serialize_Size(zz));
-    EXPECT_EQ(Zoltan_Serialize(zz, bytes.size(), bytes.data()), ZOLTAN_OK);
-    return bytes;
-}
-
 /// A handle with much to remember, partitioned.
 struct Sender : Program {
     Sender() {
         scatter_points(*this, 400);
-        set({{"LB_METHOD", "RRCB"},
-             {"RRCB_DOMAIN", "SAMPLED"},
-             {"KEEP_CUTS", "1"},
-             {"NUM_GLOBAL_PARTS", "7"},
-             {"RETURN_LISTS", "PARTS"}});
+        set({{"LB_METHOD", "RRCB"}, {"RRCB_DOMAIN", "SAMPLED"}, {"KEEP_CUTS", "1"}});
+        set({{"NUM_GLOBAL_PARTS", "7"}, {"RETURN_LISTS", "PARTS"}});
         Zoltan_Set_Param_Vec(zz, "IMBALANCE_TOL", "1.05", 0);
         set_size(2, 3);
         outcome = partition();
@@ -31,11 +22,10 @@ struct Sender : Program {
 
 void expect_same_look_ups(Sender& sender, Zoltan_Struct* handle) {
     const std::vector<int> parts = parts_by_object(sender.outcome);
-    for (int i = 0; i < sender.size(); ++i) {
-        int rank = -1, part = -1;
-        double* position = &sender.coordinates[static_cast<std::size_t>(2 * i)];
-        ASSERT_EQ(Zoltan_LB_Point_PP_Assign(handle, position, &rank, &part), ZOLTAN_OK);
-        EXPECT_EQ(part, parts[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Place place = sender.place_of(&sender.coordinates[2 * i], handle);
+        ASSERT_EQ(place.code, ZOLTAN_OK);
+        EXPECT_EQ(place.part, parts[i]);
     }
     for (int part = 0; part < 7; ++part) {
         const Region expected = region_of(sender.zz, part);
@@ -45,31 +35,21 @@ void expect_same_look_ups(Sender& sender, Zoltan_Struct* handle) {
     }
 }
 
-TEST(Serialization, carries_parameters_sizes_and_cuts) {
+TEST(Serialization, carries_parameters_sizes_and_cuts_to_communicators_of_any_size) {
     Sender sender;
-    std::vector<char> bytes = bytes_of(sender.zz);
-    Zoltan_Struct* handle = Zoltan_Create(MPI_COMM_WORLD);
-    ASSERT_EQ(Zoltan_Deserialize(handle, bytes.size(), bytes.data()), ZOLTAN_OK);
-    expect_same_look_ups(sender, handle);
-    sender.register_callbacks(handle);
-    const Outcome again = sender.partition(handle);
-    EXPECT_EQ(again.code, ZOLTAN_OK);
-    EXPECT_EQ(again.exports.parts, sender.outcome.exports.parts);
-    EXPECT_EQ(bytes_of(handle), bytes);
-    Zoltan_Destroy(&handle);
-}
-
-TEST(Serialization, works_on_a_communicator_of_another_size) {
-    Sender sender;
-    std::vector<char> bytes = bytes_of(sender.zz);
-    Zoltan_Struct* alone = Zoltan_Create(MPI_COMM_SELF);
-    ASSERT_EQ(Zoltan_Deserialize(alone, bytes.size(), bytes.data()), ZOLTAN_OK);
-    expect_same_look_ups(sender, alone);
-    sender.register_callbacks(alone);
-    const Outcome outcome = sender.partition(alone);
-    EXPECT_EQ(outcome.code, ZOLTAN_OK);
-    EXPECT_EQ(outcome.exports.count, 400);
-    Zoltan_Destroy(&alone);
+    const std::vector<char> bytes = bytes_of(sender.zz);
+    for (const MPI_Comm comm : {MPI_COMM_WORLD, MPI_COMM_SELF}) {
+        Program received(2, comm);
+        ASSERT_EQ(unpack(received.zz, bytes), ZOLTAN_OK);
+        expect_same_look_ups(sender, received.zz);
+        sender.register_callbacks(received.zz);
+        const Outcome again = sender.partition(received.zz);
+        EXPECT_EQ(again.code, ZOLTAN_OK);
+        EXPECT_EQ(again.exports.count, 400);
+        if (comm == MPI_COMM_SELF) continue;
+        EXPECT_EQ(again.exports.parts, sender.outcome.exports.parts);
+        EXPECT_EQ(bytes_of(received.zz), bytes);
+    }
 }
 
 /// Global ids of the objects that Zoltan_Migrate brings, if every rank sends two to the next one.
@@ -106,16 +86,15 @@ TEST(Serialization, sets_the_widths_of_ids_for_zoltan_migrate) {
     if (sender.num_ranks > 1)
         for (int i = 0; i < 2; ++i) expected.push_back(static_cast<ZOLTAN_ID_TYPE>(2 * from + i));
     wide.set({{"NUM_GID_ENTRIES", "3"}, {"NUM_LID_ENTRIES", "3"}});
-    std::vector<char> of_zoltan = bytes_of(wide.zz);
+    const std::vector<char> of_zoltan = bytes_of(wide.zz);
     for (const bool has_zoltans_parameters : {false, true}) {
         Program receiver;
         if (has_zoltans_parameters) {
-            Zoltan_Deserialize(receiver.zz, of_zoltan.size(), of_zoltan.data());
+            unpack(receiver.zz, of_zoltan);
         } else {
             receiver.set({{"NUM_GID_ENTRIES", "3"}, {"NUM_LID_ENTRIES", "3"}});
         }
-        std::vector<char> bytes = bytes_of(sender.zz);
-        ASSERT_EQ(Zoltan_Deserialize(receiver.zz, bytes.size(), bytes.data()), ZOLTAN_OK);
+        ASSERT_EQ(unpack(receiver.zz, bytes_of(sender.zz)), ZOLTAN_OK);
         EXPECT_EQ(migrate(receiver.zz, sender.rank, sender.num_ranks), expected);
     }
 }
@@ -144,9 +123,8 @@ TEST(Serialization, gives_the_parameters_that_are_in_force) {
             Zoltan_Set_Param_Vec(program.zz, text.substr(0, bracket).c_str(), value,
                                  bracket == text.npos ? -1 : 0);
         }
-        std::vector<char> bytes = bytes_of(program.zz);
         Program received, copied;
-        EXPECT_EQ(Zoltan_Deserialize(received.zz, bytes.size(), bytes.data()), ZOLTAN_OK);
+        EXPECT_EQ(unpack(received.zz, bytes_of(program.zz)), ZOLTAN_OK);
         EXPECT_EQ(Zoltan_Copy_To(copied.zz, program.zz), ZOLTAN_OK);
         const Outcome expected = program.partition();
         for (Zoltan_Struct* handle : {received.zz, copied.zz}) {
@@ -172,8 +150,7 @@ TEST(Serialization, works_for_a_handle_without_a_method) {
     Zoltan_Struct* handle = Zoltan_Create(MPI_COMM_WORLD);
     Zoltan_Struct* other = Zoltan_Create(MPI_COMM_WORLD);
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
-    std::vector<char> bytes = bytes_of(handle);
-    EXPECT_EQ(Zoltan_Deserialize(other, bytes.size(), bytes.data()), ZOLTAN_OK);
+    EXPECT_EQ(unpack(other, bytes_of(handle)), ZOLTAN_OK);
     Zoltan_Destroy(&handle);
     Zoltan_Destroy(&other);
 }
@@ -181,13 +158,10 @@ TEST(Serialization, works_for_a_handle_without_a_method) {
 TEST(Serialization, works_before_the_first_partition) {
     Program program;
     program.set("LB_METHOD", "RRCB");
-    std::vector<char> bytes = bytes_of(program.zz);
-    Zoltan_Struct* handle = Zoltan_Create(MPI_COMM_WORLD);
-    ASSERT_EQ(Zoltan_Deserialize(handle, bytes.size(), bytes.data()), ZOLTAN_OK);
-    int rank = 0, part = 0;
-    double position[] = {0, 0};
-    EXPECT_EQ(Zoltan_LB_Point_PP_Assign(handle, position, &rank, &part), ZOLTAN_FATAL);
-    Zoltan_Destroy(&handle);
+    Program received;
+    ASSERT_EQ(unpack(received.zz, bytes_of(program.zz)), ZOLTAN_OK);
+    const double position[] = {0, 0};
+    EXPECT_EQ(received.place_of(position).code, ZOLTAN_FATAL);
 }
 
 TEST(Serialization, refuses_a_truncated_or_changed_buffer_and_leaves_the_handle_as_it_was) {
@@ -195,14 +169,14 @@ TEST(Serialization, refuses_a_truncated_or_changed_buffer_and_leaves_the_handle_
     const std::vector<char> bytes = bytes_of(sender.zz);
     Sender receiver;
     for (std::size_t size = 8; size < bytes.size(); size += 5) {
-        std::vector<char> truncated(bytes.begin(), bytes.begin() + static_cast<long>(size));
-        ASSERT_EQ(Zoltan_Deserialize(receiver.zz, size, truncated.data()), ZOLTAN_FATAL) << size;
+        ASSERT_EQ(unpack(receiver.zz, {bytes.begin(), bytes.begin() + static_cast<long>(size)}),
+                  ZOLTAN_FATAL)
+            << size;
     }
     for (std::size_t at = 8; at < bytes.size(); at += 3) {
         std::vector<char> changed = bytes;
         changed[at] = static_cast<char>(changed[at] ^ 0x41);
-        ASSERT_EQ(Zoltan_Deserialize(receiver.zz, changed.size(), changed.data()), ZOLTAN_FATAL)
-            << at;
+        ASSERT_EQ(unpack(receiver.zz, changed), ZOLTAN_FATAL) << at;
     }
     expect_same_look_ups(sender, receiver.zz);
 }
@@ -213,7 +187,7 @@ TEST(Serialization, refuses_a_buffer_of_the_other_byte_order_by_name) {
     std::vector<char> bytes = bytes_of(program.zz);
     std::reverse(bytes.begin() + 8, bytes.begin() + 16);  // the size
     testing::internal::CaptureStderr();
-    EXPECT_EQ(Zoltan_Deserialize(program.zz, bytes.size(), bytes.data()), ZOLTAN_FATAL);
+    EXPECT_EQ(unpack(program.zz, bytes), ZOLTAN_FATAL);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("the other byte order"),
               std::string::npos);
 }
@@ -247,9 +221,8 @@ TEST(PartitionTree, is_walked_by_the_rules_of_zoltan) {
             SCOPED_TRACE(method + std::to_string(num_parts));
             Program program;
             scatter_points(program, 400);
-            program.set({{"LB_METHOD", method},
-                         {"KEEP_CUTS", "1"},
-                         {"NUM_GLOBAL_PARTS", std::to_string(num_parts)}});
+            program.set({{"LB_METHOD", method}, {"KEEP_CUTS", "1"}});
+            program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
             program.partition();
             int parent = 0, left = 0, root = 0;
             ASSERT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 0, &parent, &left, &root), ZOLTAN_OK);

@@ -44,10 +44,8 @@ void free_communicators(std::array<MPI_Comm, num_threads>& all) {
 struct Cloud : Program {
     Cloud(int thread, MPI_Comm comm) : Program(2, comm) {
         scatter_points(*this, 100 + 40 * thread);
-        set({{"LB_METHOD", "RRCB"},
-             {"KEEP_CUTS", "1"},
-             {"RETURN_LISTS", "PARTS"},
-             {"NUM_GLOBAL_PARTS", std::to_string(5 + thread)}});
+        set({{"LB_METHOD", "RRCB"}, {"KEEP_CUTS", "1"}, {"RETURN_LISTS", "PARTS"}});
+        set("NUM_GLOBAL_PARTS", std::to_string(5 + thread));
     }
     std::vector<int> parts(Zoltan_Struct* handle) {
         const Outcome outcome = partition(handle);

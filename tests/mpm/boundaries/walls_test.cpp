@@ -1,11 +1,6 @@
 // Walls that points are thrown against, with all shape functions.
 #include "support.hpp"
 
-#include <gtest/gtest.h>
-
-#include <tuple>
-#include <utility>
-
 namespace mpm::test {
 namespace {
 

@@ -1,9 +1,7 @@
 #include "materials/drucker_prager.hpp"
 
-#include <gtest/gtest.h>
+#include "../../support/common.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace mpm {

@@ -5,11 +5,7 @@
 
 #include <rrcb/cost.hpp>
 
-#include <gtest/gtest.h>
 #include <mpm/simulation.hpp>
-
-#include <algorithm>
-#include <vector>
 
 namespace mpm::test {
 namespace {

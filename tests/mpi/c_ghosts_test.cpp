@@ -1,27 +1,11 @@
 // Ghosts, part numbers and measures in C beside those in C++, which are the reference.
-#include "../support/ranks.hpp"
-
-#include <rrcb/rrcb.h>
-#include <rrcb/rrcb.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
+#include "c_calls.hpp"
 
 namespace rrcb {
 namespace {
 
-using test::is_last_rank;
-using test::num_ranks;
-using test::rank;
+using test::equal;
+using test::expect_refused;
 
 constexpr Box unit{{0, 0, 0}, {1, 1, 1}};
 
@@ -69,8 +53,7 @@ class CGhosts : public testing::Test {
         rrcb_ghost_plan plan;
         ASSERT_EQ(rrcb_ghosts_get_plan(ghosts, &plan), RRCB_OK);
         EXPECT_EQ(plan.num_points, expected.num_points);
-        EXPECT_TRUE(std::equal(plan.send_indices, plan.send_indices + plan.num_sent,
-                               expected.send_indices.begin(), expected.send_indices.end()));
+        EXPECT_TRUE(equal(plan.send_indices, plan.num_sent, expected.send_indices));
         const auto is_same = [](const rrcb_rank_count& a, const RankCount& b) {
             return a.rank == b.rank && a.count == b.count;
         };
@@ -139,10 +122,8 @@ TEST_F(CGhosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     rrcb_ghost_options options{};
     options.radius = 0.1;
     const auto refused = [&] {
-        EXPECT_EQ(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), RRCB_INVALID_ARGUMENT);
-        EXPECT_NE(std::string(rrcb_last_error()).find("the points of the balance"),
-                  std::string::npos)
-            << rrcb_last_error();
+        expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts),
+                       "the points of the balance");
     };
     ASSERT_EQ(rrcb_assign_all(balancer, &in_c, parts.data()), RRCB_OK);
     refused();
@@ -240,56 +221,49 @@ TEST_F(CGhosts, from_before_a_transfer_are_refused) {
     const std::vector<std::int32_t> to_next(weights.size(), (rank() + 1) % num_ranks());
     ASSERT_EQ(rrcb_plan(balancer, to_next.size(), to_next.data()), RRCB_OK);
     ASSERT_EQ(rrcb_transfer(balancer, 0, nullptr, nullptr, nullptr), RRCB_OK);
-    EXPECT_EQ(rrcb_ghosts_fetch(ghosts, 0, nullptr, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::string(rrcb_last_error()).find("the points were transferred since"),
-              std::string::npos)
-        << rrcb_last_error();
-}
-
-/// Fails unless the last error is this one on all ranks.
-void expect_error(int code, const std::string& word) {
-    EXPECT_EQ(code, RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::string(rrcb_last_error()).find(word), std::string::npos) << rrcb_last_error();
+    expect_refused(rrcb_ghosts_fetch(ghosts, 0, nullptr, nullptr, nullptr),
+                   "the points were transferred since");
 }
 
 TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     rrcb_ghost_options options{};
     options.radius = 0.1;
     const rrcb_ghost_options* none_there = is_last_rank() ? nullptr : &options;
-    expect_error(rrcb_ghosts_create(balancer, &in_c, none_there, &ghosts), "options is null");
+    expect_refused(rrcb_ghosts_create(balancer, &in_c, none_there, &ghosts), "options is null");
     EXPECT_EQ(ghosts, nullptr);
     rrcb_ghosts** no_room = is_last_rank() ? nullptr : &ghosts;
-    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, no_room), "ghosts is null");
+    expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, no_room), "ghosts is null");
     const rrcb_points* no_points = is_last_rank() ? nullptr : &in_c;
-    expect_error(rrcb_ghosts_create(balancer, no_points, &options, &ghosts), "points is null");
+    expect_refused(rrcb_ghosts_create(balancer, no_points, &options, &ghosts), "points is null");
     if (is_last_rank()) options.lower = unit.lower.data();
-    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "upper is null");
+    expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "upper is null");
     options.lower = nullptr;
     options.radius = -1;
-    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "give it or radii");
+    expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "give it or radii");
     options.radius = 0.1;
     const rrcb_rank_range to_first{0, 1};
     options.ranks_of_parts = is_last_rank() ? &to_first : nullptr;
-    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "parts, not 0");
+    expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "parts, not 0");
     options.ranks_of_parts = nullptr;
     rrcb_points shifted = in_c;
     if (rank() == 0) shifted.stride = 3;
-    expect_error(rrcb_ghosts_create(balancer, &shifted, &options, &ghosts), "must be in bytes");
+    expect_refused(rrcb_ghosts_create(balancer, &shifted, &options, &ghosts), "must be in bytes");
     find(options);
     double value = 0;
     rrcb_column column{RRCB_DOUBLE, 0, &value, &value};
-    expect_error(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr), "must be 1 or more");
+    expect_refused(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr),
+                   "must be 1 or more");
     column = {is_last_rank() ? RRCB_BYTE : RRCB_DOUBLE, 1, &value, &value};
-    expect_error(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr),
-                 "give a type of numbers");
+    expect_refused(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr),
+                   "give a type of numbers");
     const rrcb_column* no_columns = is_last_rank() ? nullptr : &column;
-    expect_error(rrcb_ghosts_fetch(ghosts, 1, no_columns, nullptr, nullptr), "columns is null");
-    expect_error(rrcb_ghosts_accumulate(ghosts, 1, no_columns, nullptr, nullptr),
-                 "columns is null");
-    expect_error(rrcb_ghosts_fetch(nullptr, 0, nullptr, nullptr, nullptr), "ghosts is null");
+    expect_refused(rrcb_ghosts_fetch(ghosts, 1, no_columns, nullptr, nullptr), "columns is null");
+    expect_refused(rrcb_ghosts_accumulate(ghosts, 1, no_columns, nullptr, nullptr),
+                   "columns is null");
+    expect_refused(rrcb_ghosts_fetch(nullptr, 0, nullptr, nullptr, nullptr), "ghosts is null");
     if (num_ranks() > 1) {
         const rrcb_transfer_limits limits{is_last_rank() ? std::size_t{1} << 20 : 1 << 21};
-        expect_error(rrcb_ghosts_fetch(ghosts, 0, nullptr, &limits, nullptr), "TransferLimits");
+        expect_refused(rrcb_ghosts_fetch(ghosts, 0, nullptr, &limits, nullptr), "TransferLimits");
     }
 }
 
@@ -316,8 +290,8 @@ TEST_F(CGhosts, measures_are_those_of_cpp) {
         rrcb_load_unbalance_percent(of_parts.size(), of_parts.data(), nullptr, percent.data()),
         RRCB_OK);
     EXPECT_EQ(percent, load_unbalance_percent(of_parts));
-    expect_error(rrcb_imbalance(1, nullptr, nullptr, &number),
-                 "part_weights, or an array of one for each part, is null");
+    expect_refused(rrcb_imbalance(1, nullptr, nullptr, &number),
+                   "part_weights, or an array of one for each part, is null");
 }
 
 TEST_F(CGhosts, look_ups_are_those_of_cpp) {
@@ -336,7 +310,7 @@ TEST_F(CGhosts, look_ups_are_those_of_cpp) {
                                   touched.data(), &count),
               RRCB_OK);
     EXPECT_EQ(count, expected.size());
-    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), touched.begin()));
+    EXPECT_TRUE(equal(touched.data(), count, expected));
     EXPECT_EQ(touched.back(), -1);
     ASSERT_EQ(rrcb_parts_touching(balancer, lower.data(), upper.data(), 0, nullptr, &count),
               RRCB_OK);
@@ -345,7 +319,7 @@ TEST_F(CGhosts, look_ups_are_those_of_cpp) {
     ASSERT_EQ(rrcb_ranks_of_part(2, 3, 7, &ranks), RRCB_OK);
     EXPECT_EQ(ranks.first_rank, ranks_of_part(2, 3, 7).first_rank);
     EXPECT_EQ(ranks.count, ranks_of_part(2, 3, 7).count);
-    expect_error(rrcb_ranks_of_part(3, 3, 7, &ranks), "");
+    expect_refused(rrcb_ranks_of_part(3, 3, 7, &ranks), "");
     EXPECT_EQ(rrcb_release_buffers(balancer), RRCB_OK);
 }
 
@@ -386,7 +360,9 @@ TEST_F(CGhosts, coordinates_may_be_floats) {
     EXPECT_EQ(again, expected);
     rrcb_points odd = in_c;
     odd.stride += 4;
-    if (odd.count > 0) expect_error(rrcb_assign(balancer, &odd, again.data()), "stride");
+    if (odd.count == 0) return;
+    EXPECT_EQ(rrcb_assign(balancer, &odd, again.data()), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "stride"), nullptr) << rrcb_last_error();
 }
 
 TEST_F(CGhosts, groups_are_those_of_cpp) {
@@ -405,8 +381,8 @@ TEST_F(CGhosts, groups_are_those_of_cpp) {
         const std::size_t count = shown.count;
         ASSERT_EQ(count, expected.weights.size());
         const double* x = static_cast<const double*>(shown.axes[0]);
-        EXPECT_TRUE(std::equal(x, x + 3 * count, expected.coordinates.begin()));
-        EXPECT_TRUE(std::equal(shown.weights, shown.weights + count, expected.weights.begin()));
+        EXPECT_TRUE(equal(x, 3 * count, expected.coordinates));
+        EXPECT_TRUE(equal(shown.weights, count, expected.weights));
 
         std::vector<std::int32_t> numbers(count);
         for (std::size_t g = 0; g < count; ++g)
@@ -422,11 +398,11 @@ TEST_F(CGhosts, groups_are_those_of_cpp) {
     }
     rrcb_groups* groups = nullptr;
     const int no_place = 7;
-    expect_error(rrcb_groups_create(balancer, &in_c, keys.data(), no_place, &groups),
-                 "the place of groups must be");
-    expect_error(rrcb_groups_create(balancer, is_last_rank() ? nullptr : &in_c, keys.data(),
-                                    RRCB_CENTRE, &groups),
-                 "points is null");
+    expect_refused(rrcb_groups_create(balancer, &in_c, keys.data(), no_place, &groups),
+                   "the place of groups must be");
+    expect_refused(rrcb_groups_create(balancer, is_last_rank() ? nullptr : &in_c, keys.data(),
+                                      RRCB_CENTRE, &groups),
+                   "points is null");
 }
 
 TEST_F(CGhosts, part_numbers_are_those_of_cpp) {

@@ -1,27 +1,10 @@
 // Handles of C that are null, in use or destroyed, and options that are all 0.
-#include "../support/ranks.hpp"
-
-#include <rrcb/rrcb.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "c_calls.hpp"
 
 namespace rrcb {
 namespace {
 
-using test::is_last_rank;
-using test::num_ranks;
-
-/// Fails unless the call was refused with a text that contains `word`.
-void expect_refusal(int code, const std::string& word) {
-    EXPECT_EQ(code, RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::string(rrcb_last_error()).find(word), std::string::npos) << rrcb_last_error();
-}
+using test::expect_refused;
 
 /// Two points on each rank, balanced, with ghosts.
 class CHandles : public testing::Test {
@@ -70,11 +53,11 @@ TEST_F(CHandles, are_null_after_they_are_destroyed_once_or_twice) {
     rrcb_points shown;
     rrcb_ghost_plan plan;
     const std::string gone = " is null: it was not created, or is destroyed";
-    expect_refusal(rrcb_balance(balancer, &points, parts.data()), "balancer" + gone);
-    expect_refusal(rrcb_controller_due(controller, &due), "controller" + gone);
-    expect_refusal(rrcb_cost_model_uses_costs(model, &due), "model" + gone);
-    expect_refusal(rrcb_groups_points(groups, &shown), "groups" + gone);
-    expect_refusal(rrcb_ghosts_get_plan(ghosts, &plan), "ghosts" + gone);
+    expect_refused(rrcb_balance(balancer, &points, parts.data()), "balancer" + gone);
+    expect_refused(rrcb_controller_due(controller, &due), "controller" + gone);
+    expect_refused(rrcb_cost_model_uses_costs(model, &due), "model" + gone);
+    expect_refused(rrcb_groups_points(groups, &shown), "groups" + gone);
+    expect_refused(rrcb_ghosts_get_plan(ghosts, &plan), "ghosts" + gone);
     rrcb_destroy(nullptr);
     rrcb_ghosts_destroy(nullptr);
 }
@@ -84,22 +67,22 @@ TEST_F(CHandles, in_use_are_refused_as_room_for_new_ones) {
     rrcb_balancer* fresh = nullptr;
     rrcb_balancer** room = is_last_rank() ? &balancer : &fresh;
     rrcb_balancer* const before = balancer;
-    expect_refusal(rrcb_create(MPI_COMM_WORLD, room), "balancer" + in_use);
+    expect_refused(rrcb_create(MPI_COMM_WORLD, room), "balancer" + in_use);
     EXPECT_EQ(fresh, nullptr);
     EXPECT_EQ(balancer, before);
     rrcb_ghost_options options{};
     options.radius = 0.1;
-    expect_refusal(rrcb_controller_create(MPI_COMM_WORLD, &controller), "controller" + in_use);
-    expect_refusal(rrcb_cost_model_create(MPI_COMM_WORLD, nullptr, 1, &model), "model" + in_use);
-    expect_refusal(rrcb_groups_create(balancer, &points, keys.data(), RRCB_CENTRE, &groups),
+    expect_refused(rrcb_controller_create(MPI_COMM_WORLD, &controller), "controller" + in_use);
+    expect_refused(rrcb_cost_model_create(MPI_COMM_WORLD, nullptr, 1, &model), "model" + in_use);
+    expect_refused(rrcb_groups_create(balancer, &points, keys.data(), RRCB_CENTRE, &groups),
                    "groups" + in_use);
-    expect_refusal(rrcb_ghosts_create(balancer, &points, &options, &ghosts), "ghosts" + in_use);
+    expect_refused(rrcb_ghosts_create(balancer, &points, &options, &ghosts), "ghosts" + in_use);
 }
 
 TEST_F(CHandles, take_no_zeroed_options) {
     rrcb_ghosts* more = nullptr;
     const rrcb_ghost_options no_radius{};
-    expect_refusal(rrcb_ghosts_create(balancer, &points, &no_radius, &more),
+    expect_refused(rrcb_ghosts_create(balancer, &points, &no_radius, &more),
                    "radius is 0, and radii is null; give one of them");
     const std::array<double, 2> none{};
     rrcb_ghost_options radii_of_0{};
@@ -109,38 +92,38 @@ TEST_F(CHandles, take_no_zeroed_options) {
     rrcb_ghost_options no_ranks{};
     no_ranks.radius = 0.1;
     no_ranks.num_parts = static_cast<std::size_t>(num_ranks());
-    expect_refusal(rrcb_ghosts_create(balancer, &points, &no_ranks, &more),
+    expect_refused(rrcb_ghosts_create(balancer, &points, &no_ranks, &more),
                    "ranks_of_parts is null");
     rrcb_verification seen;
     const rrcb_verify_options no_sample{};
-    expect_refusal(rrcb_ghosts_verify(ghosts, &points, &no_sample, &seen),
+    expect_refused(rrcb_ghosts_verify(ghosts, &points, &no_sample, &seen),
                    "sample is 0, and there are no ids");
     const rrcb_column no_type{{}, 2, coordinates.data(), coordinates.data()};
-    expect_refusal(rrcb_ghosts_fetch(ghosts, 1, &no_type, nullptr, nullptr),
+    expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_type, nullptr, nullptr),
                    "must be an rrcb_type");
     std::array<double, 4> room{};
     const rrcb_column no_components{RRCB_DOUBLE, 0, coordinates.data(), room.data()};
-    expect_refusal(rrcb_ghosts_fetch(ghosts, 1, &no_components, nullptr, nullptr),
+    expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_components, nullptr, nullptr),
                    "must be 1 or more");
     const rrcb_transfer_limits no_bytes{};
     const rrcb_column doubles{RRCB_DOUBLE, 2, coordinates.data(), room.data()};
-    expect_refusal(rrcb_groups_fetch(groups, 1, &doubles, &no_bytes, nullptr),
+    expect_refused(rrcb_groups_fetch(groups, 1, &doubles, &no_bytes, nullptr),
                    "TransferLimits::bytes must hold two");
     const rrcb_report no_report{};
-    expect_refusal(rrcb_controller_rebalanced(controller, &no_report, 1), "rrcb_get_report");
+    expect_refused(rrcb_controller_rebalanced(controller, &no_report, 1), "rrcb_get_report");
 }
 
 TEST_F(CHandles, take_no_zeroed_points_cuts_or_ranks) {
     const rrcb_points nowhere{};
-    expect_refusal(rrcb_balance(balancer, &nowhere, parts.data()), "1, 2 or 3 dimensions");
+    expect_refused(rrcb_balance(balancer, &nowhere, parts.data()), "1, 2 or 3 dimensions");
     rrcb_points untyped = points;
     untyped.type = {};
-    expect_refusal(rrcb_balance(balancer, &untyped, parts.data()), "RRCB_DOUBLE or RRCB_FLOAT");
+    expect_refused(rrcb_balance(balancer, &untyped, parts.data()), "RRCB_DOUBLE or RRCB_FLOAT");
     const rrcb_cuts no_cuts{};
-    expect_refusal(rrcb_set_cuts(balancer, &no_cuts), "1, 2 or 3 dimensions");
+    expect_refused(rrcb_set_cuts(balancer, &no_cuts), "1, 2 or 3 dimensions");
     const std::vector<rrcb_rank_range> no_ranks(static_cast<std::size_t>(num_ranks()));
     std::vector<std::int32_t> numbers(no_ranks.size());
-    expect_refusal(rrcb_remap(balancer, 2, parts.data(), nullptr, no_ranks.data(), no_ranks.size(),
+    expect_refused(rrcb_remap(balancer, 2, parts.data(), nullptr, no_ranks.data(), no_ranks.size(),
                               numbers.data(), nullptr),
                    "must name ranks of this communicator");
 }
@@ -154,7 +137,7 @@ TEST_F(CHandles, make_one_part_for_each_rank_if_asked_for_none) {
         ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
         EXPECT_EQ(cuts.num_parts, num_ranks());
     }
-    expect_refusal(rrcb_set(balancer, "num_parts", "-1"), "or 0 or AUTO for one part per rank");
+    expect_refused(rrcb_set(balancer, "num_parts", "-1"), "or 0 or AUTO for one part per rank");
 }
 
 }  // namespace

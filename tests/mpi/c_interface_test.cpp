@@ -1,26 +1,11 @@
 // The interface in C beside the one in C++, which is the reference.
-#include "../support/ranks.hpp"
-
-#include <rrcb/rrcb.h>
-#include <rrcb/rrcb.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <string>
-#include <vector>
+#include "c_calls.hpp"
 
 namespace rrcb {
 namespace {
 
-using test::is_last_rank;
-using test::num_ranks;
-using test::rank;
+using test::equal;
+using test::expect_refused;
 
 /// A cloud that lies unevenly on the ranks; the second of them holds nothing.
 struct Cloud {
@@ -56,19 +41,12 @@ class CInterface : public testing::Test {
         return rrcb_balance(balancer, &points, parts.data());
     }
 
+    void expect_as_in_cpp(int dimension, const Options& options,
+                          const std::vector<std::pair<const char*, std::string>>& settings);
+
     rrcb_balancer* balancer = nullptr;
     std::vector<std::int32_t> parts;
 };
-
-/// Fails unless all ranks have an error of this code, and the same text, which names `word`.
-void expect_error_everywhere(int code, int expected, const std::string& word) {
-    EXPECT_EQ(code, expected);
-    std::array<char, 512> first{};
-    std::strncpy(first.data(), rrcb_last_error(), first.size() - 1);
-    MPI_Bcast(first.data(), static_cast<int>(first.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
-    EXPECT_STREQ(rrcb_last_error(), first.data());
-    EXPECT_NE(std::string(rrcb_last_error()).find(word), std::string::npos) << rrcb_last_error();
-}
 
 void expect_same_cuts(const rrcb_cuts& cuts, const Cuts& expected) {
     EXPECT_EQ(cuts.dimension, expected.dimension);
@@ -78,35 +56,56 @@ void expect_same_cuts(const rrcb_cuts& cuts, const Cuts& expected) {
         EXPECT_EQ(cuts.tree[k].divides, expected.tree[k].divides);
         EXPECT_TRUE(std::ranges::equal(cuts.tree[k].at, expected.tree[k].at));
     }
+    EXPECT_EQ(cuts.group_size, expected.shape.group_size);
+    EXPECT_EQ(cuts.larger_below, expected.shape.larger_below ? 1 : 0);
+    EXPECT_EQ(cuts.dealt, expected.shape.dealt);
+}
+
+/// Balances with settings in C and options in C++.
+void CInterface::expect_as_in_cpp(
+    int dimension, const Options& options,
+    const std::vector<std::pair<const char*, std::string>>& settings) {
+    const Cloud cloud(dimension);
+    for (const auto& [name, value] : settings)
+        ASSERT_EQ(rrcb_set(balancer, name, value.c_str()), RRCB_OK) << rrcb_last_error();
+    ASSERT_EQ(rrcb_set_part_sizes(balancer, options.part_sizes.size(), options.part_sizes.data()),
+              RRCB_OK);
+    ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
+    const Balance expected = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
+    EXPECT_EQ(parts, expected.parts);
+    rrcb_cuts cuts;
+    ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
+    expect_same_cuts(cuts, expected.cuts);
+    EXPECT_EQ(cuts.near_reach, expected.cuts.near.reach);
+    EXPECT_EQ(cuts.near_share, expected.cuts.near.share);
+    rrcb_report report;
+    ASSERT_EQ(rrcb_get_report(balancer, &report), RRCB_OK);
+    EXPECT_EQ(report.num_points, expected.report.details.num_points);
+    EXPECT_EQ(report.total_weight, expected.report.details.total_weight);
+    EXPECT_EQ(report.imbalance, expected.report.imbalance);
+    EXPECT_EQ(report.least_imbalance, expected.report.details.least_imbalance);
+    EXPECT_EQ(report.within_tolerance, expected.report.within_tolerance ? 1 : 0);
+    EXPECT_EQ(report.kept, expected.report.kept ? 1 : 0);
+    EXPECT_EQ(report.rounds, expected.report.details.rounds);
+    EXPECT_GT(report.rounds, 0);
 }
 
 TEST_F(CInterface, gives_the_parts_cuts_and_report_of_a_call_in_cpp) {
-    for (int dimension = 1; dimension <= 3; ++dimension) {
-        const Cloud cloud(dimension);
-        Options options;
-        options.num_parts = 5;
-        options.refine = Refine::exact;
-        options.part_sizes = {1, 2, 1, 1, 3};
-        ASSERT_EQ(rrcb_set(balancer, "num_parts", "5"), RRCB_OK);
-        ASSERT_EQ(rrcb_set(balancer, "refine", "exact"), RRCB_OK);
-        ASSERT_EQ(rrcb_set_part_sizes(balancer, 5, options.part_sizes.data()), RRCB_OK);
-        ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
-
-        const Balance expected = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
-        EXPECT_EQ(parts, expected.parts);
-        rrcb_cuts cuts;
-        ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
-        expect_same_cuts(cuts, expected.cuts);
-        rrcb_report report;
-        ASSERT_EQ(rrcb_get_report(balancer, &report), RRCB_OK);
-        EXPECT_EQ(report.num_points, expected.report.details.num_points);
-        EXPECT_EQ(report.total_weight, expected.report.details.total_weight);
-        EXPECT_EQ(report.imbalance, expected.report.imbalance);
-        EXPECT_EQ(report.least_imbalance, expected.report.details.least_imbalance);
-        EXPECT_EQ(report.within_tolerance, expected.report.within_tolerance ? 1 : 0);
-        EXPECT_EQ(report.kept, expected.report.kept ? 1 : 0);
-        EXPECT_EQ(report.rounds, expected.report.details.rounds);
-        EXPECT_GT(report.rounds, 0);
+    Options options{.num_parts = 5, .part_sizes = {1, 2, 1, 1, 3}, .refine = Refine::exact};
+    for (int dimension = 1; dimension <= 3; ++dimension)
+        expect_as_in_cpp(dimension, options, {{"num_parts", "5"}, {"refine", "exact"}});
+    options = {.num_parts = 12, .axes = {.plain = true}};
+    for (const TreeShape& shape : {TreeShape{}, TreeShape{0}, TreeShape{2}, TreeShape{4, true},
+                                   TreeShape{2, false, 1}, TreeShape{4, true, 2}}) {
+        options.tree = shape;
+        const std::string group = shape.group_size == 0 ? "AUTO" : std::to_string(shape.group_size);
+        expect_as_in_cpp(2, options,
+                         {{"num_parts", "12"},
+                          {"refine", "tolerance"},
+                          {"tree.group_size", group},
+                          {"tree.larger_below", shape.larger_below ? "ON" : "OFF"},
+                          {"tree.dealt", std::to_string(shape.dealt)},
+                          {"axes.plain", "on"}});
     }
 }
 
@@ -146,8 +145,7 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
 
 TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
     Cloud cloud(2);
-    Options options;
-    options.imbalance_tolerance = 1.5;
+    Options options{.imbalance_tolerance = 1.5};
     ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", "1.5"), RRCB_OK);
     ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
     const Cuts first = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
@@ -186,36 +184,6 @@ TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
     }
 }
 
-TEST_F(CInterface, makes_trees_of_the_shapes_of_cpp) {
-    for (const TreeShape& shape : {TreeShape{}, TreeShape{0}, TreeShape{2}, TreeShape{4, true},
-                                   TreeShape{2, false, 1}, TreeShape{4, true, 2}}) {
-        const Cloud cloud(2);
-        Options options;
-        options.num_parts = 12;
-        options.tree = shape;
-        options.axes.plain = true;
-        const auto set = [&](const char* name, const std::string& value) {
-            EXPECT_EQ(rrcb_set(balancer, name, value.c_str()), RRCB_OK) << rrcb_last_error();
-        };
-        set("num_parts", "12");
-        set("tree.group_size", shape.group_size == 0 ? "AUTO" : std::to_string(shape.group_size));
-        set("tree.larger_below", shape.larger_below ? "ON" : "OFF");
-        set("tree.dealt", std::to_string(shape.dealt));
-        set("axes.plain", "on");
-        ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
-        const Balance expected = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
-        EXPECT_EQ(parts, expected.parts);
-        rrcb_cuts cuts;
-        ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
-        expect_same_cuts(cuts, expected.cuts);
-        EXPECT_EQ(cuts.group_size, expected.cuts.shape.group_size);
-        EXPECT_EQ(cuts.near_reach, expected.cuts.near.reach);
-        EXPECT_EQ(cuts.near_share, expected.cuts.near.share);
-        EXPECT_EQ(cuts.larger_below, expected.cuts.shape.larger_below ? 1 : 0);
-        EXPECT_EQ(cuts.dealt, expected.cuts.shape.dealt);
-    }
-}
-
 TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     const Cloud cloud(3);
     ASSERT_EQ(balance(cloud), RRCB_OK);
@@ -224,9 +192,6 @@ TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     ASSERT_EQ(rrcb_get_plan(balancer, &shown), RRCB_OK);
 
     const Plan expected = plan(parts, num_ranks(), MPI_COMM_WORLD);
-    const auto equal = [](const auto* from, std::size_t count, const auto& list) {
-        return std::equal(from, from + count, list.begin(), list.end());
-    };
     EXPECT_EQ(shown.num_points, cloud.count());
     EXPECT_TRUE(equal(shown.export_indices, shown.num_exports, expected.export_indices));
     EXPECT_TRUE(equal(shown.export_ranks, shown.num_exports, expected.export_ranks));
@@ -254,8 +219,7 @@ TEST_F(CInterface, refuses_a_plan_of_fewer_points_than_were_balanced) {
     const auto plan_of_first = [&](std::size_t count_on_first) {
         return rrcb_plan(balancer, rank() == 0 ? count_on_first : cloud.count(), parts.data());
     };
-    expect_error_everywhere(plan_of_first(1), RRCB_INVALID_ARGUMENT,
-                            "rank 0: count is 1, but 300 points were balanced");
+    expect_refused(plan_of_first(1), "rank 0: count is 1, but 300 points were balanced");
     EXPECT_EQ(plan_of_first(300), RRCB_OK);
     // Of points that have moved since, there may be fewer.
     rrcb_points points = cloud.in_c();
@@ -278,17 +242,15 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
         return rrcb_balance(balancer, &points, out);
     };
     const double* coordinates = cloud.coordinates.data();
-    const int invalid = RRCB_INVALID_ARGUMENT;
     const auto num_parts = static_cast<std::size_t>(num_ranks());
-    expect_error_everywhere(call(2, is_last_rank() ? nullptr : coordinates, parts.data()), invalid,
-                            "coordinates is null");
-    expect_error_everywhere(
-        call(2, coordinates, is_last_rank() ? nullptr : parts.data()), invalid,
+    expect_refused(call(2, is_last_rank() ? nullptr : coordinates, parts.data()),
+                   "coordinates is null");
+    expect_refused(
+        call(2, coordinates, is_last_rank() ? nullptr : parts.data()),
         "it must hold " + std::to_string(num_ranks() == 2 ? 1 : 300 * num_ranks() + 1) + " entr");
-    expect_error_everywhere(call(is_last_rank() ? 4 : 2, coordinates, parts.data()), invalid,
-                            "dimension");
+    expect_refused(call(is_last_rank() ? 4 : 2, coordinates, parts.data()), "dimension");
     if (is_last_rank()) cloud.coordinates.back() = std::numeric_limits<double>::quiet_NaN();
-    expect_error_everywhere(call(2, coordinates, parts.data()), invalid, "NaN");
+    expect_refused(call(2, coordinates, parts.data()), "NaN");
 
     if (is_last_rank()) cloud.coordinates.back() = 0.5;
     ASSERT_EQ(call(2, coordinates, parts.data()), RRCB_OK) << rrcb_last_error();
@@ -296,22 +258,21 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     const rrcb_points* given = is_last_rank() ? nullptr : &points;
     std::int32_t* none_there = is_last_rank() ? nullptr : parts.data();
     double fraction;
-    expect_error_everywhere(rrcb_balance(balancer, given, parts.data()), invalid, "points is null");
+    expect_refused(rrcb_balance(balancer, given, parts.data()), "points is null");
     for (const int code : {rrcb_assign_all(balancer, &points, none_there),
                            rrcb_balance(balancer, &points, none_there),
                            rrcb_plan(balancer, cloud.count(), none_there),
                            rrcb_moved_fraction(balancer, &points, none_there, &fraction)})
-        expect_error_everywhere(code, invalid, "parts is null");
-    expect_error_everywhere(rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr,
-                                       num_parts, none_there, nullptr),
-                            invalid, "numbers is null");
-    expect_error_everywhere(
-        rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr,
-                   is_last_rank() ? num_parts - 1 : num_parts, parts.data(), nullptr),
-        invalid, "give an array with an entry for each");
-    expect_error_everywhere(rrcb_part_weights(balancer, &points, parts.data(), num_parts,
-                                              is_last_rank() ? nullptr : &fraction),
-                            invalid, "result is null");
+        expect_refused(code, "parts is null");
+    expect_refused(rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr, num_parts,
+                              none_there, nullptr),
+                   "numbers is null");
+    expect_refused(rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr,
+                              is_last_rank() ? num_parts - 1 : num_parts, parts.data(), nullptr),
+                   "give an array with an entry for each");
+    expect_refused(rrcb_part_weights(balancer, &points, parts.data(), num_parts,
+                                     is_last_rank() ? nullptr : &fraction),
+                   "result is null");
 }
 
 TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
@@ -327,21 +288,18 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
     const auto move = [&](const rrcb_column& there) {
         return rrcb_transfer(balancer, 1, is_last_rank() ? &there : &right, nullptr, nullptr);
     };
-    const int invalid = RRCB_INVALID_ARGUMENT;
-    expect_error_everywhere(move({RRCB_DOUBLE, 1, nullptr, here.data()}), invalid,
-                            "from of column 0 (the first is 0) is null");
+    expect_refused(move({RRCB_DOUBLE, 1, nullptr, here.data()}),
+                   "from of column 0 (the first is 0) is null");
     const std::string fix = "must hold 2 for each of " + std::to_string(x.size()) + " points";
-    expect_error_everywhere(move({RRCB_DOUBLE, 2, x.data(), nullptr}), invalid, fix);
-    expect_error_everywhere(move({static_cast<rrcb_type>(7), 1, x.data(), here.data()}), invalid,
-                            "rrcb_type");
-    expect_error_everywhere(move({RRCB_DOUBLE, 0, x.data(), here.data()}), invalid,
-                            "components of a column must be 1 or more");
-    expect_error_everywhere(
-        rrcb_transfer(balancer, 1, is_last_rank() ? nullptr : &right, nullptr, nullptr), invalid,
-        "columns is null");
+    expect_refused(move({RRCB_DOUBLE, 2, x.data(), nullptr}), fix);
+    expect_refused(move({static_cast<rrcb_type>(7), 1, x.data(), here.data()}), "rrcb_type");
+    expect_refused(move({RRCB_DOUBLE, 0, x.data(), here.data()}),
+                   "components of a column must be 1 or more");
+    expect_refused(rrcb_transfer(balancer, 1, is_last_rank() ? nullptr : &right, nullptr, nullptr),
+                   "columns is null");
     if (num_ranks() > 1) {
-        expect_error_everywhere(move({RRCB_FLOAT, 1, x.data(), here.data()}), invalid, "4 bytes");
-        expect_error_everywhere(move({RRCB_INT64, 1, x.data(), here.data()}), invalid, "whole");
+        expect_refused(move({RRCB_FLOAT, 1, x.data(), here.data()}), "4 bytes");
+        expect_refused(move({RRCB_INT64, 1, x.data(), here.data()}), "whole");
     }
     ASSERT_EQ(move(right), RRCB_OK);
 }
@@ -349,13 +307,13 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
 TEST_F(CInterface, options_that_differ_fail_on_all) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", is_last_rank() ? "1.1" : "1.2"), RRCB_OK);
-    expect_error_everywhere(balance(Cloud(2)), RRCB_INVALID_ARGUMENT, "imbalance_tolerance");
+    expect_refused(balance(Cloud(2)), "imbalance_tolerance");
     rrcb_cuts cuts{2, 1, nullptr, 1, 0, 0, 0, 0};
     rrcb_balancer* none = nullptr;
-    expect_error_everywhere(rrcb_create(MPI_COMM_NULL, &none), RRCB_INVALID_ARGUMENT, "COMM_NULL");
+    expect_refused(rrcb_create(MPI_COMM_NULL, &none), "COMM_NULL");
     EXPECT_EQ(none, nullptr);
     rrcb_balancer** const room = is_last_rank() ? nullptr : &none;
-    expect_error_everywhere(rrcb_create(MPI_COMM_WORLD, room), RRCB_INVALID_ARGUMENT, "null");
+    expect_refused(rrcb_create(MPI_COMM_WORLD, room), "null");
     EXPECT_EQ(none, nullptr);
     EXPECT_EQ(rrcb_set_cuts(balancer, &cuts), RRCB_OK);
 }
@@ -363,15 +321,11 @@ TEST_F(CInterface, options_that_differ_fail_on_all) {
 TEST_F(CInterface, names_what_it_does_not_know) {
     EXPECT_EQ(rrcb_set(balancer, "colour", "blue"), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_last_error(), "there is no option \"colour\"; docs/parameters.md lists them");
-    EXPECT_EQ(rrcb_set(balancer, "tolerance", "1.1"), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::strstr(rrcb_last_error(), "did you mean imbalance_tolerance?"), nullptr);
-    EXPECT_EQ(rrcb_set(balancer, "tree.group_size", "OFF"), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::strstr(rrcb_last_error(), "or 0 or AUTO for the parts of each machine"),
-              nullptr);
-    EXPECT_EQ(rrcb_set(balancer, "part_sizes", "1 2"), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::strstr(rrcb_last_error(), "call rrcb_set_part_sizes"), nullptr);
-    EXPECT_EQ(rrcb_set(balancer, "refine", "twice"), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::strstr(rrcb_last_error(), "EXACT"), nullptr) << rrcb_last_error();
+    expect_refused(rrcb_set(balancer, "tolerance", "1.1"), "did you mean imbalance_tolerance?");
+    expect_refused(rrcb_set(balancer, "tree.group_size", "OFF"),
+                   "or 0 or AUTO for the parts of each machine");
+    expect_refused(rrcb_set(balancer, "part_sizes", "1 2"), "call rrcb_set_part_sizes");
+    expect_refused(rrcb_set(balancer, "refine", "twice"), "EXACT");
     EXPECT_EQ(rrcb_set(nullptr, "refine", "NONE"), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_last_error(), "balancer is null: it was not created, or is destroyed");
     const rrcb_cuts no_tree{2, 3, nullptr, 1, 0, 0, 0, 0};
@@ -379,12 +333,10 @@ TEST_F(CInterface, names_what_it_does_not_know) {
     const rrcb_cuts no_parts{2, 0, nullptr, 1, 0, 0, 0, 0};
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_parts), RRCB_INVALID_ARGUMENT);
     const rrcb_cuts no_group{2, 1, nullptr, 0, 0, 0, 0, 0};
-    EXPECT_EQ(rrcb_set_cuts(balancer, &no_group), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::strstr(rrcb_last_error(), "groups of 1 or more"), nullptr);
+    expect_refused(rrcb_set_cuts(balancer, &no_group), "groups of 1 or more");
     for (const int dimension : {-1, 0, 4, 9}) {
         const rrcb_cuts nowhere{dimension, 1, nullptr, 1, 0, 0, 0, 0};
-        EXPECT_EQ(rrcb_set_cuts(balancer, &nowhere), RRCB_INVALID_ARGUMENT);
-        EXPECT_NE(std::strstr(rrcb_last_error(), "1, 2 or 3 dimensions"), nullptr);
+        expect_refused(rrcb_set_cuts(balancer, &nowhere), "1, 2 or 3 dimensions");
     }
     rrcb_destroy(nullptr);
 }
@@ -393,17 +345,15 @@ TEST_F(CInterface, refuses_numbers_that_a_flag_does_not_have) {
     for (const std::int32_t flag : {-1, 2, 55}) {
         const rrcb_cut cut{0, flag, {1}};
         const rrcb_cuts divided{1, 2, &cut, 1, 0, 0, 0, 0};
-        EXPECT_EQ(rrcb_set_cuts(balancer, &divided), RRCB_INVALID_ARGUMENT);
-        EXPECT_NE(std::strstr(rrcb_last_error(), "divides that is neither 0 nor 1"), nullptr);
+        expect_refused(rrcb_set_cuts(balancer, &divided), "divides that is neither 0 nor 1");
         const rrcb_cuts large{1, 1, nullptr, 1, flag, 0, 0, 0};
-        EXPECT_EQ(rrcb_set_cuts(balancer, &large), RRCB_INVALID_ARGUMENT);
-        EXPECT_NE(std::strstr(rrcb_last_error(), "larger_below must be 0 or 1"), nullptr);
+        expect_refused(rrcb_set_cuts(balancer, &large), "larger_below must be 0 or 1");
     }
 }
 
 TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     const auto expect_missing = [](int code, const std::string& what) {
-        expect_error_everywhere(code, RRCB_INVALID_ARGUMENT, "the balancer has no " + what);
+        expect_refused(code, "the balancer has no " + what);
     };
     rrcb_report report;
     rrcb_cuts cuts;
@@ -471,19 +421,8 @@ TEST(CController, refuses_bad_loads_and_null) {
     rrcb_controller* controller = nullptr;
     ASSERT_EQ(rrcb_controller_create_fortran(MPI_Comm_c2f(MPI_COMM_WORLD), &controller), RRCB_OK);
     EXPECT_EQ(rrcb_controller_step(controller, is_last_rank() ? -1 : 1, nullptr), RRCB_OK);
-    EXPECT_EQ(rrcb_controller_step(controller, 1, nullptr), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::string(rrcb_last_error()).find("the load"), std::string::npos);
+    expect_refused(rrcb_controller_step(controller, 1, nullptr), "the load");
     rrcb_controller_destroy(&controller);
-}
-
-TEST_F(CInterface, takes_the_tolerances_that_are_taken_in_cpp) {
-    for (const char* text : {"inf", "nan", "0.5"}) {
-        Options options;
-        options.imbalance_tolerance = std::stod(text);
-        const Points points{.dimension = 2};
-        EXPECT_EQ(rrcb_set(balancer, "imbalance_tolerance", text), RRCB_INVALID_ARGUMENT);
-        EXPECT_THROW(rrcb::balance(points, options, {}, MPI_COMM_WORLD), Error);
-    }
 }
 
 /// Steps in which a point takes 2 s and a cell 5 s; each rank has other cells.
@@ -547,8 +486,8 @@ TEST(CCostModel, continues_from_saved_bytes) {
     std::size_t size = 0, size_of_model = 0;
     ASSERT_EQ(rrcb_controller_save(controllers[0], &bytes, &size), RRCB_OK) << rrcb_last_error();
     ASSERT_EQ(rrcb_cost_model_save(models[0], &of_model, &size_of_model), RRCB_OK);
-    expect_error_everywhere(rrcb_controller_load(MPI_COMM_WORLD, nullptr, size, &controllers[1]),
-                            RRCB_INVALID_ARGUMENT, "no state");
+    expect_refused(rrcb_controller_load(MPI_COMM_WORLD, nullptr, size, &controllers[1]),
+                   "no state");
     ASSERT_EQ(rrcb_controller_load(MPI_COMM_WORLD, bytes, size, &controllers[1]), RRCB_OK)
         << rrcb_last_error();
     ASSERT_EQ(
@@ -613,12 +552,11 @@ TEST(CCostModel, returns_errors) {
     const double one = 1;
     EXPECT_EQ(rrcb_cost_model_step(model, 1, 1, &one), RRCB_INVALID_ARGUMENT);
     EXPECT_EQ(rrcb_cost_model_weights(model, 1, 1, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
-    EXPECT_EQ(rrcb_cost_model_weights(model, 0, 2, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::strstr(rrcb_last_error(), "has 1 columns, not 2"), nullptr);
+    expect_refused(rrcb_cost_model_weights(model, 0, 2, nullptr, nullptr), "has 1 columns, not 2");
     for (const std::size_t many : {SIZE_MAX / 4 + 1, SIZE_MAX}) {
         double weight = 0;
-        EXPECT_EQ(rrcb_cost_model_weights(model, many, 1, &one, &weight), RRCB_INVALID_ARGUMENT);
-        EXPECT_NE(std::strstr(rrcb_last_error(), "count is the number of points"), nullptr);
+        expect_refused(rrcb_cost_model_weights(model, many, 1, &one, &weight),
+                       "count is the number of points");
     }
     EXPECT_EQ(rrcb_cost_model_step(nullptr, 1, 1, &one), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_cost_model_report(nullptr), "");

@@ -1,23 +1,13 @@
 // What docs/loop.md and docs/choosing.md advise: boxes that are tilted, points in half-open boxes,
 // and a least number of points of a part.
 #include "../support/clouds.hpp"
+#include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numeric>
-#include <vector>
-
 namespace rrcb {
 namespace {
-
-using test::num_ranks;
-using test::rank;
 
 constexpr Box unit{{0, 0, 0}, {1, 1, 1}};
 
@@ -92,6 +82,8 @@ TEST(TiltedBox, gives_all_pairs_in_3d_with_the_norm_of_its_inverse) {
     }
     EXPECT_LE(longest, box.norm_of_inverse());
     EXPECT_GT(longest, 0.98 * box.norm_of_inverse());
+    const double one = 0.3;
+    EXPECT_NEAR((TiltedBox{one, 0, 0}.norm_of_inverse()), (one + std::hypot(one, 2)) / 2, 1e-12);
 }
 
 /// Nodes of a lattice, each n-th one on this rank.
@@ -120,9 +112,7 @@ int num_outside(const std::vector<double>& x, const Balance& made) {
 TEST(HalfOpenBoxes, contain_the_points_of_a_lattice_by_plain_cuts) {
     const std::vector<double> x = lattice();
     for (const bool plain : {false, true}) {
-        Options options;
-        options.axes.plain = plain;
-        options.refine = Refine::exact;
+        Options options{.refine = Refine::exact, .axes = {.plain = plain}};
         const Balance made = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD);
         EXPECT_EQ(num_outside(x, made) > 0, !plain && num_ranks() > 1);
     }
@@ -136,9 +126,7 @@ TEST(LeastNumberOfPoints, is_reached_by_parts_of_size_0) {
         for (std::size_t i = 0; i < all.size(); i += 2)
             if (static_cast<int>(i / 2) % num_ranks() == rank())
                 x.insert(x.end(), {all[i], all[i + 1]});
-        Options options;
-        options.num_parts = num_parts;
-        options.refine = Refine::exact;
+        Options options{.num_parts = num_parts, .refine = Refine::exact};
         options.part_sizes.assign(num_parts, 0);
         const int num_filled = std::clamp(n / min_points, 1, num_parts);
         std::fill_n(options.part_sizes.begin(), num_filled, 1);

@@ -14,13 +14,11 @@ using zoltan_test::parts_by_object;
 using zoltan_test::Program;
 
 void set_parameters(Program& program, const Cloud& cloud, const Method& method, int num_parts) {
-    program.set("LB_METHOD", "RRCB");
-    program.set("RRCB_DOMAIN", method.domain_name);
+    program.set({{"LB_METHOD", "RRCB"}, {"RRCB_DOMAIN", method.domain_name}});
     program.set("RRCB_REFINE", method.refine_name);
     program.set("IMBALANCE_TOL", std::to_string(asked_tolerance));
     program.set("OBJ_WEIGHT_DIM", cloud.weight == nullptr ? "0" : "1");
-    program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
-    program.set("KEEP_CUTS", "1");
+    program.set({{"NUM_GLOBAL_PARTS", std::to_string(num_parts)}, {"KEEP_CUTS", "1"}});
     // So that look-ups tell the part of every object.
     program.set("RRCB_COINCIDENT", "TOGETHER");
 }
@@ -62,8 +60,7 @@ void expect_lists_conserve_objects(Program& program, std::span<const int> parts)
 /// Fills the program with the objects of this rank's parts; the next call then moves none.
 void expect_nothing_moves_again(Program& program, const Cloud& cloud, std::span<const Part> all) {
     fill(program, share_of(cloud, all, rank()));
-    program.set("RCB_REUSE", "1");
-    program.set("RETURN_LISTS", "ALL");
+    program.set({{"RCB_REUSE", "1"}, {"RETURN_LISTS", "ALL"}});
     EXPECT_EQ(program.partition().changes, 0);
 }
 

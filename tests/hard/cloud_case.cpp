@@ -20,8 +20,7 @@ using rrcb::zoltan_test::Program;
 void set_parameters(Program& program, const Cloud& cloud, const std::string& method) {
     program.set("LB_METHOD", method == "RCB" ? "RCB" : "RRCB");
     if (method != "RCB") program.set("RRCB_REFINE", method == "RRCB" ? "TOLERANCE" : "EXACT");
-    program.set("OBJ_WEIGHT_DIM", cloud.weight == nullptr ? "0" : "1");
-    program.set("KEEP_CUTS", "1");
+    program.set({{"OBJ_WEIGHT_DIM", cloud.weight == nullptr ? "0" : "1"}, {"KEEP_CUTS", "1"}});
     program.set("RETURN_LISTS", "PARTS");
 }
 

@@ -11,9 +11,7 @@ using zoltan_test::Program;
 
 TEST(CallbackRebalances, hold_what_they_held) {
     Program program;
-    program.set("LB_METHOD", "RRCB");
-    program.set("OBJ_WEIGHT_DIM", "1");
-    program.set("KEEP_CUTS", "1");
+    program.set({{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}, {"KEEP_CUTS", "1"}});
     program.weights.assign(400, 1);
     expect_constant_resources([&](int step) {
         program.coordinates = moving_cloud(step);

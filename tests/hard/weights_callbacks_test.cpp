@@ -9,11 +9,8 @@ namespace {
 using zoltan_test::Program;
 
 std::string warnings_of(Program& program, const char* method) {
-    program.set("LB_METHOD", "RRCB");
-    program.set("DEBUG_LEVEL", "1");
-    program.set("RRCB_REFINE", method);
-    program.set("OBJ_WEIGHT_DIM", "1");
-    program.set("NUM_GLOBAL_PARTS", "4");
+    program.set({{"LB_METHOD", "RRCB"}, {"DEBUG_LEVEL", "1"}, {"RRCB_REFINE", method}});
+    program.set({{"OBJ_WEIGHT_DIM", "1"}, {"NUM_GLOBAL_PARTS", "4"}});
     testing::internal::CaptureStderr();
     EXPECT_EQ(program.partition().code, ZOLTAN_OK);
     return testing::internal::GetCapturedStderr();

@@ -60,16 +60,14 @@ void set_part_sizes(Program& program, const std::vector<std::int32_t>& sizes) {
 void set_parameters(Program& program, const Case& input) {
     constexpr std::array refinements = {"NONE", "TOLERANCE", "EXACT"};
     const Case::Shape& shape = input.shape;
-    program.set("LB_METHOD", "RRCB");
-    program.set("NUM_GLOBAL_PARTS", std::to_string(shape.num_parts));
+    program.set({{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", std::to_string(shape.num_parts)}});
     program.set("OBJ_WEIGHT_DIM", shape.weights == Weights::none ? "0" : "1");
     program.set("RRCB_DOMAIN", domain_of(input));
     program.set("RRCB_REFINE", refinements[static_cast<std::size_t>(shape.refine)]);
     if (!is_own_method(input))
         program.set("RRCB_CUT_RULE", digit(input, 4, 4) == 0 ? "MIDPOINT" : "WEIGHTED");
     program.set("IMBALANCE_TOL", std::to_string(shape.tolerance));
-    program.set("RCB_RECTILINEAR_BLOCKS", std::to_string(shape.plain_cuts));
-    program.set("KEEP_CUTS", "1");
+    program.set({{"RCB_RECTILINEAR_BLOCKS", std::to_string(shape.plain_cuts)}, {"KEEP_CUTS", "1"}});
     program.set("REMAP", std::to_string(digit(input, 0, 2)));
     program.set("NUM_GID_ENTRIES", std::to_string(2 + digit(input, 1, 2)));
     program.set("NUM_LID_ENTRIES", std::to_string(digit(input, 2, 3)));

@@ -187,8 +187,7 @@ TEST(Dump, is_asked_for_by_the_environment_unless_a_parameter_says_otherwise) {
     const Folder folder("environment");
     setenv("RRCB_DUMP", folder.string().c_str(), 1);
     setenv("RRCB_DUMP_WHEN", "always", 1);
-    Program program;
-    scatter_points(program, 10);
+    Scattered program(10);
     unsetenv("RRCB_DUMP");
     unsetenv("RRCB_DUMP_WHEN");
     program.set("LB_METHOD", "RRCB");

@@ -26,8 +26,7 @@ TEST(Forwarding, leaves_look_ups_of_rcb_to_zoltan) {
 }
 
 TEST(Handles, copies_keep_method_parameters_sizes_and_cuts) {
-    Program program;
-    scatter_points(program, 300);
+    Scattered program(300);
     program.set({{"LB_METHOD", "RRCB"}, {"RRCB_DOMAIN", "SAMPLED"}, {"NUM_GLOBAL_PARTS", "5"}});
     program.set("KEEP_CUTS", "1");
     program.set_size(1, 2);
@@ -53,9 +52,7 @@ TEST(Handles, copies_keep_method_parameters_sizes_and_cuts) {
 }
 
 TEST(Handles, let_zoltan_evaluate_under_rrcb) {
-    Program program;
-    scatter_points(program, 200);
-    program.set({{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}});
+    Scattered program(200, {{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}});
     const Outcome before = program.partition();
     ZOLTAN_BALANCE_EVAL evaluation;
     EXPECT_EQ(Zoltan_LB_Eval(program.zz, 0, &evaluation, nullptr, nullptr), ZOLTAN_OK);
@@ -66,9 +63,7 @@ TEST(Handles, let_zoltan_evaluate_under_rrcb) {
 TEST(Handles, free_every_communicator_and_do_not_gather_more_by_repeated_calls) {
     const test::MpiHandles at_start = test::mpi_handles();
     {
-        Program program;
-        scatter_points(program, 500);
-        program.set("LB_METHOD", "RRCB");
+        Scattered program(500, {{"LB_METHOD", "RRCB"}});
         for (const char* name : {"KEEP_CUTS", "RCB_REUSE", "RCB_LOCK_DIRECTIONS"})
             program.set(name, "1");
         program.partition();
@@ -88,9 +83,7 @@ TEST(Handles, free_every_communicator_and_do_not_gather_more_by_repeated_calls) 
 }
 
 TEST(Handles, keep_the_memory_for_each_object) {
-    Program program;
-    scatter_points(program, 150'000);
-    program.set({{"LB_METHOD", "RRCB"}, {"RRCB_SUPPORT_MESH", "4"}});
+    Scattered program(150'000, {{"LB_METHOD", "RRCB"}, {"RRCB_SUPPORT_MESH", "4"}});
     const auto call = [&] {
         int changes = 0, num_gid = 0, num_lid = 0;
         Program::RawList imports, exports;
@@ -119,8 +112,7 @@ TEST(Handles, keep_the_memory_for_each_object) {
 TEST(Handles, migrate_automatically_as_with_rcb) {
     for (const char* method : {"RCB", "RRCB"}) {
         SCOPED_TRACE(method);
-        Program program;
-        scatter_points(program, 100);
+        Scattered program(100);
         Migration migration;
         count_migration(program.zz, migration);
         program.set({{"AUTO_MIGRATE", "1"}, {"LB_METHOD", method}});
@@ -132,9 +124,7 @@ TEST(Handles, migrate_automatically_as_with_rcb) {
 }
 
 TEST(Handles, serialized_from_rcb_work_and_do_not_switch_to_rrcb) {
-    Program program;
-    scatter_points(program, 200);
-    program.set({{"LB_METHOD", "RCB"}, {"KEEP_CUTS", "1"}});
+    Scattered program(200, {{"LB_METHOD", "RCB"}, {"KEEP_CUTS", "1"}});
     program.partition();
     Program copy;
     ASSERT_EQ(unpack(copy.zz, bytes_of(program.zz)), ZOLTAN_OK);
@@ -148,8 +138,7 @@ TEST(Handles, work_on_a_part_of_the_ranks) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm half = MPI_COMM_NULL;
     MPI_Comm_split(MPI_COMM_WORLD, rank % 2, 0, &half);
-    Program program;
-    scatter_points(program, 200);
+    Scattered program(200);
     Zoltan_Struct* handle = Zoltan_Create(half);
     PMPI_Comm_free(&half);
     program.register_callbacks(handle);

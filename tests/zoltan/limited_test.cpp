@@ -7,11 +7,12 @@ namespace {
 constexpr double open = std::numeric_limits<double>::max();
 
 /// Points of the unit square, the denser the nearer to the corner.
-void fill_corner(Program& program) {
-    scatter_points(program, 1000);
-    for (double& x : program.coordinates) x = x * x * x;
-    program.set({{"LB_METHOD", "RRCB"}, {"KEEP_CUTS", "1"}, {"RETURN_LISTS", "PARTS"}});
-}
+struct Corner : Scattered {
+    Corner() : Scattered(1000, {{"LB_METHOD", "RRCB"}, {"KEEP_CUTS", "1"}}) {
+        for (double& x : coordinates) x = x * x * x;
+        set("RETURN_LISTS", "PARTS");
+    }
+};
 
 std::array<double, 6> box_of(Program& program, int part) {
     std::array<double, 6> box{};
@@ -30,8 +31,7 @@ TEST(MinWidth, keeps_the_parts_wide) {
     double least_free = 1;
     double least = 1;
     for (const char* width : {"NONE", "0.2 0.15"}) {
-        Program program;
-        fill_corner(program);
+        Corner program;
         program.set("NUM_GLOBAL_PARTS", "9");
         EXPECT_EQ(program.set("RRCB_MIN_WIDTH", width), ZOLTAN_OK);
         EXPECT_EQ(program.partition().code, ZOLTAN_OK);
@@ -50,8 +50,7 @@ TEST(MinWidth, keeps_the_parts_wide) {
 }
 
 TEST(Grid, holds_the_cuts_that_average_cuts_would_move) {
-    Program program;
-    fill_corner(program);
+    Corner program;
     program.set({{"NUM_GLOBAL_PARTS", "6"}, {"AVERAGE_CUTS", "1"}});
     EXPECT_EQ(program.set("RRCB_GRID", "0.01 0.05, 0 0.04"), ZOLTAN_OK);
     EXPECT_EQ(program.partition().code, ZOLTAN_OK);
@@ -69,8 +68,7 @@ TEST(Grid, holds_the_cuts_that_average_cuts_would_move) {
 }
 
 TEST(Limits, without_room_are_fatal_on_all_ranks_and_the_next_call_works) {
-    Program program;
-    fill_corner(program);
+    Corner program;
     program.set({{"NUM_GLOBAL_PARTS", "9"}, {"RRCB_MIN_WIDTH", "0.4, 0.4"}});
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
     program.set("RRCB_MIN_WIDTH", "1");  // one number for two axes
@@ -83,16 +81,14 @@ TEST(Limits, without_room_are_fatal_on_all_ranks_and_the_next_call_works) {
 }
 
 TEST(Limits, that_differ_between_ranks_are_fatal_on_all) {
-    Program program;
-    fill_corner(program);
+    Corner program;
     program.set("RRCB_GRID", program.rank == 0 ? "0 0.01 0 0.01" : "0 0.02 0 0.02");
     const int expected = program.num_ranks > 1 ? ZOLTAN_FATAL : ZOLTAN_OK;
     EXPECT_EQ(program.partition().code, expected);
 }
 
 TEST(Limits, are_refused_with_several_weights_and_with_turned_axes) {
-    Program program;
-    fill_corner(program);
+    Corner program;
     program.set({{"RRCB_MIN_WIDTH", "0.01 0.01"}, {"REDUCE_DIMENSIONS", "1"}});
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
     program.set({{"REDUCE_DIMENSIONS", "0"}, {"OBJ_WEIGHT_DIM", "2"}});

@@ -43,8 +43,7 @@ TEST(Lists, have_the_shape_of_rcb_for_every_word_and_width_of_ids) {
         for (int gid = 1; gid <= 3; ++gid) {
             for (int lid = 0; lid <= 2; ++lid) {
                 SCOPED_TRACE(std::string(word) + " " + std::to_string(gid) + std::to_string(lid));
-                Program program;
-                scatter_points(program, 200);
+                Scattered program(200);
                 program.set({{"RETURN_LISTS", word}, {"NUM_GID_ENTRIES", std::to_string(gid)}});
                 program.set("NUM_LID_ENTRIES", std::to_string(lid));
                 expect_shape_of_rcb(program);
@@ -142,9 +141,7 @@ TEST(Lists, come_from_iterating_and_single_callbacks_as_well) {
 }
 
 TEST(Lists, feed_the_real_compute_destinations) {
-    Program program;
-    scatter_points(program, 120);
-    program.set({{"RETURN_LISTS", "ALL"}, {"LB_METHOD", "RRCB"}});
+    Scattered program(120, {{"RETURN_LISTS", "ALL"}, {"LB_METHOD", "RRCB"}});
     program.keep_lists = true;
     const Outcome outcome = program.partition();
     const Program::RawList& in = program.raw_imports;

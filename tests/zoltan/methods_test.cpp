@@ -74,9 +74,7 @@ TEST(Methods, hier_with_rrcb_inside_balances_as_rrcb_does) {
 
 TEST(Methods, look_ups_need_a_partition_of_the_method_that_is_set) {
     for (const char* method : {"RCB", "RRCB"}) {
-        Program program;
-        scatter_points(program, 100);
-        program.set({{"KEEP_CUTS", "1"}, {"LB_METHOD", method}});
+        Scattered program(100, {{"KEEP_CUTS", "1"}, {"LB_METHOD", method}});
         program.partition();
         program.set({{"LB_METHOD", "RIB"}, {"LB_METHOD", method}});
         EXPECT_EQ(program.place_of(program.coordinates.data()).code, ZOLTAN_FATAL) << method;

@@ -58,8 +58,7 @@ std::vector<int> parts_with(Program& program, const char* name, const char* valu
 
 // That each reaches the balancer is a test of the environment.
 TEST(Parameters, stay_after_an_illegal_value_and_have_a_default) {
-    Program program;
-    scatter_points(program, 3000);
+    Scattered program(3000);
     for (double& x : program.coordinates) x *= x;
     program.set({{"RETURN_LISTS", "PARTS"}, {"NUM_GLOBAL_PARTS", "6"}});
     program.set({{"LB_METHOD", "RRCB"}, {"RRCB_REFINE", "NONE"}});
@@ -79,8 +78,7 @@ TEST(Parameters, stay_after_an_illegal_value_and_have_a_default) {
 TEST(Parameters, end_before_the_blanks_behind_them) {
     // Blanks behind a value belong to none; Zoltan takes numbers so, and words not at all.
     const auto parts_at = [](const char* tolerance, const char* mesh) {
-        Program program;
-        scatter_points(program, 3000);
+        Scattered program(3000);
         for (double& x : program.coordinates) x *= x;
         program.set({{"RETURN_LISTS", "PARTS"}, {"NUM_GLOBAL_PARTS", "6"}});
         EXPECT_EQ(program.set("LB_METHOD", "RRCB "), ZOLTAN_OK);
@@ -98,8 +96,7 @@ TEST(Parameters, end_before_the_blanks_behind_them) {
 }
 
 TEST(Parameters, an_unknown_method_is_fatal_and_keeps_the_old_one) {
-    Program program;
-    scatter_points(program, 100);
+    Scattered program(100);
     program.set({{"LB_METHOD", "RRCB"}, {"RRCB_DOMAIN", "SAMPLED"}, {"RETURN_LISTS", "PARTS"}});
     const auto before = program.partition().exports.parts;
     EXPECT_EQ(program.set("LB_METHOD", "NO_SUCH_METHOD"), ZOLTAN_FATAL);
@@ -109,9 +106,7 @@ TEST(Parameters, an_unknown_method_is_fatal_and_keeps_the_old_one) {
 TEST(Parameters, out_of_range_fall_back_to_the_default_as_in_zoltan) {
     for (const char* method : {"RCB", "RRCB"}) {
         SCOPED_TRACE(method);
-        Program program;
-        scatter_points(program, 100);
-        program.set("LB_METHOD", method);
+        Scattered program(100, {{"LB_METHOD", method}});
         Zoltan_Set_Param(program.zz, "NUM_GID_ENTRIES", "0");
         Zoltan_Set_Param(program.zz, "NUM_LID_ENTRIES", "-3");
         Zoltan_Set_Param(program.zz, "RETURN_LISTS", "NO_SUCH_LIST");
@@ -156,9 +151,7 @@ TEST(Parameters, for_lists_may_differ_between_ranks_as_in_zoltan) {
 /// All ranks fail; rank 0 names the parameter.
 void expect_difference(const std::string& name, const char* value) {
     SCOPED_TRACE(name);
-    Program program;
-    scatter_points(program, 50);
-    program.set({{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}});
+    Scattered program(50, {{"LB_METHOD", "RRCB"}, {"OBJ_WEIGHT_DIM", "1"}});
     // By the method that takes the parameter.
     const bool is_of_paper = name == "RRCB_CUT_RULE" || name == "RRCB_SIGMA_MULTIPLIER" ||
                              name == "RRCB_SAMPLE_FRACTION" || name == "RRCB_SEED";

@@ -26,8 +26,7 @@ TEST(Parts, lie_on_the_ranks_of_zoltan_for_any_number_of_them) {
     const int num_ranks = Program().num_ranks;
     for (int num_parts = 1; num_parts <= 2 * num_ranks + 1; ++num_parts) {
         SCOPED_TRACE(num_parts);
-        Program program;
-        scatter_points(program, 2000);
+        Scattered program(2000);
         program.set({{"OBJ_WEIGHT_DIM", "1"}, {"NUM_GLOBAL_PARTS", std::to_string(num_parts)}});
         const Outcome zoltans = partition_with(program, "RCB");
         const Outcome ours = partition_with(program, "RRCB");
@@ -62,8 +61,7 @@ TEST(Parts, fewer_than_ranks_are_shared_evenly_by_their_ranks) {
 TEST(Parts, asked_for_locally_lie_where_zoltan_puts_them) {
     const int num_ranks = Program().num_ranks;
     // Three parts on the last rank, none on the first unless it is alone, the rest not set.
-    Program program;
-    scatter_points(program, 1000);
+    Scattered program(1000);
     const bool last = program.rank == num_ranks - 1;
     if (last) program.set("NUM_LOCAL_PARTS", "3");
     if (!last && program.rank == 0) program.set("NUM_LOCAL_PARTS", "0");
@@ -77,9 +75,7 @@ TEST(Parts, asked_for_locally_lie_where_zoltan_puts_them) {
 }
 
 TEST(Parts, asked_for_locally_must_add_up) {
-    Program program;
-    scatter_points(program, 10);
-    program.set("NUM_LOCAL_PARTS", "2");
+    Scattered program(10, {{"NUM_LOCAL_PARTS", "2"}});
     program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks + 1));
     EXPECT_EQ(partition_with(program, "RRCB").code, ZOLTAN_FATAL);
     program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks));
@@ -93,8 +89,7 @@ struct Asked {
 };
 
 Asked ask_for_parts(const char* method, const std::function<void(Program&)>& set_parameters) {
-    Program program;
-    scatter_points(program, 200);
+    Scattered program(200);
     set_parameters(program);
     const Outcome outcome = partition_with(program, method);
     int most =
@@ -122,8 +117,7 @@ TEST(Parts, of_no_legal_number_are_as_many_as_zoltan_takes) {
 }
 
 TEST(Parts, take_the_largest_number_that_any_rank_asks_for) {
-    Program program;
-    scatter_points(program, 1000);
+    Scattered program(1000);
     if (program.rank == program.num_ranks - 1) program.set("NUM_GLOBAL_PARTS", "7");
     const Outcome ours = partition_with(program, "RRCB");
     EXPECT_EQ(ours.code, ZOLTAN_OK);
@@ -145,9 +139,7 @@ double share_of_first_part(const Program& program, const Outcome& outcome) {
 }
 
 TEST(Parts, get_the_sizes_that_were_set) {
-    Program program;
-    scatter_points(program, 4000);
-    program.set("NUM_GLOBAL_PARTS", "4");
+    Scattered program(4000, {{"NUM_GLOBAL_PARTS", "4"}});
     int first_part = 0;
     float size = 3;
     // One rank asks; parts nobody speaks of have size 1, so part 0 is to get 3 of 6.
@@ -163,8 +155,7 @@ TEST(Parts, get_the_sizes_that_were_set) {
 /// Which of three parts lies alone on its side of the first cut, across the longest axis: the one
 /// that no cut bounds across the other.
 int lone_part(const char* method) {
-    Program program;
-    scatter_points(program, 3000);
+    Scattered program(3000);
     for (std::size_t i = 0; i < program.coordinates.size(); i += 2) program.coordinates[i] *= 1.2;
     program.set({{"NUM_GLOBAL_PARTS", "3"}, {"KEEP_CUTS", "1"}});
     partition_with(program, method);
@@ -185,8 +176,7 @@ TEST(Parts, of_an_odd_number_lie_above_by_one_more_where_zoltan_asks_the_ranks) 
 }
 
 TEST(Parts, of_local_numbers_are_counted_from_the_first_one_of_the_rank) {
-    Program program;
-    scatter_points(program, 4000);
+    Scattered program(4000);
     int first_part = 0;
     float size = program.rank == 0 ? 2.0F : 1.0F;
     program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks));
@@ -196,9 +186,7 @@ TEST(Parts, of_local_numbers_are_counted_from_the_first_one_of_the_rank) {
 }
 
 TEST(Parts, of_zero_size_stay_empty_and_not_all_may_be_zero) {
-    Program program;
-    scatter_points(program, 500);
-    program.set("NUM_GLOBAL_PARTS", "2");
+    Scattered program(500, {{"NUM_GLOBAL_PARTS", "2"}});
     std::array<int, 2> parts = {0, 1};
     std::array<float, 2> sizes = {0, 1};
     Zoltan_LB_Set_Part_Sizes(program.zz, 1, 2, parts.data(), nullptr, sizes.data());
@@ -211,9 +199,7 @@ TEST(Parts, of_zero_size_stay_empty_and_not_all_may_be_zero) {
 
 TEST(Parts, of_zero_size_hold_all_objects_where_there_is_one_part) {
     for (const char* method : {"RCB", "RRCB"}) {
-        Program program;
-        scatter_points(program, 50);
-        program.set("NUM_GLOBAL_PARTS", "1");
+        Scattered program(50, {{"NUM_GLOBAL_PARTS", "1"}});
         program.set_size(0, 0);
         const Outcome outcome = partition_with(program, method);
         EXPECT_EQ(outcome.code, ZOLTAN_OK) << method;
@@ -247,8 +233,7 @@ TEST(Parts, that_callbacks_name_decide_what_changes) {
 }
 
 TEST(Balance, refuses_other_numbers_of_parts_than_ranks) {
-    Program program;
-    scatter_points(program, 50);
+    Scattered program(50);
     program.set(
         {{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", std::to_string(program.num_ranks + 1)}});
     EXPECT_EQ(program.balance().code, ZOLTAN_FATAL);

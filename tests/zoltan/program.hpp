@@ -80,6 +80,15 @@ struct Program {
 /// Points of all ranks over the same square, so that every rank sends to and gets from every other.
 void scatter_points(Program& program, int count);
 
+/// A program with such points and settings.
+struct Scattered : Program {
+    explicit Scattered(int count,
+                       std::initializer_list<std::pair<const char*, std::string>> settings = {}) {
+        scatter_points(*this, count);
+        set(settings);
+    }
+};
+
 /// Sets LB_METHOD to HIER with one level, in which every rank has a part of its own; Zoltan makes
 /// the handle for it, which gets `inner_method` (a literal).
 void use_hier(Program& program, const char* inner_method);

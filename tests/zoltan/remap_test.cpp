@@ -65,8 +65,7 @@ TEST(Remap, takes_words_as_zoltan_does) {
 TEST(Remap, moves_no_more_than_zoltans_on_scattered_points) {
     // Both get the very cuts of the median; the numbers alone differ.
     for (unsigned seed = 0; seed < 10; ++seed) {
-        Program program;
-        scatter_points(program, 500);
+        Scattered program(500);
         const double shift = double((7 * program.rank + 3 * static_cast<int>(seed)) % 5);
         for (std::size_t i = 0; i < program.coordinates.size(); i += 2) {
             program.coordinates[i] += 0.3 * shift;

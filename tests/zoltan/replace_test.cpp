@@ -76,9 +76,7 @@ std::vector<std::array<double, 3>> faces_of_regions(const Program& program) {
 }
 
 TEST(Replacement, leaves_cuts_within_the_tolerance_unless_told_not_to) {
-    Program program;
-    scatter_points(program, 2000);
-    program.set({{"KEEP_CUTS", "1"}, {"IMBALANCE_TOL", "1.1"}, {"REMAP", "0"}});
+    Scattered program(2000, {{"KEEP_CUTS", "1"}, {"IMBALANCE_TOL", "1.1"}, {"REMAP", "0"}});
     program.set("NUM_GLOBAL_PARTS", std::to_string(num_regions));
     const auto faces_after_a_move = [&] {
         for (double& x : program.coordinates) x += 1e-3 * x;
@@ -100,8 +98,7 @@ TEST(Replacement, leaves_cuts_within_the_tolerance_unless_told_not_to) {
 }
 
 TEST(Replacement, leaves_the_handles_that_zoltan_makes_for_itself) {
-    Program program;
-    scatter_points(program, 300);
+    Scattered program(300);
     use_hier(program, "RCB");
     const Outcome outcome = program.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
@@ -124,8 +121,7 @@ int count(const std::string& text, const std::string& word) {
 }
 
 TEST(Replacement, says_once_which_geometric_methods_stay_zoltans) {
-    Program program;
-    scatter_points(program, 100);
+    Scattered program(100);
     const auto run = [&](const char* method) {
         return printed_on_rank_0(program.rank, [&] {
             program.set({{"LB_METHOD", method}, {"DEBUG_LEVEL", "0"}});
@@ -143,8 +139,7 @@ TEST(Replacement, says_once_which_geometric_methods_stay_zoltans) {
 }
 
 TEST(Replacement, says_once_that_rcb_inside_hier_stays_zoltans) {
-    Program program;
-    scatter_points(program, 100);
+    Scattered program(100);
     const auto run = [&](const char* inner) {
         use_hier(program, inner);
         program.set("DEBUG_LEVEL", "1");

@@ -113,8 +113,7 @@ TEST(Serialization, gives_the_parameters_that_are_in_force) {
         {{"IMBALANCE_TOL[0]", "1.5"}, {"IMBALANCE_TOL", "1.0001"}}};
     for (const Settings& settings : cases) {
         SCOPED_TRACE(settings.back().first);
-        Program program;
-        scatter_points(program, 400);
+        Scattered program(400);
         for (double& x : program.coordinates) x *= x;
         program.set("LB_METHOD", "RRCB");
         for (const auto& [name, value] : settings) {
@@ -219,9 +218,7 @@ TEST(PartitionTree, is_walked_by_the_rules_of_zoltan) {
     for (const char* method : {"RCB", "RRCB"}) {
         for (const int num_parts : {2, 3, 7, 16}) {
             SCOPED_TRACE(method + std::to_string(num_parts));
-            Program program;
-            scatter_points(program, 400);
-            program.set({{"LB_METHOD", method}, {"KEEP_CUTS", "1"}});
+            Scattered program(400, {{"LB_METHOD", method}, {"KEEP_CUTS", "1"}});
             program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
             program.partition();
             int parent = 0, left = 0, root = 0;
@@ -237,9 +234,7 @@ TEST(PartitionTree, is_walked_by_the_rules_of_zoltan) {
 }
 
 TEST(PartitionTree, needs_kept_cuts_and_a_node_that_is_there) {
-    Program program;
-    scatter_points(program, 100);
-    program.set({{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", "3"}});
+    Scattered program(100, {{"LB_METHOD", "RRCB"}, {"NUM_GLOBAL_PARTS", "3"}});
     program.partition();
     int parent = 0, left = 0, right = 0;
     EXPECT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 1, &parent, &left, &right), ZOLTAN_FATAL);

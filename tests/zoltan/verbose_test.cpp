@@ -14,9 +14,7 @@ std::string output_of(Program& program, const char* debug_level) {
 }
 
 TEST(FirstCall, is_announced_once_when_debug_level_is_at_least_1) {
-    Program program;
-    scatter_points(program, 100);
-    program.set("LB_METHOD", "RRCB");
+    Scattered program(100, {{"LB_METHOD", "RRCB"}});
     EXPECT_EQ(output_of(program, "0"), "");
     const std::string line = output_of(program, "1");
     if (program.rank == 0) {

@@ -1,13 +1,8 @@
 // Calls the class RCB as LAMMPS' Balance does, with examples/lammps loaded before.
+#include "../support/common.hpp"
 #include "lammps_original.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstdlib>
-#include <memory>
-#include <numeric>
-#include <random>
 
 namespace {
 

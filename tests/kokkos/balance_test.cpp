@@ -5,10 +5,6 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/kokkos.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
 #include <string_view>
 
 namespace rrcb::test {

@@ -1,14 +1,6 @@
 #include "../unit/moments_reference.hpp"
 #include "views.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <numeric>
-
 namespace rrcb::test {
 namespace {
 

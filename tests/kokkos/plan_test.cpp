@@ -4,11 +4,6 @@
 #include <rrcb/kokkos.hpp>
 #include <rrcb/plan.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-
 namespace rrcb::test {
 namespace {
 

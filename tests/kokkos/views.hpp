@@ -1,16 +1,10 @@
 #pragma once
 
+#include "../support/common.hpp"
 #include "clouds.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/kokkos/passes.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 namespace rrcb::test {
 

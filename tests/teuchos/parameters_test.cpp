@@ -1,13 +1,11 @@
+#include "../support/common.hpp"
+
 #include <rrcb/error.hpp>
 #include <rrcb/paper.hpp>
 #include <rrcb/teuchos/parameters.hpp>
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
-#include <limits>
-#include <map>
 #include <sstream>
 
 namespace rrcb::teuchos {

@@ -6,7 +6,6 @@
 #include "collective/stage_scope.hpp"
 #include "cuts/tree.hpp"
 #include "lists/duplicated_mpi.hpp"
-#include "lists/tier_search_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 
@@ -57,41 +56,14 @@ void estimate(Call& call, Participant& self) {
     call.points.use_weights(!call.decision.verdict.is_counted());
 }
 
-namespace {
-
-/// Returns the cuts above each of these points, and the ones known before. Collective.
-Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self) {
-    std::vector<Part> parts;
-    std::optional<SearchBuffers<PathSearch>> buffers;
-    self.attempt([&] {
-        parts.resize(points.count);
-        assign_known(known, points, parts);
-        buffers.emplace(PathSearch(known, points, parts), self.comm);
-    });
-    agree(self);
-    search_together(*buffers, self);
-    return buffers->search.take();
-}
-
-}  // namespace
-
 void hold_cuts(Call& call, Participant& self) {
-    const Options& options = call.options;
-    const Points& points = call.host->points();
+    const StageScope stage(call.options.observer, Stage::broadcast, self.arithmetic);
     Cuts& cuts = call.result.cuts;
     Report& report = call.result.report;
-    const bool gets_all = options.cuts == HeldCuts::whole;
-    const bool divides =
-        options.coincident == Coincident::divide && report.details.coincident_cuts > 0;
-    if (!gets_all && !divides) return;
-    const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
-    if (!gets_all) {
-        cuts = with_cuts_above(points, cuts, self);
-        return;
-    }
-    if (!is_whole(cuts)) cuts = gather_cuts(cuts, self);
+    join_cuts(cuts.tree, self);
     if (report.details.num_points > 0)
-        report.part_weights = part_weights(points, call.host->parts_here(), cuts.num_parts, self);
+        report.part_weights =
+            part_weights(call.host->points(), call.host->parts_here(), cuts.num_parts, self);
 }
 
 namespace {

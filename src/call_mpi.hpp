@@ -38,11 +38,8 @@ void introduce(const Options& given, const PointSummary& summary, const Cuts* pr
 /// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
 void estimate(Call& call, Participant& self);
 
-/// Gives each rank the cuts by Options::cuts after many ranks made the parts; with all cuts also
-/// the weights of all parts.
-///
-/// Collective: two reductions for all cuts. No messages for HeldCuts::own, unless coincident points
-/// are divided: then as assign_all(), because look-ups find the upper side of a cut.
+/// Gives every rank all cuts and the weights of all parts, after many ranks made the parts and each
+/// has the cuts that it owns. Collective: two reductions with an entry for each part.
 void hold_cuts(Call& call, Participant& self);
 
 /// Replaces the ends of the tree by parts, and counts by weights; reports the points near cuts.

@@ -205,7 +205,7 @@ void Refinement::search_once(Participant& self) {
         call_.is_spread ? mpi::sum_of(num_coincident, self.comm) : num_coincident;
     self.attempt([&] {
         std::ranges::copy(open->settle(), call_.sums.here().begin());
-        if (call_.is_spread) cuts = search->cuts();
+        if (call_.is_spread) cuts = search->own_cuts();
     });
     if (call_.is_spread)
         imbalance_ = butterfly_.flags()[2];

@@ -62,10 +62,7 @@ class ArraysPartitioner : public Partitioner {
         : options_(std::get<rrcb::Options>(*method.options)),
           reuses_(method.reuses),
           workload_(workload),
-          comm_(comm) {
-        // The plug-in, beside which this stands, gathers no cuts either.
-        options_.cuts = rrcb::HeldCuts::own;
-    }
+          comm_(comm) {}
 
     int partition() override {
         try {

@@ -43,19 +43,11 @@ struct NearCuts {
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves shape.lower_parts(n) of
 /// them below its cut. End k of the tree, from the lowest, is part shape.part_at(k, num_parts): k
 /// itself unless parts are dealt to groups.
-///
-/// With HeldCuts::own, if many ranks make the parts, `tree` holds only the cuts above the points
-/// and the parts of this rank, and `nodes` their numbers, also if a rank happens to have all.
-/// Look-ups beyond these cuts then fail on this rank only. The collective assign_all()
-/// and ghosts() work with both kinds, and gather_cuts() makes the cuts complete.
 struct Cuts {
     int dimension = 0;      ///< of the points
-    int num_parts = 1;      ///< of the whole tree
+    int num_parts = 1;      ///< of the tree
     std::vector<Cut> tree;  ///< in preorder
-    /// Number in preorder of each cut of `tree`, ascending, if it holds only some of them; empty:
-    /// all.
-    std::vector<std::int32_t> nodes{};
-    TreeShape shape{};  ///< of the whole tree
+    TreeShape shape{};      ///< of the tree
     /// Random number of the ranks of the balance, with which calls check their communicator; 0:
     /// none, as of a balance on one rank. Set it to 0 to use the cuts on other ranks.
     std::uint64_t group = 0;
@@ -69,13 +61,7 @@ struct Cuts {
     bool empty() const { return dimension == 0 && tree.empty(); }
 };
 
-/// Returns true if cuts are the complete tree, the same on every rank: look-ups work everywhere.
-/// Not collective.
-inline bool is_whole(const Cuts& cuts) {
-    return cuts.nodes.empty();
-}
-
-/// Stands for an unknown part.
+/// Stands for no part.
 inline constexpr Part no_part = -1;
 
 /// Returns the part of a position.
@@ -85,8 +71,8 @@ inline constexpr Part no_part = -1;
 /// Not collective. Nothing is checked.
 /// @param cuts     of a balance, or others as described at Cut and Cuts
 /// @param position in the unit of the points
-/// @return no_part if a coordinate is NaN, or if deciding cuts are not known
-/// Cost: O(depth), times a logarithm if the tree is not complete.
+/// @return no_part if a coordinate is NaN
+/// Cost: O(depth).
 RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 
 /// Writes the part of every point. Not collective.
@@ -95,8 +81,7 @@ RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 /// @param points of the dimension of the cuts; weights are ignored
 /// @param parts  length points.count; void if the call throws
 /// Throws Error if a coordinate is NaN or infinite, arrays have another length, or the cuts are no
-/// tree. With HeldCuts::own it also throws, on this rank only, if the rank lacks a cut above a
-/// point: call assign_all(cuts, points, comm) instead.
+/// tree.
 RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 /// Returns the region of a part; sides without a cut are +-infinity. Not collective.
@@ -107,8 +92,7 @@ RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> par
 /// @param cuts of a balance
 /// @param part 0 ... num_parts - 1
 /// @return the empty box if the cuts leave no position to the part, as for parts of size 0
-/// Throws Error for a number of no part and for cuts which are no tree. With HeldCuts::own it also
-/// throws, on this rank only, if the rank lacks a cut above the part: call gather_cuts() before.
+/// Throws Error for a number of no part and for cuts which are no tree.
 RRCB_API Box box_of(const Cuts& cuts, Part part);
 
 /// Returns the parts whose region a closed box touches. Not collective.
@@ -117,29 +101,18 @@ RRCB_API Box box_of(const Cuts& cuts, Part part);
 /// @param box  in the unit of the points; bounds are not NaN
 /// @return parts in ascending order, none for an empty box. If a cut divides coincident
 /// points in the box, both of its sides are touched
-/// Throws Error for NaN bounds and for cuts which are no tree. With HeldCuts::own it also
-/// throws, on this rank only, if the rank lacks a cut which may cross the box: call gather_cuts().
+/// Throws Error for NaN bounds and for cuts which are no tree.
 RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
-/// Returns the part of each of any points, also by cuts of which each rank has some. Collective.
+/// Returns the part of every point, as assign(), but with the errors of all ranks. Collective.
 ///
 /// @param cuts   of a balance
 /// @param points of this rank, or none; each rank states the dimension
 /// @param comm   of the balance
 /// Throws Error on every rank alike: for NaN or infinite coordinates, points of another dimension
-/// than the cuts, cuts which gather_cuts() would refuse, or no memory. Cost: with complete cuts a
-/// local look-up and one reduction; otherwise the ranks ask the owners of missing cuts, see
-/// docs/design/many_ranks.md.
+/// than the cuts, cuts which are no tree or differ between ranks, or no memory. Cost: local
+/// look-ups and one reduction.
 [[nodiscard]] RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points,
                                                     MPI_Comm comm);
-
-/// Returns the complete tree of cuts of which each rank holds some. Collective.
-///
-/// @param cuts of a balance; complete cuts are returned unchanged
-/// @param comm of the balance
-/// Throws Error on every rank alike: if cuts are no tree, if the ranks' trees differ, if a rank
-/// lacks the cut of a node whose lowest part begins on it, or has no memory. Cost: one reduction of
-/// an entry for each part, which every rank has to hold.
-RRCB_API Cuts gather_cuts(const Cuts& cuts, MPI_Comm comm);
 
 }  // namespace rrcb

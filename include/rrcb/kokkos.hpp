@@ -117,8 +117,6 @@ void assign(const Execution& exec, const Cuts& cuts, const Views& x,
                               "positions must have the dimension of the cuts");
     detail::require_on_device(parts.extent(0) == passes.count(),
                               "parts must have one entry per point");
-    detail::require_on_device(is_whole(cuts),
-                              "look-ups on a device need complete cuts; call gather_cuts()");
     passes.assign(cuts, false);
     if (cuts.shape.dealt == 0) return;
     std::vector<Part> numbers;

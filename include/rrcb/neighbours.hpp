@@ -152,13 +152,12 @@ class Neighbours {
   public:
     /// Finds the neighbours. Collective.
     ///
-    /// @param cuts    of a balance, complete; they are copied
+    /// @param cuts    of a balance; they are copied
     /// @param options distances, periodic box, ranks of the parts
     /// @param comm    of the balance, or a congruent one
-    /// Throws Error on every rank alike: for cuts with HeldCuts::own, distances that are negative
-    /// or not finite, a periodic box as ghosts(), options or cuts that differ between ranks,
-    /// another communicator, or no memory. Cost: a pass over the parts, one pass of counts, and a
-    /// reduction.
+    /// Throws Error on every rank alike: for distances that are negative or not finite, a periodic
+    /// box as ghosts(), options or cuts that differ between ranks, another communicator, or no
+    /// memory. Cost: a pass over the parts, one pass of counts, and a reduction.
     RRCB_API Neighbours(const Cuts& cuts, const NeighbourOptions& options, MPI_Comm comm);
     /// Frees the memory, without communication.
     RRCB_API ~Neighbours();

@@ -25,12 +25,6 @@ enum class Coincident {
                ///< parts
 };
 
-/// Cuts of each rank if many ranks make the parts, see Tuning::central_parts.
-enum class HeldCuts {
-    whole,  ///< all, for look-ups on every rank: two more reductions, over all parts
-    own     ///< cuts above its points and its parts, see Cuts::nodes: no memory for each part
-};
-
 /// Lines of a grid across an axis: at origin + k * spacing for whole numbers k, as doubles compute
 /// it, the product first.
 struct GridLines {
@@ -121,7 +115,6 @@ struct Options {
 
     /// No effect with Refine::none and with plain cuts.
     Coincident coincident = Coincident::together;
-    HeldCuts cuts = HeldCuts::whole;  ///< of each rank if many ranks make the parts
 
     Axes axes{};  ///< axes and positions of the cuts
 

@@ -29,7 +29,7 @@ RRCB_API Cuts load_cuts(std::span<const std::byte> bytes);
 
 /// Returns cuts as bytes, which a program may store and load() on any machine. Not collective.
 ///
-/// Throws Error if they are no tree, or only some cuts: call gather_cuts() before.
+/// Throws Error if they are no tree.
 RRCB_API std::vector<std::byte> save(const Cuts& cuts);
 
 /// Returns the state of a controller as bytes, the same on every rank. Collective over its ranks,

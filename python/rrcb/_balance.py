@@ -273,8 +273,6 @@ def cuts_from(given: Any) -> Cuts:
 
 def set_option(own: c.Handle, name: str, value: Any) -> None:
     """Sets an option by its text."""
-    if name == "cuts":
-        raise c.Error("the option cuts cannot be set from Python: every rank gets all cuts")
     if value is None:
         raise c.Error(f"the option {name} is None: leave it out for its default")
     try:

@@ -160,7 +160,7 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
     task.profile.take(domain);
     const double weight = task.profile.weight();
     if (num_points > 0) task.light = few_points / static_cast<double>(num_points) * weight;
-    task.result.cuts = {domain.dimension, options.num_parts, {}, {}, options.tree};
+    task.result.cuts = {domain.dimension, options.num_parts, {}, options.tree};
     const auto num_parts = static_cast<std::size_t>(options.num_parts);
     task.result.cuts.tree.reserve(num_parts - 1);
     task.result.brackets.reserve(with_brackets ? num_parts - 1 : 0);

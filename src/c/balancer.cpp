@@ -158,9 +158,6 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
     return guarded(balancer, [&](const auto& own) {
         require(cuts, "cuts");
         require_cuts(own);
-        if (!is_whole(own.cuts))
-            rrcb::reject(
-                "the balancer holds a part of the cuts; call rrcb_gather_cuts on all ranks");
         *cuts = {own.cuts.dimension,
                  own.cuts.num_parts,
                  reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()),

@@ -57,13 +57,6 @@ int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* pa
     });
 }
 
-int rrcb_gather_cuts(rrcb_balancer* balancer) {
-    return guarded_together(CallName::gather_cuts, balancer, [&](auto& own, Participant& self) {
-        self.attempt([&] { require_cuts(own); });
-        own.cuts = rrcb::gather_cuts(own.cuts, self);
-    });
-}
-
 int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
     return guarded_together(
         CallName::assign_all, balancer, [&](const auto& own, Participant& self) {

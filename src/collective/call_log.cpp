@@ -19,7 +19,6 @@ std::string_view name_of(CallName call) {
                                "sums",
                                "part_weights",
                                "moved_fraction",
-                               "gather_cuts",
                                "assign_all",
                                "rrcb_create (Python: balance, assign_all)",
                                "Controller",

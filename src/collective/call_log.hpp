@@ -32,7 +32,6 @@ enum class CallName : std::uint8_t {
     sums,
     part_weights,
     moved_fraction,
-    gather_cuts,
     assign_all,
     create,
     controller,

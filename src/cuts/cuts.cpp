@@ -15,23 +15,20 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the cut of a node; throws Error if it is unknown or invalid.
-const Cut& known_cut(const Cuts& cuts, const Descent& at) {
-    const Cut* cut = find_cut(cuts, at.node);
-    if (cut == nullptr) reject_unknown();
-    require(cut->axis >= 0 && cut->axis < cuts.dimension && !std::isnan(cut->at[cut->axis]),
+/// Returns the cut of a node; throws Error if it is illegal.
+const Cut& legal_cut(const Cuts& cuts, const Descent& at) {
+    const Cut& cut = cuts.tree[at.node];
+    require(cut.axis >= 0 && cut.axis < cuts.dimension && !std::isnan(cut.at[cut.axis]),
             illegal_cut);
-    return *cut;
+    return cut;
 }
 
 /// Throws Error unless each node is in the tree.
 void check_shape(const Cuts& cuts) {
     check_dimension(cuts.dimension, "cuts");
     const auto num_nodes = static_cast<std::size_t>(std::max(cuts.num_parts, 1)) - 1;
-    require(cuts.num_parts >= 1 && (is_whole(cuts) ? cuts.tree.size() == num_nodes
-                                                   : cuts.tree.size() == cuts.nodes.size()),
-            "the tree must hold one cut less than there are parts, or the number of each one that "
-            "it holds");
+    require(cuts.num_parts >= 1 && cuts.tree.size() == num_nodes,
+            "the tree must hold one cut less than there are parts");
     const TreeShape& shape = cuts.shape;
     require(shape.dealt == 0 || (shape.group_size >= 1 && shape.number_fits(cuts.num_parts)),
             "the shape of the cuts must be one for so many parts; keep it with the cuts");
@@ -53,7 +50,7 @@ bool leave_nothing(const Cut* lower, const Cut* upper, int dimension) {
 template <class Visit>
 void visit_touching(const Cuts& cuts, const Descent& at, const Box& box, Visit&& visit) {
     if (at.is_part()) return visit(at.first_part);
-    const Cut& cut = known_cut(cuts, at);
+    const Cut& cut = legal_cut(cuts, at);
     const Sides sides = sides_of(box, cut, cuts.dimension);
     if (sides.below || holds_divided_points(box, cut, cuts.dimension))
         visit_touching(cuts, at.lower(), box, visit);
@@ -82,14 +79,6 @@ bool is_above(const Cut& cut, const Vector& position, int dimension) {
     return true;
 }
 
-void reject_unknown() {
-    reject(
-        "a look-up needs cuts that this rank does not have; call assign_all(cuts, points, comm) on "
-        "all "
-        "ranks for the parts of points (rrcb_assign_all in C), or gather_cuts(cuts, comm) before "
-        "look-ups of any kind (rrcb_gather_cuts in C), or balance with Options::cuts = whole");
-}
-
 int num_levels(const TreeShape& shape, int num_parts) {
     const auto halvings = [](int number) {
         return std::bit_width(static_cast<unsigned>(number - 1));
@@ -100,23 +89,7 @@ int num_levels(const TreeShape& shape, int num_parts) {
 
 void number_parts(const Cuts& cuts, std::span<Part> ends) {
     if (cuts.shape.dealt == 0) return;
-    for (Part& end : ends)
-        if (end >= 0) end = part_at(cuts, end);
-}
-
-Descent descend(const Cuts& cuts, const Vector& position, Descent at) {
-    while (!at.is_part()) {
-        const Cut* cut = find_cut(cuts, at.node);
-        if (cut == nullptr) break;
-        at = is_above(*cut, position, cuts.dimension) ? at.upper() : at.lower();
-    }
-    return at;
-}
-
-bool knows_path(const Cuts& cuts, Part part) {
-    Descent at = root_of(cuts);
-    while (!at.is_part() && find_cut(cuts, at.node) != nullptr) at = at.towards(part);
-    return at.is_part();
+    for (Part& end : ends) end = part_at(cuts, end);
 }
 
 Descent node_at(const Cuts& cuts, std::size_t node) {
@@ -128,7 +101,7 @@ Descent node_at(const Cuts& cuts, std::size_t node) {
 Box region_of(const Cuts& cuts, Part part) {
     Box region = everywhere;
     for (Descent at = root_of(cuts); !at.is_part(); at = at.towards(part)) {
-        const Cut& cut = known_cut(cuts, at);
+        const Cut& cut = legal_cut(cuts, at);
         region = at.is_above(part) ? box_above(region, cut) : box_below(region, cut);
     }
     return region;
@@ -144,7 +117,7 @@ bool is_region_empty(const Cuts& cuts, Part part, const Box& region) {
     std::array<const Cut*, max_dimension> lower{};
     std::array<const Cut*, max_dimension> upper{};
     for (Descent at = root_of(cuts); !at.is_part(); at = at.towards(part)) {
-        const Cut& cut = known_cut(cuts, at);
+        const Cut& cut = legal_cut(cuts, at);
         const Cut*& nearest = (at.is_above(part) ? lower : upper)[cut.axis];
         const bool is_nearer =
             nearest == nullptr || (at.is_above(part) ? is_above(*nearest, cut.at, cuts.dimension)
@@ -160,14 +133,7 @@ Part part_of(const Cuts& cuts, const Vector& position) {
     for (int a = 0; a < cuts.dimension; ++a)
         if (std::isnan(position[a])) [[unlikely]]
             return no_part;
-    Descent at = root_of(cuts);
-    if (!is_whole(cuts)) [[unlikely]] {
-        at = descend(cuts, position, at);
-        return at.is_part() ? part_at(cuts, at.first_part) : no_part;
-    }
-    while (!at.is_part())
-        at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
-    return part_at(cuts, at.first_part);
+    return part_at(cuts, descend(cuts, position, root_of(cuts)).first_part);
 }
 
 Box box_of(const Cuts& cuts, Part part) {

@@ -1,7 +1,6 @@
 #include "cuts/owned_cuts.hpp"
 
 #include "arithmetic/least_number.hpp"
-#include "options/rejection.hpp"
 
 #include <algorithm>
 
@@ -34,24 +33,6 @@ PartRange parts_from(int rank, std::span<const RankRange> ranks_of_parts) {
     const auto end = std::ranges::upper_bound(ranks_of_parts, rank, {}, &RankRange::first_rank);
     return {static_cast<Part>(first - ranks_of_parts.begin()),
             static_cast<Part>(end - ranks_of_parts.begin())};
-}
-
-void for_each_owned(const Cuts& cuts, int rank, int num_ranks,
-                    const std::function<void(std::size_t node, const Cut& cut)>& visit) {
-    const auto [first, end] = parts_from(rank, cuts.num_parts, num_ranks);
-    for (Part part = first; part < end; ++part) {
-        Descent at = root_of(cuts);
-        while (!at.is_part()) {
-            const bool is_owned = at.first_part == part;
-            const Cut* cut = is_owned ? find_cut(cuts, at.node) : nullptr;
-            if (is_owned && cut == nullptr)
-                reject(
-                    "a cut is missing that this rank should know; give the cuts of a balance on "
-                    "this communicator");
-            if (is_owned) visit(at.node, *cut);
-            at = at.towards(part);
-        }
-    }
 }
 
 }  // namespace rrcb

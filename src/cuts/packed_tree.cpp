@@ -52,68 +52,35 @@ void mark_tied(double plane, const double* x, LocalIndex length, std::int32_t* t
 
 }  // namespace
 
-PackedTree::PackedTree(const Cuts& cuts, const Box& box) {
-    pack({cuts, {}, true}, box);
-}
-
 void PackedTree::reserve(std::size_t num_parts) {
     nodes_.reserve(2 * num_parts);
     entries_.reserve(num_parts);
 }
 
 void PackedTree::pack(const Cuts& cuts, const EntryOf& entry_of) {
-    pack({cuts, entry_of, false}, everywhere);
-}
-
-void PackedTree::pack(const Packing& packing, const Box& box) {
-    cuts_ = packing.cuts.tree;
-    dimension_ = packing.cuts.dimension;
-    if (!packing.prunes) reserve(cuts_.size() + 1);
+    cuts_ = cuts.tree;
+    dimension_ = cuts.dimension;
+    reserve(cuts_.size() + 1);
     nodes_.emplace_back();
-    add(packing, root_of(packing.cuts), box, 0, 0);
+    add(root_of(cuts), entry_of, 0, 0);
     find_top();
 }
 
-/// Fills `node` with the cuts at or below `at`, whose positions are all in `box`.
-void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::int32_t node,
-                     int depth) {
-    const Cut* cut = nullptr;
-    // If cuts are pruned, skips a cut with the whole box on one side.
-    while (!at.is_part() && (cut = find_cut(packing.cuts, at.node)) != nullptr) {
-        if (!packing.prunes) break;
-        const Sides sides = sides_of(box, *cut, dimension_);
-        if (sides.below && sides.above) break;
-        at = sides.above ? at.upper() : at.lower();
-        cut = nullptr;
-    }
+/// Fills `node` with the cuts at or below `at`.
+void PackedTree::add(const Descent& at, const EntryOf& entry_of, std::int32_t node, int depth) {
     depth_ = std::max(depth_, depth);
-    if (cut == nullptr) {
-        if (!at.is_part()) return add_end(node, unknown_below(at.node));
-        const Part part = at.first_part;
-        return add_end(node, packing.entry_of ? packing.entry_of(part, box) : part);
-    }
-    const std::int32_t lower = num_nodes();
-    nodes_[node] = {cut->at[cut->axis], cut->axis, lower,
-                    static_cast<std::int32_t>(cut - cuts_.data())};
-    if (!is_plane(*cut, dimension_)) is_plain_ = false;
-    nodes_.resize(nodes_.size() + 2);
-    if (!packing.prunes && !packing.entry_of) {
-        // Nothing reads the boxes.
-        add(packing, at.lower(), box, lower, depth + 1);
-        add(packing, at.upper(), box, lower + 1, depth + 1);
+    if (at.is_part()) {
+        nodes_[node] = {nowhere, 0, node, static_cast<std::int32_t>(entries_.size())};
+        entries_.push_back(entry_of ? entry_of(at.first_part) : at.first_part);
         return;
     }
-    add(packing, at.lower(), box_below(box, *cut), lower, depth + 1);
-    add(packing, at.upper(), box_above(box, *cut), lower + 1, depth + 1);
-    if (!is_left_out(lower) || !is_left_out(lower + 1)) return;
-    nodes_.resize(lower);
-    entries_.resize(entries_.size() - 2);
-    add_end(node, left_out);
-}
-
-void PackedTree::add_end(std::int32_t node, Part entry) {
-    nodes_[node] = {nowhere, 0, node, static_cast<std::int32_t>(entries_.size())};
-    entries_.push_back(entry);
+    const Cut& cut = cuts_[at.node];
+    const std::int32_t lower = num_nodes();
+    nodes_[node] = {cut.at[cut.axis], cut.axis, lower, static_cast<std::int32_t>(at.node)};
+    if (!is_plane(cut, dimension_)) is_plain_ = false;
+    nodes_.resize(nodes_.size() + 2);
+    add(at.lower(), entry_of, lower, depth + 1);
+    add(at.upper(), entry_of, lower + 1, depth + 1);
 }
 
 void PackedTree::find_top() {

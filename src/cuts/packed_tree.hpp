@@ -11,20 +11,6 @@
 
 namespace rrcb {
 
-/// Returns the number for all parts below a node whose cut is unknown.
-constexpr Part unknown_below(std::size_t node) {
-    return ~static_cast<Part>(node);
-}
-constexpr bool is_unknown(Part part) {
-    return part < 0;
-}
-constexpr std::size_t unknown_node(Part part) {
-    return static_cast<std::size_t>(~part);
-}
-
-/// Number of a part left out by a search.
-inline constexpr Part left_out = std::numeric_limits<Part>::min();
-
 inline constexpr LocalIndex block_length = 512;
 
 /// A plane with all points below it.
@@ -33,30 +19,27 @@ inline constexpr double nowhere = std::numeric_limits<double>::infinity();
 /// The coordinates of the points of a block, one array per axis.
 using Columns = std::array<std::array<double, block_length>, max_dimension>;
 
-/// The known cuts of a tree in one array, for many look-ups.
+/// The cuts of a tree in one array, for many look-ups.
 ///
-/// The two nodes below a cut are neighbours. The tree ends at parts and at nodes whose cuts are
-/// unknown. An end is its own child, so all points of a block take the same number of steps.
+/// The two nodes below a cut are neighbours. An end is its own child, so all points of a block take
+/// the same number of steps.
 class PackedTree {
   public:
-    /// Returns the entry for a part, given the box between the cuts above it, see region_of().
-    using EntryOf = std::function<Part(Part part, const Box& region)>;
+    /// Returns the entry for an end of the tree.
+    using EntryOf = std::function<Part(Part end)>;
 
     PackedTree() = default;
 
-    /// Packs all known cuts. `cuts.tree` must outlive the result, in the same memory.
+    /// Packs all cuts. `cuts.tree` must outlive the result, in the same memory.
     explicit PackedTree(const Cuts& cuts, const EntryOf& entry_of = {}) { pack(cuts, entry_of); }
 
-    /// Packs only the cuts dividing a box.
-    PackedTree(const Cuts& cuts, const Box& box);
-
-    /// Reserves memory for all cuts between this many parts, which may be 0.
+    /// Reserves memory for the cuts between this many parts, which may be 0.
     void reserve(std::size_t num_parts);
 
     /// Packs as the constructor does, once, in the reserved memory.
     void pack(const Cuts& cuts, const EntryOf& entry_of);
 
-    /// Returns the part of each end in ascending order, or the number in place of it.
+    /// Returns the entry of each end in ascending order; of end k it is k without an EntryOf.
     const std::vector<Part>& entries() const { return entries_; }
 
     /// Finds the number of the end of each point of a block.
@@ -113,15 +96,7 @@ class PackedTree {
     };
 
   private:
-    struct Packing {
-        const Cuts& cuts;
-        const EntryOf& entry_of;
-        bool prunes;  ///< leaves out cuts beside the box
-    };
-    void pack(const Packing& packing, const Box& box);
-    void add(const Packing& packing, Descent at, const Box& box, std::int32_t node, int depth);
-    void add_end(std::int32_t node, Part entry);
-    bool is_left_out(std::int32_t node) const { return is_end(node) && entry_at(node) == left_out; }
+    void add(const Descent& at, const EntryOf& entry_of, std::int32_t node, int depth);
     void find_top();
 
     bool is_above(std::int32_t node, const double* position) const {

@@ -48,25 +48,15 @@ void number_parts(const Cuts& cuts, std::span<Part> ends);
 /// Returns the number of levels of cuts above the parts of a node.
 int num_levels(const TreeShape& shape, int num_parts);
 
-/// Returns the cut of a node; null if it is not among the known cuts.
-inline const Cut* find_cut(const Cuts& cuts, std::size_t node) {
-    if (is_whole(cuts)) return &cuts.tree[node];
-    const auto found = std::ranges::lower_bound(cuts.nodes, static_cast<std::int32_t>(node));
-    if (found == cuts.nodes.end() || *found != static_cast<std::int32_t>(node)) return nullptr;
-    return &cuts.tree[found - cuts.nodes.begin()];
+/// Returns the end of the tree of a position at or below `at`.
+inline Descent descend(const Cuts& cuts, const Vector& position, Descent at) {
+    while (!at.is_part())
+        at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
+    return at;
 }
-
-/// Returns the part of a position at or below `at`, or the first unknown node on the way.
-Descent descend(const Cuts& cuts, const Vector& position, Descent at);
 
 /// Returns the node with a number in preorder.
 Descent node_at(const Cuts& cuts, std::size_t node);
-
-/// Returns true if all cuts above a part are known.
-bool knows_path(const Cuts& cuts, Part part);
-
-/// Throws the Error of a look-up without a cut it needs.
-[[noreturn]] void reject_unknown();
 
 /// Returns a cut without ties.
 Cut plane(int axis, double value);
@@ -105,10 +95,10 @@ inline std::vector<int> axes_of(std::span<const Cut> tree) {
 inline constexpr Box everywhere{Box{}.upper, Box{}.lower};
 
 /// Returns the least box between the cuts above a part. Its bounds may be reversed if the region is
-/// empty. Throws Error if a cut is unknown.
+/// empty. Throws Error for an illegal cut.
 Box region_of(const Cuts& cuts, Part part);
 
-/// Returns true if the cuts above a part, all known, leave no position to it, and no coincident
+/// Returns true if the cuts above a part leave no position to it, and no coincident
 /// points that a cut divides. `region` is its region_of().
 bool is_region_empty(const Cuts& cuts, Part part, const Box& region);
 

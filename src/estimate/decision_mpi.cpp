@@ -234,10 +234,6 @@ void take_earlier(Decision& decision, const Options& options, bool spread, const
     Cuts& cuts = decision.cuts;
     decision.verdict.answer = Answer::weights;
     cuts = fitted(previous, options);
-    if (spread && is_whole(cuts)) {
-        cuts.nodes.resize(cuts.tree.size());
-        std::iota(cuts.nodes.begin(), cuts.nodes.end(), 0);
-    }
     if (!spread) {
         decision.brackets.reserve(is_refined(options) ? cuts.tree.size() : 0);
         decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
@@ -249,7 +245,7 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
     const std::size_t num_parts = options.part_sizes.size();
     const std::size_t num_cuts = num_parts - 1;
     Cuts& cuts = decision.cuts;
-    cuts = {dimension, static_cast<int>(num_parts), std::vector<Cut>(num_cuts), {}, options.tree};
+    cuts = {dimension, static_cast<int>(num_parts), std::vector<Cut>(num_cuts), options.tree};
     decision.brackets.resize(is_refined(options) ? num_cuts : 0);
     if (may_keep) {
         decision.part_weights.resize(num_parts);

@@ -69,10 +69,7 @@ NearCount count_near(const Cuts& cuts, const Vector& position, double reach) {
 }  // namespace
 
 Cuts fitted(Cuts cuts, const Options& options) {
-    for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
-        const std::size_t node = is_whole(cuts) ? k : cuts.nodes[k];
-        fit(options, node_at(cuts, node), cuts.tree[k]);
-    }
+    for (std::size_t k = 0; k < cuts.tree.size(); ++k) fit(options, node_at(cuts, k), cuts.tree[k]);
     return cuts;
 }
 

@@ -28,7 +28,6 @@ module rrcb_balancers
     procedure :: release_buffers
     procedure :: get_report
     procedure :: get_cuts
-    procedure :: gather_cuts
     procedure :: set_cuts
     procedure :: clear_cuts
     procedure :: save_cuts
@@ -133,13 +132,6 @@ contains
     cuts%tree%axis = cuts%tree%axis + 1
   end subroutine
 
-  !> Gives each rank's balancer all cuts, if each holds a part of them. Collective.
-  subroutine gather_cuts(self, error)
-    class(rrcb_balancer), intent(inout) :: self
-    integer, intent(out), optional :: error
-    call settle(c_gather_cuts(self%handle), error)
-  end subroutine
-
   !> Copies cuts of an earlier run into the balancer. Not collective.
   subroutine set_cuts(self, cuts, error)
     class(rrcb_balancer), intent(inout) :: self
@@ -203,7 +195,7 @@ contains
     call settle(c_assign(self%handle, points, place_of(parts, points%count)), error)
   end subroutine
 
-  !> Finds the parts of points, whichever cuts the ranks hold. Collective.
+  !> Finds the parts of points, and fails on all ranks alike. Collective.
   !> @param points any positions
   !> @param parts  gets the part of each
   subroutine assign_all(self, points, parts, error)

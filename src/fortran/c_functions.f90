@@ -83,7 +83,6 @@ module rrcb_c_functions
   procedure(divide), bind(c, name="rrcb_assign") :: c_assign
   procedure(divide), bind(c, name="rrcb_assign_all") :: c_assign_all
   procedure(call_of), bind(c, name="rrcb_release_buffers") :: c_release_buffers
-  procedure(call_of), bind(c, name="rrcb_gather_cuts") :: c_gather_cuts
   procedure(call_of), bind(c, name="rrcb_clear_cuts") :: c_clear_cuts
   procedure(move), bind(c, name="rrcb_transfer") :: c_transfer
   procedure(move), bind(c, name="rrcb_ghosts_fetch") :: c_ghosts_fetch

@@ -16,7 +16,10 @@
 
 namespace rrcb {
 
-Cuts gather_cuts(const Cuts& cuts, Participant& self);
+/// Gives every rank the whole tree. Before, one rank has each cut, and the others have zeros. Holds
+/// errors back.
+void join_cuts(std::span<Cut> tree, Participant& self);
+
 std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self);
 
 Plan plan(std::span<const Part> parts, int num_parts, Participant& self);

@@ -12,7 +12,6 @@
 #include "lists/radii.hpp"
 #include "lists/rank_lists.hpp"
 #include "lists/remap_mpi.hpp"
-#include "lists/tier_search_mpi.hpp"
 #include "lists/transfer_log.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"
@@ -23,7 +22,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -89,7 +87,7 @@ struct GhostRequest {
         if (points.count == 0) return;
         if (ends.size() == 1) return note_reaches(ends.front());
         std::vector<Part> of_points(points.count);
-        assign_known(cuts, points, of_points);
+        assign_ends(cuts, points, of_points);
         const auto for_each_end = [&](LocalIndex i, auto&& visit) {
             if (std::ranges::binary_search(ends, of_points[i])) return visit(of_points[i]);
             std::ranges::for_each(ends, visit);
@@ -114,7 +112,7 @@ struct GhostRequest {
     }
 };
 
-/// Finds which of this rank's points other ranks need, by the known cuts.
+/// Finds which of this rank's points other ranks need.
 class Neighbourhood {
   public:
     /// Both outlive it.
@@ -135,9 +133,6 @@ class Neighbourhood {
         });
         lists_.write(plan);
     }
-
-    /// Returns the nodes near points whose cuts are not known.
-    std::vector<std::size_t> lacking() const { return {lacking_.begin(), lacking_.end()}; }
 
   private:
     const PartReaches* reaches() const { return request_.reaches ? &*request_.reaches : nullptr; }
@@ -171,8 +166,7 @@ class Neighbourhood {
         if (!is_image && is_home_alone(ball)) return;
         lists_.begin(point, shift);
         near_.for_each_touched<dimension>(ball, [&](const NearBoxes::Row& row) {
-            if (is_unknown(row.entry)) return void(lacking_.insert(unknown_node(row.entry)));
-            if (request_.reaches && !request_.reaches->reaches(row.entry, ball)) return;
+            if (request_.reaches && !request_.reaches->reaches(row.end, ball)) return;
             for (std::int32_t slot = row.first_slot; slot < row.first_slot + row.num_slots; ++slot)
                 if (is_image || lists_.rank_of(slot) != request_.holders.rank) lists_.add(slot);
         });
@@ -191,33 +185,6 @@ class Neighbourhood {
     double reach_;  ///< greatest of all parts
     NearBoxes near_;
     RankLists lists_;
-    std::set<std::size_t> lacking_{};
-};
-
-/// Lists the points that this rank sends, with their shifts; returns the nodes whose cuts it lacks
-/// for the rest.
-std::vector<std::size_t> list_sent(const Cuts& cuts, const GhostRequest& request, GhostPlan& plan) {
-    Neighbourhood neighbourhood(cuts, request);
-    plan.num_points = request.points.count;
-    neighbourhood.list(plan);
-    return neighbourhood.lacking();
-}
-
-/// Search for the cuts missing in a plan.
-struct GhostSearch : TierSearch {
-    const GhostRequest& request;
-    GhostPlan& plan;
-    std::vector<std::size_t> lacking;  ///< nodes
-
-    bool ask(Butterfly& asked) {
-        TierSearch::ask(lacking, asked);
-        return !lacking.empty();
-    }
-
-    void learn(const Butterfly& asked) {
-        TierSearch::learn(asked);
-        if (!lacking.empty()) lacking = list_sent(cuts(), request, plan);
-    }
 };
 
 /// Sends the shifts of ghosts to the ranks that get them. Collective.
@@ -250,14 +217,11 @@ void join(PartReaches& reaches, Participant& self) {
 /// Collective; an earlier failure on one rank is thrown on all.
 GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     GhostPlan plan;
-    std::optional<SearchBuffers<GhostSearch>> buffers;
     std::uint64_t bits_of_cuts = 0;
     std::uint64_t bits_of_holders = 0;
     const auto list = [&] {
-        std::vector<std::size_t> lacking = list_sent(cuts, request, plan);
-        if (!is_whole(cuts))
-            buffers.emplace(GhostSearch{TierSearch(cuts), request, plan, std::move(lacking)},
-                            self.comm);
+        plan.num_points = request.points.count;
+        Neighbourhood(cuts, request).list(plan);
     };
     self.attempt([&] {
         mpi::require_group(cuts.group, "the balance of the cuts", self);
@@ -277,10 +241,6 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     if (request.reaches) {
         join(*request.reaches, self);
         self.attempt(list);
-        plan.receive = exchange_counts(plan.send, self);
-        agree(self);
-    }
-    if (buffers && search_together(*buffers, self)) {
         plan.receive = exchange_counts(plan.send, self);
         agree(self);
     }

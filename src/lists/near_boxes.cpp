@@ -65,12 +65,12 @@ class NearList {
     /// of them.
     bool add(const Descent& at, const Box& box) {
         if (!is_near(box)) return false;
-        const Cut* cut = at.is_part() ? nullptr : find_cut(cuts_, at.node);
-        if (cut == nullptr) return add_end(at, box);
+        if (at.is_part()) return add_end(at.first_part, box);
+        const Cut& cut = cuts_.tree[at.node];
         const std::size_t first = list_.rows_.size();
         list_.rows_.emplace_back();
-        const Box below = box_below(box, *cut);
-        const Box above = box_above(box, *cut);
+        const Box below = box_below(box, cut);
+        const Box above = box_above(box, cut);
         const bool is_lower_home = add(at.lower(), below);
         const bool is_upper_home = add(at.upper(), above);
         if (is_lower_home != is_upper_home) list_.homes_.push_back(is_lower_home ? below : above);
@@ -78,13 +78,7 @@ class NearList {
         return is_lower_home && is_upper_home;
     }
 
-    bool add_end(const Descent& at, const Box& box) {
-        const Part end = at.first_part;
-        if (!at.is_part()) {
-            list_.rows_.push_back(
-                {box, request_.reaches != nullptr ? reach_ : -infinity, unknown_below(at.node)});
-            return false;
-        }
+    bool add_end(Part end, const Box& box) {
         // Whoever holds such a part needs nothing.
         if (is_region_empty(cuts_, end, box)) return true;
         const RankRange ranks = request_.ranks_of(end);
@@ -105,7 +99,7 @@ class NearList {
             rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(first));
             return;
         }
-        NearBoxes::Row row{{}, -infinity, left_out, static_cast<std::int32_t>(num_below)};
+        NearBoxes::Row row{{}, -infinity, no_part, static_cast<std::int32_t>(num_below)};
         for (std::size_t k = first + 1; k < rows.size(); ++k) {
             row.box = joined(row.box, rows[k].box);
             row.reach = std::max(row.reach, rows[k].reach);

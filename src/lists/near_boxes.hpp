@@ -1,10 +1,11 @@
 #pragma once
 
-#include "cuts/packed_tree.hpp"
 #include "lists/ball.hpp"
 
+#include <rrcb/cuts.hpp>
 #include <rrcb/plan.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -34,15 +35,14 @@ class NearBoxes {
     struct Row {
         Box box;
         double reach = 0;             ///< of the part, see Ball::reach_of(); -infinity: none
-        Part entry = left_out;        ///< end of the tree, or unknown_below() a node; left_out in
-                                      ///< a row for several regions
+        Part end = no_part;           ///< of the tree; no_part in a row for several regions
         std::int32_t num_below = 0;   ///< of the rows that follow, those for these regions
         std::int32_t first_slot = 0;  ///< the part's ranks are consecutive entries of ranks()
         std::int32_t num_slots = 0;
     };
 
-    /// Lists the regions. `cuts` may be known in part. Throws std::bad_alloc. Time: for the cuts
-    /// and parts within reach of the box of the points.
+    /// Lists the regions. Throws std::bad_alloc. Time: for the cuts and parts within reach of the
+    /// box of the points.
     NearBoxes(const Cuts& cuts, const NearRequest& request);
 
     /// Calls visit(row) for each region that a ball touches, or that lies within the reach of its
@@ -53,7 +53,7 @@ class NearBoxes {
         for (const Row* row = rows_.data(); row != end; ++row) {
             if (!ball.touches(row->box, row->reach, dimension)) {
                 row += row->num_below;
-            } else if (row->entry != left_out) {
+            } else if (row->end != no_part) {
                 visit(*row);
             }
         }

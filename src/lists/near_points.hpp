@@ -52,7 +52,7 @@ struct NearPoints {
         const bool is_image = shift != Shift{};
         lists.begin(point, shift);
         near.for_each_touched<dimension>(ball, [&](const NearBoxes::Row& row) {
-            if (reaches != nullptr && !reaches->reaches(row.entry, ball)) return;
+            if (reaches != nullptr && !reaches->reaches(row.end, ball)) return;
             for (std::int32_t slot = row.first_slot; slot < row.first_slot + row.num_slots; ++slot)
                 if (is_image || lists.rank_of(slot) != rank) lists.add(slot);
         });

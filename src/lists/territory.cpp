@@ -32,9 +32,6 @@ Territory::Territory(const Cuts& cuts, const NeighbourOptions& options, int rank
       rank_(rank),
       num_ranks_(num_ranks),
       reach_(std::max(options.radius, options.travel)) {
-    require(is_whole(cuts),
-            "neighbours need all cuts, but these are only those near this rank; make them complete "
-            "with gather_cuts(), or balance without HeldCuts::own");
     check_tree(cuts);
     require(is_distance(options.radius) && is_distance(options.travel),
             "radius and travel must be finite, 0 or more");

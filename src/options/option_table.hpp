@@ -106,10 +106,6 @@ inline constexpr Word coincident_words[] = {
     {"DIVIDE", static_cast<int>(Coincident::divide),
      "are divided by number, if cuts are refined and not plain"}};
 
-inline constexpr Word held_cuts_words[] = {
-    {"WHOLE", static_cast<int>(HeldCuts::whole), "all of them"},
-    {"OWN", static_cast<int>(HeldCuts::own), "those above its points and its parts"}};
-
 inline constexpr Word switch_words[] = {{"OFF", 0, "no"}, {"ON", 1, "yes"}};
 
 inline constexpr Word machine_words[] = {{"ON", 1, "yes"},
@@ -209,8 +205,6 @@ inline constexpr Option option_table[] = {
      "Most parts that rank 0 makes; if there are more, and more ranks, many ranks make them",
      Range<int>{field<&Options::tuning, &Tuning::central_parts>, 2,
                 std::numeric_limits<int>::max()}},
-    {"cuts", "", "Cuts that each rank gets if many ranks make the parts",
-     choice_of<&Options::cuts>(held_cuts_words)},
 };
 
 /// Returns true if ranks compare the value of the option by itself.

@@ -4,7 +4,6 @@
 #include <rrcb/plan.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 #include <type_traits>
@@ -81,11 +80,6 @@ std::uint64_t bits_of(const Option& option, const Options& options) {
 }
 
 std::uint64_t bits_of(const Cuts& cuts) {
-    // Ranks hold different ones of distributed cuts.
-    if (!is_whole(cuts))
-        return hash_of(std::array{-1.0, 1.0 * cuts.num_parts, 1.0 * cuts.dimension,
-                                  1.0 * cuts.shape.group_size, 1.0 * cuts.shape.larger_below,
-                                  1.0 * cuts.shape.dealt});
     std::uint64_t hash = (1 + max_dimension) * cuts.tree.size();
     add(cuts.shape.group_size, hash);
     add(cuts.shape.larger_below, hash);

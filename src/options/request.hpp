@@ -45,7 +45,7 @@ std::uint64_t hash_if_leaving(const Points& points, std::span<const Part> parts,
 /// Returns the bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);
 
-/// Returns a hash of cuts; if they are distributed, of the shape of their tree only.
+/// Returns a hash of cuts.
 std::uint64_t bits_of(const Cuts& cuts);
 
 /// Returns the request of options, in which empty `part_sizes` still stand for equal parts.

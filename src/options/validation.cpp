@@ -69,15 +69,10 @@ void check_coordinates(const Points& points) {
     }
 }
 
-/// Returns true if the tree holds all of its cuts, or some and their numbers.
+/// Returns true if the tree holds all of its cuts.
 bool has_its_cuts(const Cuts& cuts) {
-    const std::vector<std::int32_t>& nodes = cuts.nodes;
-    if (cuts.num_parts < 1 || cuts.shape.group_size < 1 || !cuts.shape.number_fits(cuts.num_parts))
-        return false;
-    if (is_whole(cuts)) return std::ssize(cuts.tree) + 1 == cuts.num_parts;
-    return nodes.size() == cuts.tree.size() && nodes.front() >= 0 &&
-           nodes.back() < cuts.num_parts - 1 &&
-           std::ranges::adjacent_find(nodes, std::greater_equal()) == nodes.end();
+    return cuts.num_parts >= 1 && cuts.shape.group_size >= 1 &&
+           cuts.shape.number_fits(cuts.num_parts) && std::ssize(cuts.tree) + 1 == cuts.num_parts;
 }
 
 bool has_legal_cuts(const Cuts& cuts) {
@@ -182,8 +177,7 @@ void check_tree(const Cuts& cuts) {
             "near.reach and near.share must be numbers from 0 on");
     check_dimension(cuts.dimension, "cuts");
     require(has_its_cuts(cuts),
-            "the tree must hold one cut less than there are parts, in groups of 1 or more, or the "
-            "ascending number of each one that it holds");
+            "the tree must hold one cut less than there are parts, in groups of 1 or more");
     require(has_legal_cuts(cuts), illegal_cut);
 }
 

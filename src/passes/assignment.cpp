@@ -36,14 +36,6 @@ RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, L
     return carries;
 }
 
-/// Returns the box of points, without bounds if a coordinate is not finite.
-Box box_around(const Points& points) {
-    const Box box = bounding_box(points);
-    for (int a = 0; a < points.dimension; ++a)
-        if (!(box.lower[a] <= box.upper[a])) return everywhere;
-    return box;
-}
-
 /// Bounds of the points that no cut leaves to another part, one for each part, along each axis.
 struct SettledBounds {
     std::array<std::vector<double>, max_dimension> least{};   ///< points at them are settled
@@ -76,21 +68,19 @@ RRCB_VECTOR_CLONES void mark_open(const double* x, const double* least, const do
         is_open[i] |= (x[i] < least[parts[i]] ? 1 : 0) | (x[i] >= beyond[parts[i]] ? 1 : 0);
 }
 
-/// Finds the parts of points block by block. Bins are the ends of the tree.
+/// Finds the ends of the tree for points block by block.
 class Assigner {
   public:
     /// `cuts` outlive it.
-    Assigner(const Cuts& cuts, const Points& points)
-        : tree_(is_whole(cuts) ? PackedTree(cuts) : PackedTree(cuts, box_around(points))),
-          bins_are_parts_(is_whole(cuts)) {}
+    explicit Assigner(const Cuts& cuts) : tree_(cuts) {}
 
     /// Leaves points beyond the bounds of their part without one; if `has_parts`, it is that which
     /// they have.
     Assigner(const Cuts& cuts, const SettledBounds& bounds, bool has_parts)
-        : tree_(cuts), bounds_(&bounds), finds_(!has_parts), bins_are_parts_(true) {}
+        : tree_(cuts), bounds_(&bounds), finds_(!has_parts) {}
 
-    /// Calls `visit(first, length)` for each block while `parts` holds its bins. Returns whether
-    /// all coordinates are finite; stops at the first block in which one is not.
+    /// Calls `visit(first, length)` for each block whose `parts` are found. Returns whether all
+    /// coordinates are finite; stops at the first block in which one is not.
     template <class Visit>
     bool run(const Points& points, std::span<Part> parts, Visit&& visit) {
         std::uint64_t carries = 0;
@@ -102,14 +92,12 @@ class Assigner {
                 if (finds_) tree_.find(columns_, length, &parts[first]);
                 if (bounds_ != nullptr) drop_open(points.dimension, length, &parts[first]);
                 visit(first, length);
-                if (bins_are_parts_) return;
-                for (Part& bin : parts.subspan(first, length)) bin = tree_.entries()[bin];
             });
         });
         return carries >> 63 == 0;
     }
 
-    const std::vector<Part>& parts_of_bins() const { return tree_.entries(); }
+    std::size_t num_ends() const { return tree_.entries().size(); }
 
   private:
     void drop_open(int dimension, LocalIndex length, Part* parts) {
@@ -124,7 +112,6 @@ class Assigner {
     PackedTree tree_;
     const SettledBounds* bounds_ = nullptr;
     bool finds_ = true;
-    bool bins_are_parts_;
     Columns columns_{};
 };
 
@@ -155,11 +142,10 @@ class Counter {
 };
 
 /// Returns totals of the ends of the tree.
-KnownTotals count_ends(Assigner& assigner, const Points& points, std::span<Part> parts) {
-    const std::size_t num_bins = assigner.parts_of_bins().size();
-    KnownTotals totals;
-    Counter counter(num_bins);
-    RunningSums<double> weights(num_bins + 1);
+EndTotals count_ends(Assigner& assigner, const Points& points, std::span<Part> parts) {
+    EndTotals totals;
+    Counter counter(assigner.num_ends());
+    RunningSums<double> weights(assigner.num_ends() + 1);
     LocalIndex num_added = 0;
     totals.all_finite = assigner.run(points, parts, [&](LocalIndex first, LocalIndex length) {
         counter.add(parts.subspan(first, length));
@@ -183,26 +169,23 @@ KnownTotals count_ends(Assigner& assigner, const Points& points, std::span<Part>
 
 }  // namespace
 
-bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+bool assign_ends(const Cuts& cuts, const Points& points, std::span<Part> ends) {
     if (points.count == 0) return true;
     const NonStop arithmetic;
-    return Assigner(cuts, points).run(points, parts, [](LocalIndex, LocalIndex) {});
+    return Assigner(cuts).run(points, ends, [](LocalIndex, LocalIndex) {});
 }
 
 void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     check_positions(points, cuts);
     require(parts.size() == points.count, "parts must have one entry per point");
-    if (!locally([&] { return assign_known(cuts, points, parts); })) reject_coordinates(points);
-    if (!is_whole(cuts) && std::ranges::any_of(parts, is_unknown)) reject_unknown();
+    if (!locally([&] { return assign_ends(cuts, points, parts); })) reject_coordinates(points);
     number_parts(cuts, parts);
 }
 
-KnownTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+EndTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     const NonStop arithmetic;
-    Assigner assigner(cuts, points);
-    KnownTotals totals = count_ends(assigner, points, parts);
-    if (!is_whole(cuts)) totals.parts = assigner.parts_of_bins();
-    return totals;
+    Assigner assigner(cuts);
+    return count_ends(assigner, points, parts);
 }
 
 PartTotals assign_settled(const Cuts& cuts, std::span<const Bracket> intervals,

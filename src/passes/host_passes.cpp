@@ -36,13 +36,11 @@ PointSample HostPasses::sample(LocalIndex size) {
 }
 
 PartTotals HostPasses::assign(const Cuts& cuts, bool counts) {
-    if (counts) return assign_known(cuts);
-    if (!rrcb::assign_known(cuts, points_, parts_)) reject_coordinates(points_);
-    return {};
-}
-
-KnownTotals HostPasses::assign_known(const Cuts& cuts) {
-    KnownTotals totals = assign_and_count(cuts, points_, parts_);
+    EndTotals totals;
+    if (counts)
+        totals = assign_and_count(cuts, points_, parts_);
+    else
+        totals.all_finite = assign_ends(cuts, points_, parts_);
     if (!totals.all_finite) reject_coordinates(points_);
     return totals;
 }

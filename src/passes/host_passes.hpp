@@ -36,8 +36,6 @@ class HostPasses final : public PointPasses {
     const Points& points() const { return points_; }
     /// Returns the parts, one per point from the first summary() on.
     std::span<Part> parts_here() { return parts_; }
-    /// Gives each point its part, also by cuts of which some are not known; see assign_and_count().
-    KnownTotals assign_known(const Cuts& cuts);
     /// Moves the parts out.
     std::vector<Part> take_parts() { return std::move(parts_); }
 

@@ -284,7 +284,7 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
 /// Searches a node further, or goes on with its children.
 void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<const double> more) {
     CutSearch before = std::exchange(node.search, next);
-    if (before.stage == CutSearch::centring) return note(node.at.node, next.cut);
+    if (before.stage == CutSearch::centring) return note(node.at, next.cut);
     if (before.stage == CutSearch::over_points) {
         node.is_counted = true;
         if (!guide_) {

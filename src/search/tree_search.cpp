@@ -53,7 +53,7 @@ void TreeSearch::enter(Node&& node) {
                          : share > 0            ? node.weight
                                                 : 0;
     const Cut cut = cut_unsearched(node, share);
-    note(at.node, cut);
+    note(at, cut);
     divide(std::move(node), cut, {}, below);
 }
 
@@ -123,12 +123,11 @@ void TreeSearch::divide(Node&& node, const Cut& cut, const Lot& lot, double belo
     enter_side(node.at.upper(), box_above(node.box, cut), above);
 }
 
-void TreeSearch::note(std::size_t node, const Cut& cut) {
-    if (guide_) {
-        guide_->cuts.tree[node] = cut;
-    } else {
-        known_.emplace_back(node, cut);
-    }
+void TreeSearch::note(const Descent& at, const Cut& cut) {
+    if (guide_)
+        guide_->cuts.tree[at.node] = cut;
+    else if (owner_of(at) == rank_)
+        own_.emplace_back(at.node, cut);
 }
 
 /// Goes on below a found cut. The points of a lot form one row over all ranks.
@@ -143,7 +142,7 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
                                                   : told.before;
     }
     node.are_parts_counted = false;
-    if (node.search.stage != CutSearch::centring) note(node.at.node, cut);
+    if (node.search.stage != CutSearch::centring) note(node.at, cut);
     divide(std::move(node), cut, lot, node.search.found_below);
 }
 
@@ -183,14 +182,10 @@ CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double wei
     return search;
 }
 
-Cuts TreeSearch::cuts() const {
-    auto known = known_;
-    std::ranges::sort(known, {}, [](const auto& one) { return one.first; });
-    Cuts cuts{tree_.dimension, tree_.num_parts, {}, {}, tree_.shape};
-    for (const auto& [node, cut] : known) {
-        cuts.tree.push_back(cut);
-        cuts.nodes.push_back(static_cast<std::int32_t>(node));
-    }
+Cuts TreeSearch::own_cuts() const {
+    const auto num_cuts = static_cast<std::size_t>(tree_.num_parts) - 1;
+    Cuts cuts{tree_.dimension, tree_.num_parts, std::vector<Cut>(num_cuts), tree_.shape};
+    for (const auto& [node, cut] : own_) cuts.tree[node] = cut;
     return cuts;
 }
 

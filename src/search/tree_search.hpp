@@ -102,9 +102,9 @@ class TreeSearch {
     static void join(std::span<const double> a, std::span<const double> b,
                      std::vector<double>& joined);
 
-    /// Returns the cuts, possibly all, that this rank knows after a spread search, with their
-    /// numbers. Throws std::bad_alloc.
-    Cuts cuts() const;
+    /// Returns the tree after a spread search, in which cuts of other ranks are zeros. Throws
+    /// std::bad_alloc.
+    Cuts own_cuts() const;
 
     /// Returns the imbalance of the parts that this rank owns, in a spread search; 0 if these are
     /// empty.
@@ -172,7 +172,7 @@ class TreeSearch {
     void add_node(Node&& entered);
     Cut cut_unsearched(const Node& node, double share) const;
     void divide(Node&& node, const Cut& cut, const Lot& lot, double below);
-    void note(std::size_t node, const Cut& cut);
+    void note(const Descent& at, const Cut& cut);
     void end_at_cut(Node&& node, const LotAnswer& told);
     void weigh_part(const Node& node);
     CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
@@ -213,7 +213,8 @@ class TreeSearch {
     HistogramLayout layout_;
     OpenPoints& open_;
     std::deque<Node> nodes_;  ///< ascending; gives memory back as it is followed
-    std::vector<std::pair<std::size_t, Cut>> known_;  ///< cuts of nodes, after a spread search
+    std::vector<std::pair<std::size_t, Cut>> own_;  ///< cuts of nodes that this rank owns, found
+                                                    ///< by a spread search
     double imbalance_ = 0;
     int num_coincident_ = 0;
 };

@@ -1,5 +1,5 @@
-// Linked with an example in C or Fortran: more than two ranks make the parts together, and each
-// gets its own cuts alone. The linker sends calls of rrcb_create here.
+// Linked with an example in C or Fortran: more than two ranks make the parts together. The linker
+// sends calls of rrcb_create here.
 #include <rrcb/rrcb.h>
 
 int __real_rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
@@ -7,7 +7,6 @@ int __real_rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
 
 static int for_many_ranks(int code, rrcb_balancer* balancer) {
     if (code == RRCB_OK) code = rrcb_set(balancer, "tuning.central_parts", "2");
-    if (code == RRCB_OK) code = rrcb_set(balancer, "cuts", "OWN");
     return code;
 }
 

@@ -1,5 +1,4 @@
-// Included before an example in C++: more than two ranks make the parts together, and each gets its
-// own cuts alone.
+// Included before an example in C++: more than two ranks make the parts together.
 #pragma once
 
 #include <rrcb/rrcb.hpp>
@@ -7,10 +6,7 @@
 namespace rrcb {
 
 struct OptionsOfManyRanks : Options {
-    OptionsOfManyRanks() {
-        tuning.central_parts = 2;
-        cuts = HeldCuts::own;
-    }
+    OptionsOfManyRanks() { tuning.central_parts = 2; }
 };
 
 }  // namespace rrcb

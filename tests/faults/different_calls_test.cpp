@@ -89,7 +89,6 @@ std::vector<NamedCall> all_calls() {
          [](Input& in) { sums(in.clusters, std::vector<double>(in.points.count, 1.0), world); }},
         {"part_weights", [](Input& in) { part_weights(in.points, in.balanced, world); }},
         {"moved_fraction", [](Input& in) { moved_fraction(in.points, in.balanced, world); }},
-        {"gather_cuts", [](Input& in) { gather_cuts(in.balanced.cuts, world); }},
         {"assign_all", [](Input& in) { assign_all(in.balanced.cuts, in.points, world); }},
         {"Controller::step",
          [](Input& in) {

@@ -252,7 +252,7 @@ TEST(FailingMpi, of_one_rank_while_earlier_cuts_are_kept_reaches_its_caller) {
 
 TEST(FailingMpi, of_one_rank_in_a_remap_or_look_up_reaches_its_caller) {
     const Cloud cloud;
-    Options options{.cuts = HeldCuts::own, .tuning = {.central_parts = 2}};
+    const Options options{.tuning = {.central_parts = 2}};
     const Balance made = balance(cloud.points(), options, {}, MPI_COMM_WORLD);
     std::vector<RankRange> ranks;
     for (int rank = 0; rank < num_ranks(); ++rank) ranks.push_back({rank, 1});

@@ -44,7 +44,6 @@ class MessageCounts : public testing::Test {
 TEST_F(MessageCounts, of_a_meeting_that_agrees_are_those_of_a_reduction) {
     expect_agreement(1, [&] { part_weights(points, made, world); });
     expect_agreement(1, [&] { moved_fraction(points, made, world); });
-    expect_agreement(0, [&] { gather_cuts(made.cuts, world); });
     expect_agreement(0, [&] { assign_all(made.cuts, points, world); });
     expect_agreement(0, [&] { balance(points, {}, made.cuts, world); });
     expect_agreement(2, [&] { Controller{world}; });

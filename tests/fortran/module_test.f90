@@ -77,8 +77,6 @@ program module_test
   call expect(report%num_points == 300 .and. report%total_weight == 600, "report")
   call expect(report%imbalance == 1 .and. report%within_tolerance == 1, "imbalance")
 
-  call balancer%gather_cuts(error)
-  call expect(error == rrcb_ok, "gather_cuts")
   call balancer%get_cuts(cuts, error)
   call expect(error == rrcb_ok .and. cuts%dimension == 1 .and. size(cuts%tree) == 2, "cuts")
   associate (at => cuts%tree(1)%at(1))

@@ -32,7 +32,6 @@ ONLY_CPP = {
     "transfer_in_place": "changes the length of vectors",
     "member_points": "rrcb_points has a stride in bytes",
     "view_points": "takes the views of C++ libraries",
-    "is_whole": "rrcb_get_cuts refuses cuts that are not",
     "is_above": "rrcb_part_of descends by it",
     "TreeShape": "for those who descend themselves",
     "ghosts_of": "an array of rrcb_column",
@@ -81,7 +80,7 @@ NOT_PYTHON = {
     "interleaved_points": "arrays are given", "column_points": "arrays are given",
     "bounding_box": "numpy has it", "imbalance": "numpy has it",
     "load_unbalance_percent": "numpy has it", "worst_load_unbalance_percent": "numpy has it",
-    "ranks_of_part": "remap() and ghosts() apply it", "gather_cuts": "every rank has all cuts",
+    "ranks_of_part": "remap() and ghosts() apply it",
     "release_buffers": "buffers are freed with the communicator",
     "parts_touching": "ghosts() finds points",
 }

@@ -41,8 +41,7 @@ TEST(GivenAxes, of_each_cut_are_kept) {
 
 TEST(GivenAxes, of_each_cut_are_kept_also_by_many_ranks_and_where_nothing_is_to_be_cut) {
     const auto mine = share_of_cloud(3, 2, [](std::size_t, int, double u) { return u; });
-    Options options{
-        .num_parts = 2 * num_ranks(), .cuts = HeldCuts::own, .tuning = {.central_parts = 2}};
+    Options options{.num_parts = 2 * num_ranks(), .tuning = {.central_parts = 2}};
     options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
     options.part_sizes.front() = 0;
     options.axes.order =

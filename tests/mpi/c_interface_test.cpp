@@ -124,7 +124,6 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
     ASSERT_EQ(rrcb_assign(other, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, first);
     parts.assign(cloud.count(), -1);
-    ASSERT_EQ(rrcb_gather_cuts(other), RRCB_OK);
     ASSERT_EQ(rrcb_assign_all(other, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, first);
     parts.assign(cloud.count(), -1);
@@ -373,7 +372,6 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_box_of(balancer, 0, box.lower.data(), box.upper.data()), "cuts yet");
     expect_missing(rrcb_assign(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_assign_all(balancer, &points, &part), "cuts yet");
-    expect_missing(rrcb_gather_cuts(balancer), "cuts yet");
     expect_missing(rrcb_plan(balancer, 1, &part), "cuts yet");
     expect_missing(rrcb_transfer(balancer, 1, &column, nullptr, nullptr), "plan yet");
     expect_missing(rrcb_part_of(balancer, x, &part), "cuts yet");

@@ -26,7 +26,6 @@ void expect_refusal(MPI_Comm comm, const std::string& text) {
         [&] { part_weights(points, parts, 1, comm); },
         [&] { moved_fraction(points, parts, 1, comm); },
         [&] { Controller controller(comm); },
-        [&] { gather_cuts(cuts, comm); },
         [&] { assign_all(cuts, points, comm); },
     };
     for (const auto& call : calls) {

@@ -34,7 +34,6 @@ double uniform(std::size_t, int, double u) {
 Options spread_options(int central_parts, Refine refine = Refine::exact) {
     Options options;
     options.tuning.central_parts = central_parts;
-    options.cuts = HeldCuts::own;
     options.refine = refine;
     return options;
 }
@@ -44,12 +43,6 @@ std::vector<int> central_parts() {
     std::vector<int> numbers;
     for (const int number : {2, 3, 4, 8})
         if (number < num_ranks()) numbers.push_back(number);
-    return numbers;
-}
-
-std::vector<std::int32_t> numbers_up_to(int count) {
-    std::vector<std::int32_t> numbers(static_cast<std::size_t>(count));
-    std::iota(numbers.begin(), numbers.end(), 0);
     return numbers;
 }
 
@@ -113,8 +106,7 @@ TEST(SpreadBalance, a_small_part_gets_no_point_that_another_has_more_room_for) {
 }
 
 void expect_axes(const Cuts& cuts, const std::vector<int>& cut_axes) {
-    for (std::size_t k = 0; k < cuts.tree.size(); ++k)
-        EXPECT_EQ(cuts.tree[k].axis, cut_axes[static_cast<std::size_t>(cuts.nodes[k])]);
+    for (std::size_t k = 0; k < cuts.tree.size(); ++k) EXPECT_EQ(cuts.tree[k].axis, cut_axes[k]);
 }
 
 TEST(SpreadBalance, cuts_lie_across_the_axes_given_to_them) {
@@ -158,7 +150,6 @@ TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ra
                       1.05);
             options.refine = Refine::exact;
             const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
-            test::expect_own_paths(result.cuts);
             test::expect_same_cuts_on_all_ranks(result.cuts);
             const auto weights = part_weights(points, result.parts, num_ranks(), MPI_COMM_WORLD);
             for (const double weight : weights)
@@ -190,60 +181,7 @@ TEST(SpreadBalance, there_may_be_fewer_points_than_parts_and_none_at_all) {
     }
 }
 
-TEST(SpreadBalance, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
-    const auto mine = share_of_cloud(1000, 2, uniform);
-    const Points points = interleaved_points(mine, 2);
-    const std::vector<std::function<void(Options&)>> changes{
-        [](Options& o) { o.tuning.central_parts = num_ranks(); },
-        [](Options& o) { o.num_parts = 2; },
-        [](Options& o) { o.refine = Refine::none; },
-        [](Options& o) {
-            o.axes.order = AxisOrder::grouped({1, 0});
-        },
-        [](Options& o) {
-            o.axes.min_width = {1e-9, 1e-9};
-        },
-        [](Options& o) {
-            o.axes.grid = {{0, 1e-6}, {0, 1e-6}};
-        }};
-    for (const auto& change : changes) {
-        Options options = spread_options(2);
-        change(options);
-        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
-        EXPECT_TRUE(is_whole(result.cuts));
-        EXPECT_EQ(std::ssize(result.cuts.tree) + 1, result.cuts.num_parts);
-    }
-    Options planes = spread_options(2);
-    planes.axes.plain = true;
-    EXPECT_FALSE(is_whole(balance(points, planes, {}, MPI_COMM_WORLD).cuts));
-}
-
-TEST(SpreadBalance, all_ranks_get_all_cuts_and_the_weights_of_all_parts_by_default) {
-    for (const Refine refine : {Refine::exact, Refine::tolerance})
-        for (const int central : central_parts()) {
-            const auto mine =
-                share_of_cloud(3000, 2, [](std::size_t, int, double u) { return u * u; });
-            const Points points = interleaved_points(mine, 2);
-            Options options = spread_options(central, refine);
-            options.num_parts = 2 * num_ranks() + 1;
-            const Balance own = balance(points, options, {}, MPI_COMM_WORLD);
-            options.cuts = Options{}.cuts;
-            const Balance whole = balance(points, options, {}, MPI_COMM_WORLD);
-            EXPECT_EQ(whole.parts, own.parts);
-            ASSERT_TRUE(is_whole(whole.cuts));
-            std::vector<Part> parts(points.count);
-            assign(whole.cuts, points, parts);
-            EXPECT_EQ(parts, whole.parts);
-            EXPECT_EQ(whole.report.part_weights,
-                      part_weights(points, parts, options.num_parts, MPI_COMM_WORLD));
-            EXPECT_TRUE(own.report.part_weights.empty());
-            test::expect_same_cuts_on_all_ranks(
-                {2, options.num_parts, whole.cuts.tree, numbers_up_to(options.num_parts - 1)});
-        }
-}
-
 TEST(SpreadBalance, points_in_a_divided_place_are_looked_up_on_every_rank) {
-    // A rank whose points are below such a cut has no other reason to get the cuts above it.
     const auto mine =
         share_of_cloud(600, 2, [](std::size_t, int, double u) { return std::floor(3 * u); });
     const Points points = interleaved_points(mine, 2);
@@ -251,25 +189,14 @@ TEST(SpreadBalance, points_in_a_divided_place_are_looked_up_on_every_rank) {
         Options options = spread_options(2, refine);
         options.num_parts = 3 * num_ranks();
         options.coincident = Coincident::divide;
-        const Balance own = balance(points, options, {}, MPI_COMM_WORLD);
-        EXPECT_GT(own.report.details.coincident_cuts, 0);
+        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+        EXPECT_GT(result.report.details.coincident_cuts, 0);
+        test::expect_same_cuts_on_all_ranks(result.cuts);
         std::vector<Part> parts(points.count);
-        ASSERT_NO_THROW(assign(own.cuts, points, parts));
-        options.cuts = HeldCuts::whole;
-        const Balance whole = balance(points, options, {}, MPI_COMM_WORLD);
-        EXPECT_EQ(whole.parts, own.parts);
+        assign(result.cuts, points, parts);
         for (LocalIndex i = 0; i < points.count; ++i)
-            EXPECT_EQ(parts[i], part_of(whole.cuts, points.position(i)));
+            EXPECT_EQ(parts[i], part_of(result.cuts, points.position(i)));
     }
-}
-
-TEST(SpreadBalance, cuts_of_which_ranks_know_some_only_are_made_anew) {
-    const auto mine = share_of_cloud(1000, 2, uniform);
-    const Points points = interleaved_points(mine, 2);
-    const Balance first = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
-    const Balance again = balance(points, spread_options(2), first.cuts, MPI_COMM_WORLD);
-    EXPECT_EQ(again.parts, first.parts);
-    expect_consistent(points, again);
 }
 
 TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {

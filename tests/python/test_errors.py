@@ -121,7 +121,6 @@ def test_raises_the_error_of_one_rank_on_all():
         ("nonsense", 1, "nonsense"),
         ("refine", "WRONG", "refine"),
         ("refine", None, "refine"),
-        ("cuts", "OWN", "cuts"),
         ("tolerence", 1.1, "did you mean imbalance_tolerance?"),
         ("support_mesh", 8, "did you mean tuning__support_mesh?"),
         ("tree__larger_below", 2, "tree__larger_below takes OFF or ON"),

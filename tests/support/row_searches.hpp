@@ -3,6 +3,7 @@
 
 #include "all_collected.hpp"
 #include "bisection/bisection.hpp"
+#include "cuts/owned_cuts.hpp"
 #include "estimate/earlier_cuts.hpp"
 #include "options/allowed_axes.hpp"
 #include "row_cases.hpp"
@@ -143,7 +144,7 @@ class RowSearches {
         highest_count_ = std::max(highest_count_, watch.highest_count());
     }
 
-    /// Returns the cuts that any rank knows, by node.
+    /// Returns the cuts of all ranks, by node.
     const std::map<std::size_t, Cut>& cuts() const { return known_; }
 
     const RowPasses& passes(std::size_t rank) const { return passes_[rank]; }
@@ -258,11 +259,11 @@ class RowSearches {
 
     void note_cuts() {
         for (std::size_t rank = 0; rank < searches_.size(); ++rank) {
-            const Cuts cuts = is_central() ? cuts_[rank] : searches_[rank]->cuts();
+            const Cuts cuts = is_central() ? cuts_[rank] : searches_[rank]->own_cuts();
             for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
-                const std::size_t node =
-                    cuts.nodes.empty() ? k : static_cast<std::size_t>(cuts.nodes[k]);
-                const Cut& cut = known_.emplace(node, cuts.tree[k]).first->second;
+                const int owner = owner_of(node_at(cuts, k), case_.num_parts, case_.num_ranks);
+                if (!is_central() && owner != static_cast<int>(rank)) continue;
+                const Cut& cut = known_.emplace(k, cuts.tree[k]).first->second;
                 EXPECT_TRUE(cut.axis == cuts.tree[k].axis && cut.at == cuts.tree[k].at &&
                             cut.divides == cuts.tree[k].divides)
                     << "ranks differ, " << case_;

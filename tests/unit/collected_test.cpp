@@ -28,7 +28,7 @@ Cut plane_at(int axis, double value) {
 struct Square {
     std::vector<double> coordinates = test::uniform_cloud(2000, 2, 7);
     std::vector<double> weights{};
-    Cuts cuts{2, 4, {plane_at(0, 0.5), plane_at(1, 0.5), plane_at(1, 0.5)}, {}, {}};
+    Cuts cuts{2, 4, {plane_at(0, 0.5), plane_at(1, 0.5), plane_at(1, 0.5)}, {}};
     std::optional<HostPasses> passes{};
     OpenMemory memory{};
 

@@ -77,7 +77,7 @@ TEST(Cuts, one_part_takes_everything) {
 /// Cuts at whole numbers, some of which break ties at 4 or have nothing on one side.
 Cuts random_cuts(int dimension, int num_parts, bool is_plain, std::mt19937_64& engine) {
     const std::vector<double> values{-infinity, 0, 1, 2, 3, 4, 5, infinity};
-    Cuts cuts{dimension, num_parts, {}, {}, {1 + num_parts % 3, num_parts % 2 == 0}};
+    Cuts cuts{dimension, num_parts, {}, {1 + num_parts % 3, num_parts % 2 == 0}};
     for (int k = 1; k < num_parts; ++k) {
         Cut cut;
         cut.axis = static_cast<std::int32_t>(engine() % static_cast<unsigned>(dimension));

@@ -32,7 +32,7 @@ std::vector<double> lattice(std::size_t count, int dimension, std::mt19937_64& e
 
 void expect_as_looked_up(const Cuts& cuts, const Points& points) {
     std::vector<Part> parts(points.count);
-    const KnownTotals totals = assign_and_count(cuts, points, parts);
+    const EndTotals totals = assign_and_count(cuts, points, parts);
     std::vector<double> weights(static_cast<std::size_t>(cuts.num_parts));
     std::vector<double> counts(weights.size());
     for (LocalIndex i = 0; i < points.count; ++i) {
@@ -106,7 +106,7 @@ TEST(DirectAssignment, of_no_points_counts_nothing) {
     const Cuts cuts{2, 3, {Cut{}, Cut{}}};
     Points none;
     none.dimension = 2;
-    const KnownTotals totals = assign_and_count(cuts, none, {});
+    const EndTotals totals = assign_and_count(cuts, none, {});
     EXPECT_EQ(totals.counts, std::vector<double>(3, 0.0));
     EXPECT_EQ(totals.weights, std::vector<double>(3, 0.0));
     EXPECT_TRUE(totals.all_finite);

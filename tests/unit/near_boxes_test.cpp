@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of few values, so that cuts and points often meet; some cuts have nothing on one side.
 Cuts random_cuts(int dimension, int num_parts, std::mt19937_64& engine) {
-    Cuts cuts{dimension, num_parts, {}, {}, {1 + num_parts % 3, num_parts % 2 == 0}};
+    Cuts cuts{dimension, num_parts, {}, {1 + num_parts % 3, num_parts % 2 == 0}};
     for (int k = 1; k < num_parts; ++k) {
         Cut cut;
         cut.axis = static_cast<std::int32_t>(engine() % static_cast<unsigned>(dimension));
@@ -45,7 +45,7 @@ std::vector<Part> parts_found(const NearBoxes& near, const Vector& x, double rad
     std::vector<Part> parts;
     near.for_each_touched<dimension>(Ball(x, radius), [&](const NearBoxes::Row& row) {
         EXPECT_EQ(row.num_slots, 1);
-        parts.push_back(row.entry);
+        parts.push_back(row.end);
     });
     return parts;
 }

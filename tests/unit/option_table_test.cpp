@@ -66,7 +66,6 @@ TEST(OptionTable, writes_what_it_reads) {
         {"coincident", {"TOGETHER", "DIVIDE"}},
         {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
         {"tuning.central_parts", {"2", "64", "2147483647"}},
-        {"cuts", {"WHOLE", "OWN"}},
         {"tree.group_size", {"AUTO", "1", "12"}},
         {"tree.larger_below", {"OFF", "ON"}},
         {"tree.dealt", {"0", "2"}},
@@ -215,8 +214,7 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"refine", [](Options& o) { o.refine = Refine::none; }},
         {"coincident", [](Options& o) { o.coincident = Coincident::divide; }},
         {"imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 2; }},
-        {"tuning.central_parts", [](Options& o) { o.tuning.central_parts = 2; }},
-        {"cuts", [](Options& o) { o.cuts = HeldCuts::own; }}};
+        {"tuning.central_parts", [](Options& o) { o.tuning.central_parts = 2; }}};
     const Request reference = request_of({}, 2, nullptr);
     EXPECT_EQ(first_difference(reference, request_of({}, 2, nullptr)), std::nullopt);
     for (const auto& [name, change] : changes) {

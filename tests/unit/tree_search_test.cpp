@@ -5,6 +5,7 @@
 #include "../support/clouds.hpp"
 #include "../support/virtual_owners.hpp"
 #include "cuts/cut_limits.hpp"
+#include "cuts/owned_cuts.hpp"
 #include "options/allowed_axes.hpp"
 #include "passes/host_passes.hpp"
 
@@ -101,27 +102,6 @@ class Global {
         std::vector<std::size_t> all(size());
         std::iota(all.begin(), all.end(), 0U);
         descend({0, 0, case_.num_parts}, all);
-    }
-
-    /// Ranks know the cuts of all nodes that they have points in, and on the way to their parts.
-    void expect_known_paths() const {
-        for (std::size_t rank = 0; rank < searches_.size(); ++rank) {
-            const auto known = known_by(static_cast<int>(rank));
-            const auto expect_path = [&](Part part) {
-                Descent at{0, 0, case_.num_parts};
-                while (!at.is_part()) {
-                    ASSERT_TRUE(known.contains(at.node)) << "rank " << rank << ", " << case_;
-                    at = part >= at.upper().first_part ? at.upper() : at.lower();
-                }
-            };
-            for (const std::size_t i : members_[rank]) expect_path(parts_[i]);
-            for (Part part = 0; part < case_.num_parts; ++part) {
-                const RankRange ranks = ranks_of_part(part, case_.num_parts, case_.num_ranks);
-                const int me = static_cast<int>(rank);
-                if (me >= ranks.first_rank && me < ranks.first_rank + ranks.count)
-                    expect_path(part);
-            }
-        }
     }
 
     const std::vector<Part>& parts() const { return parts_; }
@@ -254,12 +234,16 @@ class Global {
         searches_.push_back(std::make_unique<TreeSearch>(tree, rank, *opened_.back()));
     }
 
-    std::map<std::size_t, Cut> known_by(int rank) const {
-        const Cuts cuts = searches_[static_cast<std::size_t>(rank)]->cuts();
-        std::map<std::size_t, Cut> known;
-        for (std::size_t k = 0; k < cuts.tree.size(); ++k)
-            known[static_cast<std::size_t>(cuts.nodes[k])] = cuts.tree[k];
-        return known;
+    /// Takes the cuts that a rank owns; it has zeros in place of the others.
+    void collect_cuts(int rank) {
+        const Cuts own = searches_[static_cast<std::size_t>(rank)]->own_cuts();
+        for (std::size_t node = 0; node < own.tree.size(); ++node) {
+            const Cut& cut = own.tree[node];
+            if (owner_of(node_at(own, node), case_.num_parts, case_.num_ranks) == rank)
+                cuts_[node] = cut;
+            else
+                EXPECT_TRUE(cut.axis == 0 && cut.divides == 0 && cut.at == Vector{}) << case_;
+        }
     }
 
     void collect() {
@@ -269,11 +253,7 @@ class Global {
             const std::span<const Part> parts = passes_[rank].parts_here();
             for (std::size_t k = 0; k < members_[rank].size(); ++k)
                 parts_[members_[rank][k]] = parts[k];
-            for (const auto& [node, cut] : known_by(static_cast<int>(rank))) {
-                const auto [at, is_new] = cuts_.emplace(node, cut);
-                EXPECT_TRUE(at->second.axis == cut.axis && at->second.at == cut.at)
-                    << "ranks differ";
-            }
+            collect_cuts(static_cast<int>(rank));
         }
     }
 
@@ -377,14 +357,13 @@ class Global {
     std::vector<std::unique_ptr<OpenPoints>> opened_;
     std::vector<std::unique_ptr<TreeSearch>> searches_;
     std::vector<Part> parts_;
-    std::map<std::size_t, Cut> cuts_;  ///< that any rank knows
+    std::map<std::size_t, Cut> cuts_;  ///< of all ranks
 };
 
 void expect_exact(const Case& one) {
     Global all(one);
     all.run();
     all.expect_best_cuts();
-    all.expect_known_paths();
     EXPECT_NEAR(all.told_imbalance(), all.counted_imbalance(), 1e-12 * all.told_imbalance()) << one;
 }
 

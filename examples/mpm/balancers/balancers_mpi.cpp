@@ -76,7 +76,6 @@ mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weig
                             bool reuses_cuts) {
     rrcb::Options options = asked;
     // Every rank has the boxes of all, and looks up owners by itself.
-    options.cuts = rrcb::HeldCuts::whole;
     const auto last = std::make_shared<rrcb::Balance>();
     return [options, weights, reuses_cuts, last](mpm::Positions positions, MPI_Comm comm) {
         const std::vector<double> weight = weights ? weights() : std::vector<double>();

@@ -109,14 +109,8 @@ RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report)
  *
  * @param balancer owns the cuts until it gets others
  * @param cuts     gets a view of them
- * Fails before the first balance or rrcb_set_cuts, as all functions that need cuts. After
- * rrcb_set("cuts", "OWN") also fails, on this rank only, if it has only some cuts: call
- * rrcb_gather_cuts before. */
+ * Fails before the first balance or rrcb_set_cuts, as all functions that need cuts. */
 RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
-
-/** Gives each rank's balancer all cuts, if each has some of them, as rrcb::gather_cuts.
- * Collective. */
-RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
 
 /** Copies cuts into the balancer, such as those of an earlier run. Not collective.
  *
@@ -149,12 +143,10 @@ RRCB_API int rrcb_part_of(const rrcb_balancer* balancer, const double* position,
  *
  * @param balancer with cuts
  * @param points   of the dimension of the cuts; weights are ignored
- * @param parts    gets the part of each point
- * After rrcb_set("cuts", "OWN") fails, on this rank only, if it lacks a cut above a point: call
- * rrcb_assign_all instead. */
+ * @param parts    gets the part of each point */
 RRCB_API int rrcb_assign(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
 
-/** Writes the part of every point, whichever cuts the ranks have; as rrcb::assign_all. Collective.
+/** Writes the part of every point, and fails on all ranks alike, as rrcb::assign_all. Collective.
  *
  * @param balancer with cuts
  * @param points   of this rank, of the dimension of the cuts; weights are ignored
@@ -169,9 +161,7 @@ RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* p
  * @param balancer with cuts
  * @param part     0 ... num_parts - 1
  * @param lower    gets the lower end, of length 3
- * @param upper    gets the upper end, of length 3
- * After rrcb_set("cuts", "OWN") fails, on this rank only, if it lacks a cut above the part: call
- * rrcb_gather_cuts before. */
+ * @param upper    gets the upper end, of length 3 */
 RRCB_API int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, double* upper);
 
 /** Writes the parts whose region a closed box touches, as rrcb::parts_touching. Not collective.

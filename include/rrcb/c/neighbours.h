@@ -52,7 +52,7 @@ typedef struct rrcb_shared_entries {
 
 /** Finds the neighbours by the cuts of a balancer. Collective.
  *
- * @param balancer   with all cuts; not needed afterwards, but its communicator is
+ * @param balancer   with cuts; not needed afterwards, but its communicator is
  * @param options    distances, periodic box, ranks of the parts
  * @param neighbours as for rrcb_create */
 RRCB_API int rrcb_neighbours_create(const rrcb_balancer* balancer,

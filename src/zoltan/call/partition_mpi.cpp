@@ -3,7 +3,6 @@
 #include "balance_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "lists/duplicated_mpi.hpp"
 #include "options/call_kind.hpp"
 #include "options/validation.hpp"
 #include "paper/paper_mpi.hpp"
@@ -153,8 +152,7 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
         made.is_spread = !parameters.paper_domain && rrcb::is_spread(made.options, comm.size());
         made.renumbering.emplace(parameters, layout, call.outcome.any_names_parts,
                                  made.options.tree, comm, made.is_spread);
-        const bool looks_up = !made.is_spread || call.outcome.any_keeps_cuts;
-        made.last.emplace(looks_up ? static_cast<std::size_t>(layout.map.num_parts) : 0);
+        made.last.emplace(static_cast<std::size_t>(layout.map.num_parts));
     });
     return made;
 }
@@ -235,10 +233,7 @@ void balance_objects(const Call& call, Objects&& objects, Partition& result) {
     static_cast<Lists&>(result) =
         select_lists(parameters, moves, result.changes, call.state.workspace.records, self);
     serve_fortran(call, result, self);
-    if (call.outcome.any_keeps_cuts && !is_whole(balanced.cuts))
-        balanced.cuts = gather_cuts(balanced.cuts, self);
-    if ((call.outcome.any_keeps_cuts || is_whole(balanced.cuts)) && !numbering.is_whole())
-        numbering = whole_numbering(numbering, layout.map, self);
+    if (!numbering.is_whole()) numbering = whole_numbering(numbering, layout.map, self);
     self.throw_failed_message();
     print_notices(balanced.report, layout.map.num_parts, remap, call.state, call.function);
     result.summary = summary_of(balanced.report, layout.map.num_parts);

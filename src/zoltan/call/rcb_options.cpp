@@ -79,8 +79,6 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;
     options.axes.plain = parameters.rectilinear_blocks != 0;
-    // Handles that keep cuts gather them.
-    options.cuts = HeldCuts::own;
     // Parts of a machine have consecutive numbers only if each rank has as many.
     const PartMap& map = layout.map;
     const bool are_alike = map.is_even && map.num_parts % map.num_ranks == 0;

@@ -13,8 +13,7 @@ void LastPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noex
 
 void LastPartition::prepare_look_ups() noexcept {
     if (!shows_all() || tree_.num_nodes() > 0) return;
-    tree_.pack(cuts_,
-               [this](Part end, const Box&) { return numbering_.number_of(part_at(cuts_, end)); });
+    tree_.pack(cuts_, [this](Part end) { return numbering_.number_of(part_at(cuts_, end)); });
 }
 
 LastPartition LastPartition::copy() const {

@@ -32,8 +32,8 @@ class LastPartition {
     /// Keeps the cuts without allocating memory.
     void keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept;
 
-    /// Returns true if all cuts and all numbers are on this rank.
-    bool shows_all() const { return numbering_.is_whole() && is_whole(cuts_); }
+    /// Returns true if the numbers of all parts are on this rank.
+    bool shows_all() const { return numbering_.is_whole(); }
 
     /// Sets whether look-ups may use the cuts, which they may not at first. Without KEEP_CUTS, or a
     /// parameter that implies it, they are for the next partition only.
@@ -43,7 +43,7 @@ class LastPartition {
     }
     bool answers_look_ups() const { return answers_look_ups_ && shows_all(); }
 
-    /// Cuts for the next partition. They may be distributed over the ranks unless these look up.
+    /// Cuts for the next partition.
     const Cuts& cuts() const { return cuts_; }
 
     const PartMap& map() const { return map_; }

@@ -22,15 +22,15 @@ struct Remap {
 /// Numbers the parts of a new partition: many points then stay on their rank. Collective.
 ///
 /// The largest overlap of a rank and a part gets its number first. Without groups this keeps at
-/// least half of the most points. Numbers without a gain are left unchanged.
+/// least half of the most points. Numbers without a gain are left unchanged, and so are those of
+/// more than 2^17 parts.
 /// @param parts          the new part of each point of this rank
 /// @param ranks_of_parts one entry per part, ascending, the same on every rank; of several ranks of
 /// a part the first one counts
 /// @param comm           of the ranks with points
 /// @param shape          of the cuts: parts of a group stay in one, which keeps fewer points
 /// Throws Error on every rank if one names no existing part, ranks that differ or do not exist, or
-/// has no memory. Cost: one pass to rank 0, which decides, and one broadcast; with more
-/// parts and ranks than Tuning::central_parts, passes through all ranks.
+/// has no memory. Cost: one pass to rank 0, which decides, and one broadcast.
 [[nodiscard]] RRCB_API Remap remap(std::span<const Part> parts,
                                    std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
                                    const TreeShape& shape = {});

@@ -40,7 +40,9 @@ std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant
 
 std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm user) {
     Participant self = mpi::enter(user, CallName::assign_all);
-    return assign_all(cuts, points, self);
+    std::vector<Part> parts = assign_all(cuts, points, self);
+    self.throw_failed_message();
+    return parts;
 }
 
 }  // namespace rrcb

@@ -41,21 +41,21 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
 
 }  // namespace
 
-GroupBuffers::GroupBuffers(const NumberRule& rule, int rank, bool wants_all)
-    : parts(rule, rank, wants_all) {
-    if (rule.shape.group_size == 1 || rule.is_spread) return;
+GroupBuffers::GroupBuffers(const NumberRule& rule, int rank) : parts(rule, rank) {
+    if (rule.shape.group_size == 1) return;
     groups.emplace(rule_of_groups(rule), rank);
     numbers.resize(static_cast<std::size_t>(rule.num_parts));
 }
 
-NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
-                        GroupBuffers& buffers, Participant& self) {
+Remap find_numbers(std::span<const Part> parts, const PreviousParts& previous,
+                   GroupBuffers& buffers, Participant& self) {
     if (!buffers.groups) return find_numbers(parts, previous, buffers.parts, self);
-    const NumberRule rule = buffers.parts.search.rule();
+    const NumberRule& rule = buffers.parts.rule;
+    const int rank = mpi::rank_of(self.comm);
     GroupsHere here;
-    self.attempt([&] { here = groups_here(parts, previous, rule, mpi::rank_of(self.comm)); });
+    self.attempt([&] { here = groups_here(parts, previous, rule, rank); });
     const std::vector<Part> numbers_of_groups =
-        find_numbers(here.groups, here.origins, *buffers.groups, self).remap.numbers;
+        find_numbers(here.groups, here.origins, *buffers.groups, self).numbers;
     const auto moved = [&](Part part) {
         const Part end = rule.shape.end_of(part, rule.num_parts);
         const int size = rule.shape.group_size;
@@ -63,31 +63,21 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
                                   rule.num_parts);
     };
     std::ranges::transform(parts, here.groups.begin(), moved);
-    NewNumbers found = find_numbers(here.groups, previous, buffers.parts, self);
-    Remap& remap = found.remap;
+    Remap remap = find_numbers(here.groups, previous, buffers.parts, self);
     // The search counts fewer: a rank may have numbers of two groups, of which a part can only get
     // those of its own.
-    const Origins origins(previous, rule, mpi::rank_of(self.comm));
-    std::array<GlobalCount, 2> kept{};  // by the old numbers, and by the new ones
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::int32_t origin = origins.of(i);
-        if (origin == no_origin) continue;
-        if (rule.home_of(parts[i]) == origin) ++kept[0];
-        if (rule.home_of(remap.numbers[here.groups[i]]) == origin) ++kept[1];
-    }
+    std::array<GlobalCount, 2> kept{num_kept(parts, {}, previous, rule, rank),
+                                    num_kept(here.groups, remap.numbers, previous, rule, rank)};
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, kept.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");
     remap.kept_before = kept[0];
-    remap.kept_after = kept[1];
-    remap.identity = remap.kept_after <= remap.kept_before;
+    remap.kept_after = std::max(kept[0], kept[1]);
+    remap.identity = remap.kept_after == remap.kept_before;
     std::iota(buffers.numbers.begin(), buffers.numbers.end(), Part{0});
-    if (remap.identity) {
-        remap.kept_after = remap.kept_before;
-    } else {
+    if (!remap.identity)
         for (Part& part : buffers.numbers) part = remap.numbers[moved(part)];
-    }
     remap.numbers = std::move(buffers.numbers);
-    return found;
+    return remap;
 }
 
 }  // namespace rrcb

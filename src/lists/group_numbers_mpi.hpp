@@ -11,16 +11,16 @@ namespace rrcb {
 /// Memory of one renumbering, with the parts of a group in one group, see NumberRule.
 struct GroupBuffers {
     /// As RemapBuffers. Not collective. Throws std::bad_alloc.
-    GroupBuffers(const NumberRule& rule, int rank, bool wants_all = true);
+    GroupBuffers(const NumberRule& rule, int rank);
 
     RemapBuffers parts;
-    std::optional<RemapBuffers> groups;  ///< if there are any, and rank 0 searches
+    std::optional<RemapBuffers> groups;  ///< if there are any
     std::vector<Part> numbers;           ///< of all parts, in that case
 };
 
-/// Renumbers the groups, if rank 0 searches, and then the parts of each, as find_numbers() of parts
-/// does. Collective as that; with groups twice, and one reduction.
-NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
-                        GroupBuffers& buffers, Participant& self);
+/// Renumbers the groups, and then the parts of each, as find_numbers() of parts does. Collective as
+/// that; with groups twice, and one reduction.
+Remap find_numbers(std::span<const Part> parts, const PreviousParts& previous,
+                   GroupBuffers& buffers, Participant& self);
 
 }  // namespace rrcb

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <unordered_map>
@@ -20,15 +21,17 @@ namespace rrcb {
 
 namespace {
 
-/// More rounds place hardly any part; the parts left then take unused numbers.
-constexpr int most_rounds = 16;
-
-void pass(Butterfly& butterfly, Butterfly::Direction direction, bool flag, RemapBuffers& buffers,
-          Participant& self) {
-    const Flags flags{0, flag ? 1.0 : 0.0};
-    // A single rank needs no messages.
-    if (butterfly.num_ranks() == 1) return butterfly.start(flags);
-    buffers.messages.run(butterfly, direction, flags, self);
+/// Adds up the counts of equal origins. Both lists ascend by origin.
+void join_overlaps(std::span<const double> a, std::span<const double> b,
+                   std::vector<double>& joined) {
+    while (!a.empty() || !b.empty()) {
+        const bool takes_a = !a.empty() && (b.empty() || a[0] <= b[0]);
+        const bool takes_b = !b.empty() && (a.empty() || b[0] <= a[0]);
+        joined.push_back(takes_a ? a[0] : b[0]);
+        joined.push_back((takes_a ? a[1] : 0) + (takes_b ? b[1] : 0));
+        if (takes_a) a = a.subspan(2);
+        if (takes_b) b = b.subspan(2);
+    }
 }
 
 std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousParts& previous,
@@ -73,65 +76,52 @@ void limit_overlaps(const NumberRule& rule, std::vector<Overlap>& overlaps) {
     std::ranges::sort(overlaps, {}, [](const Overlap& o) { return std::tuple(o.part, o.origin); });
 }
 
-/// Sends the overlaps to the searching ranks of their parts.
+/// Adds a record for each part with points.
+void add_records(std::span<const Overlap> overlaps, Butterfly& told) {
+    std::vector<double> payload;
+    for (std::size_t k = 0; k < overlaps.size(); ++k) {
+        const auto& [origin, part, count] = overlaps[k];
+        payload.insert(payload.end(), {static_cast<double>(origin), static_cast<double>(count)});
+        if (k + 1 < overlaps.size() && overlaps[k + 1].part == part) continue;
+        told.add(static_cast<Key>(part), root, payload);
+        payload.clear();
+    }
+}
+
+/// Sends the overlaps to rank 0. Collective.
 void hand_in(std::span<const Part> parts, const PreviousParts& previous, RemapBuffers& buffers,
              Participant& self) {
-    auto& search = buffers.search;
     self.attempt([&] {
         std::vector<Overlap> overlaps =
-            count_overlaps(parts, previous, search.rule(), mpi::rank_of(self.comm));
-        // Searching ranks ask for the numbers of their parts, unless they get all.
-        if (buffers.numbers.empty())
-            for (Part part = search.parts().first; part < search.parts().end; ++part)
-                overlaps.push_back({no_origin, part, 0});
-        limit_overlaps(search.rule(), overlaps);
-        search.hand_in(overlaps, buffers.told);
+            count_overlaps(parts, previous, buffers.rule, mpi::rank_of(self.comm));
+        limit_overlaps(buffers.rule, overlaps);
+        add_records(overlaps, buffers.told);
     });
-    pass(buffers.told, Butterfly::to_owners, false, buffers, self);
-    self.attempt([&] { search.start(buffers.told.owned()); });
+    // A single rank needs no messages.
+    if (buffers.rule.num_ranks > 1)
+        buffers.messages.run(buffers.told, Butterfly::to_owners, {}, self);
 }
 
-/// Makes offers until none is refused. Returns false if none would change a number.
-bool exchange_offers(RemapBuffers& buffers, Participant& self) {
-    auto& offers = buffers.offers;
-    for (int round = 0; round < most_rounds; ++round) {
-        bool moves = false;
-        bool refuses = false;
-        self.attempt([&] {
-            offers.clear();
-            moves = buffers.search.offer(offers);
-        });
-        pass(offers, Butterfly::to_owners, moves, buffers, self);
-        if (round == 0 && offers.flags()[1] == 0) return false;
-        self.attempt([&] { refuses = buffers.search.choose(offers); });
-        pass(offers, Butterfly::back, refuses, buffers, self);
-        self.attempt([&] { buffers.search.follow(offers); });
-        if (offers.flags()[1] == 0) break;
-    }
-    return true;
-}
-
-/// Gives unused numbers to the parts without one.
-void join_what_is_left(RemapBuffers& buffers, Participant& self) {
-    Butterfly& left = buffers.offers;
-    const NumberSearch::Counts here = buffers.search.left();
-    NumberSearch::Counts before{};
-    if (buffers.search.rule().is_spread) {
-        mpi::check(MPI_Exscan(here.data(), before.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
-                   "MPI_Exscan");
-        if (mpi::rank_of(self.comm) == 0) before = {};
-    }
-    self.attempt([&] {
-        left.clear();
-        buffers.search.meet(before, left);
+/// Writes the new numbers and the counts of points: all, kept by the old numbers, kept by the new
+/// ones. On rank 0.
+void decide(const NumberRule& rule, const Records& told, std::span<GlobalCount> decision) {
+    std::vector<Overlap> overlaps;
+    told.for_each([&](const Record& record) {
+        for (std::size_t k = 0; k < record.payload.size(); k += 2)
+            overlaps.push_back({static_cast<std::int32_t>(record.payload[k]),
+                                static_cast<Part>(record.key),
+                                static_cast<GlobalCount>(record.payload[k + 1])});
     });
-    pass(left, Butterfly::to_owners, here[0] > 0, buffers, self);
-    if (left.flags()[1] == 0) return;
-    self.attempt([&] {
-        left.owned().for_each([&](const Record& met) { left.answer(met.key, met.payload); });
-    });
-    pass(left, Butterfly::back, false, buffers, self);
-    self.attempt([&] { buffers.search.take(before, left); });
+    std::vector<Part> numbers = greedy_numbers(rule, overlaps);
+    std::array<GlobalCount, 3> sums{};
+    for (const auto& [origin, part, count] : overlaps) {
+        sums[0] += count;
+        if (origin == rule.home_of(part)) sums[1] += count;
+        if (origin == rule.home_of(numbers[part])) sums[2] += count;
+    }
+    if (sums[2] <= sums[1]) std::iota(numbers.begin(), numbers.end(), Part{0});
+    std::ranges::copy(numbers, decision.begin());
+    std::ranges::copy(sums, decision.begin() + rule.num_parts);
 }
 
 Remap make_summary(std::span<const GlobalCount, 3> sums) {
@@ -143,57 +133,15 @@ Remap make_summary(std::span<const GlobalCount, 3> sums) {
     return summary;
 }
 
-/// Broadcasts the numbers found by rank 0, or a failure known to it. Collective.
-NewNumbers share_decision(RemapBuffers& buffers, Participant& self) {
-    auto& [search, told, offers, messages, numbers, decision] = buffers;
-    if (mpi::rank_of(self.comm) == root) {
-        const auto sums = search.count_points();
-        if (sums[2] <= sums[1]) search.reset();
-        std::ranges::copy(search.numbers(), decision.begin());
-        std::ranges::copy(sums, decision.end() - 4);
-        decision.back() = self.failing_rank();
-    }
-    mpi::broadcast(std::as_writable_bytes(std::span(decision)), root, self.comm);
-    fail_together(static_cast<int>(decision.back()), self);
-    std::ranges::transform(decision.begin(), decision.end() - 4, numbers.begin(),
-                           [](GlobalCount number) { return static_cast<Part>(number); });
-    NewNumbers result{make_summary(std::span(decision).last<4>().first<3>())};
-    result.remap.numbers = std::move(numbers);
-    return result;
-}
-
-/// Sends the numbers found by all ranks to all, or to the ranks with points of the parts.
-/// Collective: one reduction, and another or a pass if any number changes.
-NewNumbers return_numbers(RemapBuffers& buffers, Participant& self) {
-    auto& search = buffers.search;
-    auto& told = buffers.told;
-    auto& numbers = buffers.numbers;
-    auto sums = search.count_points();
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_INT64_T, MPI_SUM, self.comm),
+/// Returns the result of too many parts, with these numbers. Collective: one reduction.
+Remap unchanged(std::span<const Part> parts, const PreviousParts& previous, const NumberRule& rule,
+                std::vector<Part>&& numbers, Participant& self) {
+    std::array<GlobalCount, 3> sums{
+        std::ssize(parts), num_kept(parts, {}, previous, rule, mpi::rank_of(self.comm)), 0};
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");
-    NewNumbers result{make_summary(sums)};
-    if (!numbers.empty()) {
-        if (result.remap.identity) search.reset();
-        std::ranges::copy(search.numbers(), numbers.begin() + search.parts().first);
-        mpi::check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()),
-                                 MPI_INT, MPI_SUM, self.comm),
-                   "MPI_Allreduce");
-        result.remap.numbers = std::move(numbers);
-    } else if (!result.remap.identity) {
-        self.attempt([&] {
-            told.owned().for_each([&, index = std::size_t{0}](const Record& record) mutable {
-                // The searching rank of a part asks for it, so all parts have records.
-                told.answer(record.key, std::array{static_cast<double>(search.numbers()[index++])});
-            });
-        });
-        pass(told, Butterfly::back, false, buffers, self);
-        self.attempt([&] {
-            told.answers().for_each([&](const Record& answer) {
-                result.parts.push_back(static_cast<Part>(answer.key));
-                result.remap.numbers.push_back(static_cast<Part>(answer.payload[0]));
-            });
-        });
-    }
+    Remap result = make_summary(sums);
+    result.numbers = std::move(numbers);
     return result;
 }
 
@@ -219,39 +167,59 @@ std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
     return hash;
 }
 
-RemapBuffers::RemapBuffers(const NumberRule& rule, int rank, bool wants_all)
-    : search(rule, rank),
-      told(rank, rule.num_ranks, NumberSearch::add_up,
-           rule.is_spread ? Butterfly::Way::spread : Butterfly::Way::central),
-      offers(rule.is_spread ? rank : root, rule.is_spread ? rule.num_ranks : 1,
-             NumberSearch::append),
-      numbers(wants_all || !rule.is_spread ? static_cast<std::size_t>(rule.num_parts) : 0),
-      decision(rule.is_spread ? 0 : static_cast<std::size_t>(rule.num_parts) + 4) {}
+GlobalCount num_kept(std::span<const Part> parts, std::span<const Part> numbers,
+                     const PreviousParts& previous, const NumberRule& rule, int rank) {
+    const Origins origins(previous, rule, rank);
+    GlobalCount kept = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::int32_t origin = origins.of(i);
+        const Part number = numbers.empty() ? parts[i] : numbers[parts[i]];
+        if (origin != no_origin && rule.home_of(number) == origin) ++kept;
+    }
+    return kept;
+}
 
-NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
-                        RemapBuffers& buffers, Participant& self) {
-    const bool is_spread = buffers.search.rule().is_spread;
+RemapBuffers::RemapBuffers(const NumberRule& given, int rank)
+    : rule(given),
+      told(rank, rule.num_ranks, join_overlaps, Butterfly::Way::central),
+      numbers(static_cast<std::size_t>(rule.num_parts)),
+      decision(static_cast<std::size_t>(rule.num_parts) + 4) {}
+
+Remap find_numbers(std::span<const Part> parts, const PreviousParts& previous,
+                   RemapBuffers& buffers, Participant& self) {
+    std::vector<GlobalCount>& decision = buffers.decision;
     hand_in(parts, previous, buffers, self);
-    const bool searches = is_spread || mpi::rank_of(self.comm) == root;
-    if (searches && exchange_offers(buffers, self)) join_what_is_left(buffers, self);
-    return is_spread ? return_numbers(buffers, self) : share_decision(buffers, self);
+    if (mpi::rank_of(self.comm) == root) {
+        self.attempt([&] { decide(buffers.rule, buffers.told.owned(), decision); });
+        decision.back() = self.failing_rank();
+    }
+    mpi::broadcast(std::as_writable_bytes(std::span(decision)), root, self.comm);
+    fail_together(static_cast<int>(decision.back()), self);
+    std::ranges::transform(decision.begin(), decision.end() - 4, buffers.numbers.begin(),
+                           [](GlobalCount number) { return static_cast<Part>(number); });
+    Remap result = make_summary(std::span(decision).last<4>().first<3>());
+    result.numbers = std::move(buffers.numbers);
+    return result;
 }
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self,
-            int central_parts) {
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self) {
+    const int rank = mpi::rank_of(self.comm);
     const int num_ranks = mpi::size_of(self.comm);
-    const bool is_spread =
-        std::min<std::ptrdiff_t>(std::ssize(ranks_of_parts), num_ranks) > central_parts;
+    const auto num_parts = static_cast<int>(ranks_of_parts.size());
+    NumberRule rule{num_parts, num_ranks, !previous, ranks_of_parts, shape};
     std::optional<GroupBuffers> buffers;
+    std::vector<Part> same;
     self.attempt([&] {
         check_lists(parts, previous, ranks_of_parts, num_ranks);
-        const auto num_parts = static_cast<int>(ranks_of_parts.size());
         require(shape.group_size >= 1 && shape.number_fits(num_parts),
                 "shape.group_size must be at least 1, and shape.dealt fit the parts");
-        buffers.emplace(
-            NumberRule{num_parts, num_ranks, !previous, is_spread, ranks_of_parts, shape},
-            mpi::rank_of(self.comm));
+        if (num_parts > most_renumbered) {
+            same.resize(ranks_of_parts.size());
+            std::iota(same.begin(), same.end(), Part{0});
+        } else {
+            buffers.emplace(rule, rank);
+        }
     });
     std::array shared{
         Shared{"whether previous is given", previous ? 1u : 0u, !parts.empty(),
@@ -260,17 +228,11 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
         Shared{"shape.group_size", static_cast<std::uint64_t>(shape.group_size)},
         Shared{"shape.dealt", static_cast<std::uint64_t>(shape.dealt)}};
     agree(self, shared);
-    // A rank without points may lack `previous`, but must search by the same rule.
-    self.attempt([&] {
-        NumberSearch& search = buffers->parts.search;
-        NumberRule rule = search.rule();
-        rule.by_rank = shared[0].value == 0;
-        if (rule.by_rank == !previous) return;
-        search = NumberSearch(rule, mpi::rank_of(self.comm));
-    });
-    Remap result = find_numbers(parts, previous, *buffers, self).remap;
-    if (is_spread) agree(self);
-    return result;
+    // A rank without points may lack `previous`, but must use the same rule.
+    rule.by_rank = shared[0].value == 0;
+    if (!buffers) return unchanged(parts, previous, rule, std::move(same), self);
+    buffers->parts.rule.by_rank = rule.by_rank;
+    return find_numbers(parts, previous, *buffers, self);
 }
 
 namespace {

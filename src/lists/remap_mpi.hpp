@@ -3,7 +3,6 @@
 #include "collective/butterfly_mpi.hpp"
 #include "lists/number_search.hpp"
 
-#include <rrcb/options.hpp>
 #include <rrcb/remap.hpp>
 
 #include <cstdint>
@@ -45,42 +44,35 @@ class Origins {
     std::int32_t own_ = no_origin;
 };
 
+/// Returns the number of points of this rank that numbers keep at their origin; of `numbers` that
+/// are empty, those of the parts themselves.
+GlobalCount num_kept(std::span<const Part> parts, std::span<const Part> numbers,
+                     const PreviousParts& previous, const NumberRule& rule, int rank);
+
+/// More parts keep their numbers, which limits the memory and the time of rank 0.
+inline constexpr int most_renumbered = 1 << 17;
+
 /// Memory of one renumbering, allocated before the ranks agree.
 struct RemapBuffers {
-    /// Allocates memory; if `wants_all`, every rank gets the numbers of all parts, as always if
-    /// rank 0 searches. Not collective. Throws std::bad_alloc.
-    RemapBuffers(const NumberRule& rule, int rank, bool wants_all = true);
+    /// Not collective. Throws std::bad_alloc.
+    RemapBuffers(const NumberRule& rule, int rank);
 
-    NumberSearch search;
+    NumberRule rule;
     Butterfly told;
-    Butterfly offers;  ///< then what is left of parts and numbers
     ButterflyMessages messages;
-    std::vector<Part> numbers;          ///< of all parts, if wanted
-    std::vector<GlobalCount> decision;  ///< of rank 0, if it searches
-};
-
-/// New numbers of parts.
-struct NewNumbers {
-    Remap remap{};              ///< without numbers if these are unchanged
-    std::vector<Part> parts{};  ///< of remap.numbers; empty: all
+    std::vector<Part> numbers;          ///< of all parts
+    std::vector<GlobalCount> decision;  ///< of rank 0
 };
 
 /// Renumbers as the public functions do, from checked arguments.
 ///
-/// Each rank gets all numbers, or, unless it wants all, those of the parts of its points and of
-/// those that it searched for. In that case no array is as long as there are parts or ranks. Ranks
-/// without points may lack `previous`. Collective: one pass to rank 0 and one broadcast. If all
-/// ranks search: one pass, two for each round of offers, up to three more and two reductions; two
-/// passes and a reduction if nothing changes. Throws on all ranks a failure on one, also from
-/// before the call. If all ranks search, a failure in the last pass is reported by the next pass or
-/// agreement.
-NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
-                        RemapBuffers& buffers, Participant& self);
+/// Ranks without points may lack `previous`. Collective: one pass to rank 0 and one broadcast.
+/// Throws on all ranks a failure on one, also from before the call.
+Remap find_numbers(std::span<const Part> parts, const PreviousParts& previous,
+                   RemapBuffers& buffers, Participant& self);
 
-/// Renumbers as the public functions do; all ranks search if more than `central_parts` have parts.
-/// Collective.
+/// Renumbers as the public functions do. Collective.
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self,
-            int central_parts = Tuning{}.central_parts);
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self);
 
 }  // namespace rrcb

@@ -233,6 +233,25 @@ TEST(Remap, undoes_a_rotation_of_few_and_of_many_parts) {
     }
 }
 
+TEST(Remap, leaves_the_numbers_of_more_than_131072_parts) {
+    for (const bool is_more : {false, true}) {
+        const int num_parts = (1 << 17) + (is_more ? 1 : 0);
+        const std::vector<Part> previous{2, 1};
+        const std::vector<Part> parts{1, 1};
+        const std::vector<RankRange> ranks(static_cast<std::size_t>(num_parts));
+        const std::vector<Part> more(3, 7);
+        const std::vector<Part> moved(3, 8);
+        const Remap result = rank() == 0 ? remap(more, moved, ranks, MPI_COMM_WORLD)
+                                         : remap(parts, previous, ranks, MPI_COMM_WORLD);
+        EXPECT_EQ(result.identity, is_more);
+        ASSERT_EQ(std::ssize(result.numbers), num_parts);
+        EXPECT_EQ(result.numbers[7], is_more ? 7 : 8);
+        EXPECT_EQ(result.num_points, 3 + 2 * (num_ranks() - 1));
+        EXPECT_EQ(result.kept_before, num_ranks() - 1);
+        EXPECT_EQ(result.kept_after, num_ranks() - 1 + (is_more ? 0 : 3));
+    }
+}
+
 TEST(Remap, needs_no_previous_parts_on_a_rank_without_points) {
     const std::vector<RankRange> ranks = ranks_of_parts(2 * num_ranks());
     std::vector<Part> parts(is_last_rank() ? 0 : 3, 2 * rank() + 1);

@@ -1,4 +1,4 @@
-// Look-ups of a program whose cuts are spread over the ranks, beside the parts of its objects.
+// Look-ups of a program whose parts many ranks make, beside the parts of its objects.
 #include "program.hpp"
 #include "regions.hpp"
 
@@ -65,10 +65,10 @@ void expect_look_ups(Zoltan_Struct* zz, AllObjects& all, int num_parts) {
     }
 }
 
-TEST(SpreadCuts, are_shown_whole_to_look_ups_on_every_rank) {
+TEST(SpreadCuts, are_shown_to_look_ups_on_every_rank) {
     for (const int num_parts : {5, 40}) {
         SpreadProgram program(num_parts);
-        program.set("KEEP_CUTS", "1");
+        program.set({{"KEEP_CUTS", "1"}, {"REMAP", num_parts == 40 ? "1" : "0"}});
         AllObjects all(program, program.partition());
         expect_look_ups(program.zz, all, num_parts);
         // A copy has its own cuts, also when the original is gone.

@@ -56,7 +56,7 @@ std::optional<std::uint64_t> checksum_in_place(const Objects& objects, LastParti
     parts.assign(count, rank);
     if (named != nullptr) std::copy_n(named, count, parts.begin());
     // Only cuts that divide no coincident objects show that one is elsewhere.
-    const bool ask_cuts = last.shows_all() && kept.report.details.coincident_cuts == 0 &&
+    const bool ask_cuts = kept.report.details.coincident_cuts == 0 &&
                           last.cuts().dimension == objects.points.dimension;
     if (ask_cuts) last.prepare_look_ups();
     for (std::size_t i = 0; i < count; ++i) {

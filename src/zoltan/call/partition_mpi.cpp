@@ -3,7 +3,6 @@
 #include "balance_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "options/call_kind.hpp"
 #include "options/validation.hpp"
 #include "paper/paper_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
@@ -33,25 +32,6 @@
 namespace rrcb::zoltan {
 
 namespace {
-
-/// Returns the numbers of all boxes; each rank knows at least those of its own.
-/// Collective: two reductions, one of them with an entry for each part; throws Error on all ranks
-/// alike.
-Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Participant& self) {
-    std::vector<Part> numbers;
-    std::vector<Part> buffer;
-    self.attempt([&] {
-        numbers.resize(map.num_parts);
-        buffer.resize(numbers.size());
-    });
-    agree(self);
-    const auto [first, end] = map.parts_on(mpi::rank_of(self.comm));
-    for (Part part = first; part < end; ++part) numbers[part] = numbering.number_of(part);
-    mpi::check(
-        MPI_Allreduce(MPI_IN_PLACE, numbers.data(), map.num_parts, MPI_INT, MPI_SUM, self.comm),
-        "MPI_Allreduce");
-    return Numbering::of_all(std::move(numbers), std::move(buffer));
-}
 
 /// Collects the objects and checks the parameters of this rank. Errors and foreign exceptions
 /// become a status.
@@ -115,8 +95,7 @@ void take_previous(Call& call) {
 bool are_kept(const Call& call, std::optional<std::uint64_t> here) {
     const State& state = call.state;
     const bool may_keep = !call.outcome.any_may_not_keep && !call.outcome.failed() &&
-                          call.outcome.differing == nullptr &&
-                          (!call.outcome.any_keeps_cuts || state.last->shows_all());
+                          call.outcome.differing == nullptr;
     std::uint64_t checksum = here.value_or(0);
     if (may_keep) add_up(false, checksum, state.communicator->get());
     return may_keep && checksum == state.kept->checksum;
@@ -127,7 +106,6 @@ bool are_kept(const Call& call, std::optional<std::uint64_t> here) {
 struct Preparation {
     Options options;
     PaperOptions paper;              ///< in place of `options` if RRCB_DOMAIN asks for it
-    bool is_spread = false;          ///< many ranks make the parts
     const Cuts* previous = nullptr;  ///< to start from, or null
     std::optional<Renumbering> renumbering;
     std::optional<LastPartition> last;
@@ -149,9 +127,8 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
         if (made.previous != nullptr) made.options.tree = made.previous->shape;
         made.options = complete(std::move(made.options), ranks, nullptr);
         if (parameters.paper_domain) made.paper = make_paper_options(parameters, layout);
-        made.is_spread = !parameters.paper_domain && rrcb::is_spread(made.options, comm.size());
         made.renumbering.emplace(parameters, layout, call.outcome.any_names_parts,
-                                 made.options.tree, comm, made.is_spread);
+                                 made.options.tree, comm);
         made.last.emplace(static_cast<std::size_t>(layout.map.num_parts));
     });
     return made;
@@ -229,11 +206,9 @@ void balance_objects(const Call& call, Objects&& objects, Partition& result) {
     auto [remap, numbering] = prepared.renumbering->run(objects, balanced.parts, self);
     const Moves moves(objects, balanced.parts, layout.map, call.state.communicator->rank());
     result.changes = may_change(call.state, moves, objects.points, balanced.parts);
-    if (prepared.is_spread) agree(self);
     static_cast<Lists&>(result) =
         select_lists(parameters, moves, result.changes, call.state.workspace.records, self);
     serve_fortran(call, result, self);
-    if (!numbering.is_whole()) numbering = whole_numbering(numbering, layout.map, self);
     self.throw_failed_message();
     print_notices(balanced.report, layout.map.num_parts, remap, call.state, call.function);
     result.summary = summary_of(balanced.report, layout.map.num_parts);

@@ -20,16 +20,15 @@ struct Renumbered {
 /// REMAP: numbers for the parts that keep objects in place, in the cases in which Zoltan does.
 ///
 /// Parts of a group of the cuts, such as those of a machine, stay in one group. The numbers are
-/// unchanged if REMAP is off, the parts differ in size or a part is on several
-/// ranks. With one part on each rank an object is to be kept on its rank. Otherwise it is to be
+/// unchanged if REMAP is off, the parts differ in size, a part is on several ranks or there are
+/// more than 2^17 parts. With one part on each rank an object is to be kept on its rank. Otherwise it is to be
 /// kept in the part that the callbacks name, or on its rank if they name none on any rank.
 class Renumbering {
   public:
-    /// Allocates all memory; `is_spread` if many ranks make the parts, which then search for
-    /// numbers together if the parts are evenly on the ranks. `layout` outlives it. Throws
-    /// std::bad_alloc, which all ranks must agree on before run(). Not collective.
+    /// Allocates all memory. `layout` outlives it. Throws std::bad_alloc, which all ranks must agree
+    /// on before run(). Not collective.
     Renumbering(const Parameters& parameters, const Layout& layout, bool any_names_parts,
-                const TreeShape& shape, const Communicator& comm, bool is_spread);
+                const TreeShape& shape, const Communicator& comm);
 
     /// Writes the new numbers to `parts`. Collective if numbers may change, as find_numbers() is.
     Renumbered run(const Objects& objects, std::span<Part> parts, Participant& self);

@@ -3,7 +3,6 @@
 #include "collective/communicator.hpp"
 #include "options/request.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
-#include "zoltan/call/rcb_options.hpp"
 
 #include <algorithm>
 #include <array>
@@ -73,7 +72,6 @@ Ballot ballot_of(const LocalStatus& local, const State& state) {
     ballot.votes = {.any_local_parts = parameters.num_local_parts >= 0,
                     .any_part_sizes = !state.part_sizes.empty(),
                     .any_fortran = is_fortran_used(),
-                    .any_keeps_cuts = keeps_cuts(parameters),
                     .any_lacks_cuts = !state.last,
                     .any_changed_axes = state.axes_changed,
                     .any_may_not_keep = !local.may_keep,

@@ -28,7 +28,6 @@ struct Votes {
     int any_local_parts = 0;   ///< NUM_LOCAL_PARTS is set
     int any_part_sizes = 0;    ///< Zoltan_LB_Set_Part_Sizes was called
     int any_fortran = 0;       ///< Zoltan's Fortran interface is used
-    int any_keeps_cuts = 0;    ///< for look-ups
     int any_lacks_cuts = 0;    ///< of the last call
     int any_changed_axes = 0;  ///< a parameter that chooses axes was changed since then
     int any_may_not_keep = 0;  ///< see LocalStatus

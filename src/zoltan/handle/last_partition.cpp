@@ -12,12 +12,12 @@ void LastPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noex
 }
 
 void LastPartition::prepare_look_ups() noexcept {
-    if (!shows_all() || tree_.num_nodes() > 0) return;
+    if (tree_.num_nodes() > 0) return;
     tree_.pack(cuts_, [this](Part end) { return numbering_.number_of(part_at(cuts_, end)); });
 }
 
 LastPartition LastPartition::copy() const {
-    LastPartition copy(shows_all() ? static_cast<std::size_t>(cuts_.num_parts) : 0);
+    LastPartition copy(static_cast<std::size_t>(cuts_.num_parts));
     copy.keep(Cuts(cuts_), PartMap(map_), Numbering(numbering_));
     copy.answer_look_ups(answers_look_ups_);
     return copy;

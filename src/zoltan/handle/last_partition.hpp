@@ -32,16 +32,13 @@ class LastPartition {
     /// Keeps the cuts without allocating memory.
     void keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept;
 
-    /// Returns true if the numbers of all parts are on this rank.
-    bool shows_all() const { return numbering_.is_whole(); }
-
     /// Sets whether look-ups may use the cuts, which they may not at first. Without KEEP_CUTS, or a
     /// parameter that implies it, they are for the next partition only.
     void answer_look_ups(bool answers) noexcept {
         answers_look_ups_ = answers;
         if (answers) prepare_look_ups();
     }
-    bool answers_look_ups() const { return answers_look_ups_ && shows_all(); }
+    bool answers_look_ups() const { return answers_look_ups_; }
 
     /// Cuts for the next partition.
     const Cuts& cuts() const { return cuts_; }
@@ -49,10 +46,8 @@ class LastPartition {
     const PartMap& map() const { return map_; }
     const Numbering& numbering() const { return numbering_; }
 
-    /// Makes part_of() and parts_touching() possible, if shows_all(), without allocating memory.
+    /// Makes part_of() and parts_touching() possible, without allocating memory.
     void prepare_look_ups() noexcept;
-
-    // Look-ups, if shows_all().
 
     /// Returns the part of a position, one coordinate per dimension.
     Part part_of(const double* coordinates) const {

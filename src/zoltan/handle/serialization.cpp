@@ -75,8 +75,7 @@ LastPartition make_last(Cuts&& cuts, PartMap&& map, std::vector<Part>&& numbers)
         refuse("inconsistent");
     LastPartition last(num_parts);
     std::vector<Part> room(numbers.size());
-    last.keep(std::move(cuts), std::move(map),
-              Numbering::of_all(std::move(numbers), std::move(room)));
+    last.keep(std::move(cuts), std::move(map), Numbering(std::move(numbers), std::move(room)));
     last.answer_look_ups(true);
     return last;
 }

@@ -222,13 +222,6 @@ module rrcb_c_functions
       type(c_ptr), value :: handle
       type(c_ghost_plan), intent(inout) :: plan
     end function
-    integer(c_int) function c_ghosts_verify(handle, points, options, seen) bind(c, name="rrcb_ghosts_verify")
-      import
-      type(c_ptr), value :: handle
-      type(rrcb_points), intent(in) :: points
-      type(c_verify_options), intent(in) :: options
-      type(c_verification), intent(inout) :: seen
-    end function
     integer(c_int) function c_groups_create(balancer, points, keys, place, handle) &
       bind(c, name="rrcb_groups_create")
       import

@@ -59,26 +59,6 @@ module rrcb_c_types
     type(c_ptr) :: indices = c_null_ptr
   end type
 
-  type, bind(c) :: c_verify_options
-    integer(c_size_t) :: sample = 1000
-    real(c_double) :: radius = 0
-    type(c_ptr) :: radii = c_null_ptr
-    integer(c_size_t) :: num_ids = 0
-    type(c_ptr) :: ids = c_null_ptr
-    integer(c_size_t) :: num_ids_before = 0
-    type(c_ptr) :: ids_before = c_null_ptr
-  end type
-
-  type, bind(c) :: c_verification
-    integer(c_int64_t) :: num_pairs = 0, num_faults = 0
-    integer(c_size_t) :: num_missing = 0
-    type(c_ptr) :: missing = c_null_ptr
-    integer(c_size_t) :: num_twice = 0
-    type(c_ptr) :: twice = c_null_ptr
-    integer(c_size_t) :: num_strangers = 0
-    type(c_ptr) :: strangers = c_null_ptr
-  end type
-
   type, bind(c) :: c_rank_count
     integer(c_int) :: rank = 0
     integer(c_size_t) :: count = 0

@@ -22,7 +22,6 @@ module rrcb_ghost_lists
     procedure :: fetch
     procedure :: reply
     procedure :: accumulate
-    procedure :: verify
     generic :: apply_shifts => shift_doubles, shift_reals, shift_points
     procedure, private :: shift_doubles, shift_reals, shift_points
   end type
@@ -155,63 +154,6 @@ contains
     call settle(c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), &
       columns_in_c(columns, plan%num_ghosts, plan%num_points), limit, report), error)
   end subroutine
-
-  !> Compares the ghosts with all pairs of a sample of the points. Collective.
-  !> @param points     of this rank
-  !> @param seen       gets the faults that concern this rank
-  !> @param sample     most points, over all ranks; 1000 by default
-  !> @param radius     true cut-off, if the ghosts have a skin
-  !> @param radii      one for each point, if the ghosts have some
-  !> @param ids        of the points; without them their indices
-  !> @param ids_before of the points of this rank before a transfer
-  subroutine verify(self, points, seen, error, sample, radius, radii, ids, ids_before)
-    class(rrcb_ghosts), intent(in) :: self
-    type(rrcb_points), intent(in) :: points
-    type(rrcb_verification), intent(inout) :: seen
-    integer, intent(out), optional :: error
-    integer(c_size_t), intent(in), optional :: sample
-    real(c_double), intent(in), optional :: radius
-    real(c_double), intent(in), target, contiguous, optional :: radii(:)
-    integer(c_int64_t), intent(in), target, contiguous, optional :: ids(:), ids_before(:)
-    type(c_verify_options) :: options
-    type(c_verification) :: from
-    integer(c_int64_t) :: first
-    if (present(sample)) options%sample = sample
-    if (present(radius)) options%radius = radius
-    if (present(radii)) then
-      if (size(radii, kind=c_size_t) /= points%count) options%radius = -1  ! refused as a wrong one
-      if (size(radii) > 0) options%radii = c_loc(radii)
-    end if
-    first = 1
-    if (present(ids)) then
-      first = 0
-      options%num_ids = size(ids, kind=c_size_t)
-      if (size(ids) > 0) options%ids = c_loc(ids)
-    end if
-    if (present(ids_before)) then
-      options%num_ids_before = size(ids_before, kind=c_size_t)
-      if (size(ids_before) > 0) options%ids_before = c_loc(ids_before)
-    end if
-    call settle(c_ghosts_verify(self%handle, points, options, from), error)
-    seen%num_pairs = from%num_pairs
-    seen%num_faults = from%num_faults
-    seen%missing = faults_at(from%missing, from%num_missing, first)
-    seen%twice = faults_at(from%twice, from%num_twice, first)
-    seen%strangers = faults_at(from%strangers, from%num_strangers, first)
-  end subroutine
-
-  !> Copies faults, whose indices get the number of the first one.
-  function faults_at(address, count, first) result(faults)
-    type(c_ptr), intent(in) :: address
-    integer(c_size_t), intent(in) :: count
-    integer(c_int64_t), intent(in) :: first
-    type(rrcb_fault), allocatable :: faults(:)
-    type(rrcb_fault), pointer :: from(:)
-    call c_f_pointer(address, from, [count])
-    faults = from
-    faults%id = faults%id + first
-    faults%needed_by = faults%needed_by + first
-  end function
 
   !> Moves fetched positions to those of the images: positions(dimension, ghosts). Not collective.
   subroutine shift_doubles(self, positions, error)

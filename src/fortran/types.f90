@@ -82,19 +82,6 @@ module rrcb_types
     integer(c_int32_t), allocatable :: shifts(:, :)
   end type
 
-  !> Point that is not where it should be, and the point that needs it.
-  type, public, bind(c) :: rrcb_fault
-    integer(c_int64_t) :: id = 0
-    integer(c_int) :: rank = 0
-    integer(c_int64_t) :: needed_by = 0
-  end type
-
-  !> Result of verify.
-  type, public :: rrcb_verification
-    integer(c_int64_t) :: num_pairs = 0, num_faults = 0
-    type(rrcb_fault), allocatable :: missing(:), twice(:), strangers(:)
-  end type
-
   !> Consecutive ranks that hold a part.
   type, public, bind(c) :: rrcb_rank_range
     integer(c_int) :: first_rank = 0, count = 1

@@ -18,7 +18,6 @@ RENAMED = {
     "reply": "rrcb_ghosts_reply",
     "accumulate": "rrcb_ghosts_accumulate",
     "apply_shifts": "rrcb_ghosts_apply_shifts",
-    "verify": "rrcb_ghosts_verify",
     "groups": "rrcb_groups_create",
     "sums": "rrcb_groups_sums",
     "save": "rrcb_save_cuts",  # and of the handles
@@ -40,6 +39,7 @@ ONLY_CPP = {
     "AxisOrder": "axes.order is for C++ only",
     "Cuts": "rrcb_get_cuts fails without cuts",
     "Error": "rrcb_code and rrcb_last_error",
+    "verify": "checks a program in development",
     "name_of": "stages are observed to develop the library",
     "StageObserver": "stages are observed to develop the library",
 }

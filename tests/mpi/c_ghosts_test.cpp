@@ -169,50 +169,6 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
     }
 }
 
-/// Returns the lists of a verification.
-std::array<std::vector<std::uint64_t>, 3> ids_of(const rrcb_verification& seen) {
-    std::array<std::vector<std::uint64_t>, 3> ids;
-    for (std::size_t k = 0; k < seen.num_missing; ++k) ids[0].push_back(seen.missing[k].id);
-    for (std::size_t k = 0; k < seen.num_twice; ++k) ids[1].push_back(seen.twice[k].id);
-    for (std::size_t k = 0; k < seen.num_strangers; ++k) ids[2].push_back(seen.strangers[k].id);
-    return ids;
-}
-
-TEST_F(CGhosts, are_verified_as_in_cpp) {
-    rrcb_ghost_options options{};
-    options.radius = 0.1;
-    find(options);
-    const GhostPlan plan = rrcb::ghosts(cuts, points(), {.radius = 0.1}, MPI_COMM_WORLD);
-    std::vector<std::uint64_t> ids(weights.size());
-    for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = i % 50;
-    for (const double radius : {0.0, 0.2}) {
-        const rrcb_verify_options scope{500, radius, nullptr, ids.size(), ids.data(), 0, nullptr};
-        rrcb_verification in_c_seen;
-        ASSERT_EQ(rrcb_ghosts_verify(ghosts, &in_c, &scope, &in_c_seen), RRCB_OK)
-            << rrcb_last_error();
-        VerifyOptions in_cpp{.sample = 500, .ids = ids};
-        if (radius > 0) in_cpp.radius = radius;
-        const Verification seen = verify(plan, points(), in_cpp, MPI_COMM_WORLD);
-        EXPECT_EQ(in_c_seen.num_pairs, seen.num_pairs);
-        EXPECT_EQ(in_c_seen.num_faults, seen.num_faults);
-        const auto ids_seen = ids_of(in_c_seen);
-        EXPECT_EQ(ids_seen[0].size(), seen.missing.size());
-        EXPECT_EQ(ids_seen[1].size(), seen.twice.size());
-        EXPECT_EQ(ids_seen[2].size(), seen.strangers.size());
-        for (std::size_t k = 0; k < seen.missing.size(); ++k) {
-            EXPECT_EQ(ids_seen[0][k], seen.missing[k].id);
-            EXPECT_EQ(in_c_seen.missing[k].rank, seen.missing[k].rank);
-            EXPECT_EQ(in_c_seen.missing[k].needed_by, seen.missing[k].needed_by);
-        }
-    }
-    // By default a sample of 1000, all points of the ghosts' radius.
-    rrcb_verification seen;
-    const rrcb_points* mine = is_last_rank() ? nullptr : &in_c;
-    EXPECT_EQ(rrcb_ghosts_verify(ghosts, mine, nullptr, &seen), RRCB_INVALID_ARGUMENT);
-    EXPECT_EQ(rrcb_ghosts_verify(ghosts, &in_c, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
-    ASSERT_EQ(rrcb_ghosts_verify(ghosts, &in_c, nullptr, &seen), RRCB_OK) << rrcb_last_error();
-}
-
 TEST_F(CGhosts, from_before_a_transfer_are_refused) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     rrcb_ghost_options options{};

@@ -94,10 +94,6 @@ TEST_F(CHandles, take_no_zeroed_options) {
     no_ranks.num_parts = static_cast<std::size_t>(num_ranks());
     expect_refused(rrcb_ghosts_create(balancer, &points, &no_ranks, &more),
                    "ranks_of_parts is null");
-    rrcb_verification seen;
-    const rrcb_verify_options no_sample{};
-    expect_refused(rrcb_ghosts_verify(ghosts, &points, &no_sample, &seen),
-                   "sample is 0, and there are no ids");
     const rrcb_column no_type{{}, 2, coordinates.data(), coordinates.data()};
     expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_type, nullptr, nullptr),
                    "must be an rrcb_type");

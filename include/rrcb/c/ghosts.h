@@ -100,45 +100,6 @@ RRCB_API int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_column
                                     const rrcb_column* columns, const rrcb_transfer_limits* limits,
                                     rrcb_transfer_report* report);
 
-/** Scope of rrcb_ghosts_verify, as rrcb::VerifyOptions. */
-typedef struct rrcb_verify_options {
-    size_t sample; /**< most points, over all ranks, whose neighbours are looked for; 0: only ids */
-    double radius; /**< true cut-off, if the ghosts have a skin; 0: that of these */
-    const double* radii;        /**< one for each point, if the ghosts have some, or null */
-    size_t num_ids;             /**< number of points, or 0 without ids */
-    const uint64_t* ids;        /**< of the points */
-    size_t num_ids_before;      /**< number of points of this rank before a transfer, or 0 */
-    const uint64_t* ids_before; /**< of these */
-} rrcb_verify_options;
-
-/** Point that is not where it should be, as rrcb::Fault. */
-typedef struct rrcb_fault {
-    uint64_t id;        /**< of the point; without ids its index */
-    int rank;           /**< that holds it, or did before the transfer */
-    uint64_t needed_by; /**< point of this rank, or the same id */
-} rrcb_fault;
-
-/** Result of rrcb_ghosts_verify, as rrcb::Verification. */
-typedef struct rrcb_verification {
-    int64_t num_pairs;           /**< of the sample, over all ranks */
-    int64_t num_faults;          /**< over all ranks */
-    size_t num_missing;          /**< length of `missing`, and so on */
-    const rrcb_fault* missing;   /**< near points that are no ghosts, ids that are lost */
-    size_t num_twice;            /**< */
-    const rrcb_fault* twice;     /**< ghosts that came twice, ids that another rank has too */
-    size_t num_strangers;        /**< */
-    const rrcb_fault* strangers; /**< own points that came as ghosts, new ids */
-} rrcb_verification;
-
-/** Compares ghosts with all pairs of a sample of the points, as rrcb::verify. Collective.
- *
- * @param ghosts  own the lists of the result, until the next call
- * @param points  of this rank
- * @param options null: a sample of 1000 points
- * @param seen    gets the result */
-RRCB_API int rrcb_ghosts_verify(rrcb_ghosts* ghosts, const rrcb_points* points,
-                                const rrcb_verify_options* options, rrcb_verification* seen);
-
 /** Moves fetched positions to those of the images, as rrcb::apply_shifts. Not collective.
  *
  * @param ghosts    that the positions were fetched for

@@ -1,121 +1,315 @@
 #include "balance_mpi.hpp"
 
-#include "call_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/machines_mpi.hpp"
 #include "collective/stage_scope.hpp"
+#include "cuts/cut_limits.hpp"
+#include "estimate/decision_mpi.hpp"
+#include "estimate/earlier_cuts.hpp"
 #include "estimate/keeping_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/call_kind.hpp"
+#include "options/rejection.hpp"
 #include "options/request.hpp"
 #include "passes/checked_passes.hpp"
+#include "passes/host_passes.hpp"
+#include "search/settlement_mpi.hpp"
 #include "verbose_mpi.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
-// A call has five steps:
-//   prepare    checks options and points, and allocates memory for all messages
-//   estimate   rank 0 bisects the cells of all ranks, or weighs the parts of earlier cuts, or only
-//              adds up the points if many ranks make the parts
-//   turn?      if the ranks hold a bisection, do cuts across other axes leave far fewer ghosts?
-//   keep?      are the parts that the ranks hold, or those of the earlier cuts, even enough?
+// A call has these steps:
+//   weigh      are the parts of earlier cuts even enough? Then they are kept
+//   prepare    checks options and points, reduces the points to cells, allocates for all messages
+//   decide     rank 0 bisects the cells of all ranks; not if many ranks make the parts
+//   turn?      if the ranks hold a bisection: do cuts across other axes leave far fewer ghosts?
+//   keep?      are the parts that the ranks hold even enough?
 //   settle     if not, the cuts move by counts of all ranks
 //   report     imbalance, and the weight of each part
-// Only prepare may fail on one rank; all ranks receive that failure with the estimate.
+// Only what precedes a decision may fail on one rank; all ranks receive that failure with it.
 
 namespace rrcb {
 
 namespace {
 
-/// Prepares a call from scratch. Not collective.
-void prepare(const Options& given, bool may_keep, Call& call, const Participant& self) {
-    const StageScope stage(given.observer, Stage::moments, self.arithmetic);
-    PointPasses& points = call.points;
+/// What a call is given; no step changes it.
+struct Given {
+    PointPasses& points;
+    const Options& options;
+    const Cuts* previous;  ///< null if there are none
+    bool may_keep;
+    Ranks ranks;
+};
+
+/// Completes and checks the options, and summarizes them and the points for the other ranks. Not
+/// collective.
+Options introduce(const Given& given, const PointSummary& summary, Contribution& mine,
+                  const Participant& self) {
+    const int dimension = given.points.dimension();
+    Options options = complete(given.options, given.ranks, given.previous);
+    check_options(options, dimension);
+    const bool spread = is_spread(options, given.ranks.number);
+    require(options.tree.dealt == 0 || !spread,
+            "tree.dealt must be 0 if many ranks make the parts; raise tuning.central_parts");
+    require(dynamic_cast<HostPasses*>(&given.points) || !spread,
+            "many ranks make the parts, which takes points on the host; raise "
+            "tuning.central_parts");
+    if (given.previous) check_previous(*given.previous, options, dimension);
+    mine.summary = summarize(summary, given.points.has_weights(), mpi::rank_of(self.comm));
+    mine.summary.request = request_of(options, dimension, given.previous);
+    if (!options.part_sizes.empty() && options.tree.dealt != 0)
+        for (Part end = 0; end < options.num_parts; ++end)
+            options.part_sizes[end] =
+                given.options.part_sizes[options.tree.part_at(end, options.num_parts)];
+    if (!spread || !options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
+    return options;
+}
+
+/// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
+Report decide_on_all(const Given& given, const Options& options, Contribution& mine,
+                     Decision& decision, Participant& self) {
+    {
+        const StageScope stage(given.options.observer, Stage::gather, self.arithmetic);
+        merge_up(mine, given.points.dimension(), MergeTree{given.ranks.number}, most_cells(options),
+                 self);
+    }
+    decide_together(mine, given.options.observer, decision, self,
+                    [&] { decide(mine, options, decision); });
+    given.points.use_weights(!decision.verdict.is_counted());
+    return report_of(decision.verdict, options.num_parts, options.part_sizes);
+}
+
+/// Numbers the parts of the points, ends of the tree, as the user does. Not collective.
+void number_parts(const Cuts& cuts, PointPasses& points) {
+    if (cuts.shape.dealt == 0) return;
+    std::vector<Part> numbers(static_cast<std::size_t>(cuts.num_parts));
+    for (Part end = 0; end < cuts.num_parts; ++end) numbers[end] = part_at(cuts, end);
+    points.renumber(numbers);
+}
+
+/// Gives the weights of parts the unit of the points, and the user's order. Not collective.
+void finish_weights(const Verdict& verdict, Balance& result) {
+    const Cuts& cuts = result.cuts;
+    std::vector<double>& weights = result.report.part_weights;
+    if (verdict.is_counted())
+        for (double& weight : weights) weight *= verdict.unit();
+    if (cuts.shape.dealt == 0) return;
+    const std::vector<double> of_ends = weights;
+    for (std::size_t end = 0; end < of_ends.size(); ++end)
+        weights[part_at(cuts, static_cast<Part>(end))] = of_ends[end];
+}
+
+/// Returns true if the parts of earlier cuts are weighed, because they may be kept.
+bool weighs_earlier(const Given& given) {
+    if (!given.previous || given.options.refine == Refine::exact) return false;
+    const AxisOrder& order = given.options.axes.order;
+    return !order.is_given() || axes_of(given.previous->tree) == order.axes();
+}
+
+/// Gives the points the parts of the earlier cuts, and weighs these. Collective.
+Balance weigh_earlier(const Given& given, Participant& self) {
+    Options options;
+    Contribution mine;
+    Decision decision;
+    self.attempt([&] {
+        const StageScope stage(given.options.observer, Stage::assignment, self.arithmetic);
+        given.points.use_weights(true);
+        const bool needs_box = are_cuts_limited(given.options);
+        options = introduce(given, given.points.summary(needs_box), mine, self);
+        take_earlier(decision, options, *given.previous);
+        const PartTotals totals = given.points.assign(decision.cuts, true);
+        mine.part_totals = totals.weights;
+        mine.part_totals.insert(mine.part_totals.end(), totals.counts.begin(), totals.counts.end());
+    });
+    Balance result;
+    Report& report = result.report;
+    report = decide_on_all(given, options, mine, decision, self);
+    result.cuts = std::move(decision.cuts);
+    report_measured(report.imbalance, options.imbalance_tolerance, report);
+    if (report.details.num_points == 0) return result;
+    report.details.rounds = is_refined(options) ? 1 : 0;
+    report.part_weights = std::move(decision.part_weights);
+    self.attempt([&] {
+        finish_weights(decision.verdict, result);
+        number_parts(result.cuts, given.points);
+    });
+    return result;
+}
+
+/// Prepares a call that makes cuts. Not collective.
+void prepare(const Given& given, Options& options, Contribution& mine, Decision& decision,
+             std::optional<Settlement>& settlement, const Participant& self) {
+    const StageScope stage(given.options.observer, Stage::moments, self.arithmetic);
+    PointPasses& points = given.points;
     points.use_weights(true);
     const PointSummary summary = points.summary(true);
-    introduce(given, summary, nullptr, call, self);
-    const Options& options = call.options;
-    const bool reads_kept = !call.is_spread && reads_kept_tree(options, mpi::size_of(self.comm));
-    call.box = summary.box;
-    prepare_to_settle(call, reads_kept, self);
-    if (call.is_spread) call.decision.verdict.answer = Answer::weights;
-    if (call.is_spread) return;
-    if (reads_kept && may_keep) append_extent(summary, points.dimension(), call.mine.extents);
-    make_buffers(call.decision, options, points.dimension(), reads_kept);
-    add_records(points, summary.box, mpi::size_of(self.comm), options, call.mine);
+    options = introduce(given, summary, mine, self);
+    const bool spread = is_spread(options, given.ranks.number);
+    const bool reads_kept = !spread && reads_kept_tree(options, given.ranks.number);
+    if (given.previous) decision.preferred = axes_of(given.previous->tree);
+    if (spread && given.previous && !options.axes.order.is_given())
+        options.axes.order = AxisOrder::given(decision.preferred);
+    settlement.emplace(options, points, reads_kept, self);
+    if (spread) {
+        decision.verdict.answer = Answer::totals;
+        return;
+    }
+    if (reads_kept && given.may_keep) append_extent(summary, points.dimension(), mine.extents);
+    make_buffers(decision, options, points.dimension(), reads_kept);
+    add_records(points, summary.box, given.ranks.number, options, mine);
+}
+
+/// Turns the cuts across other axes than those between the ranks, if that leaves far fewer points
+/// near them; then the ranks' present parts are not kept. Collective: a reduction.
+void turn_if_better(PointPasses& points, Decision& decision, SettledCuts& made, Report& report,
+                    Participant& self) {
+    Verdict& verdict = decision.verdict;
+    const double reach = wide_reach(verdict.box, verdict.num_points);
+    Bisection& turned = decision.turned;
+    if (!has_far_fewer_near(turned.cuts, made.cuts, reach, points, self)) return;
+    made.cuts = std::move(turned.cuts);
+    made.brackets = std::move(turned.brackets);
+    verdict.kept_imbalance = not_kept;
+    report.details.estimated_imbalance = verdict.turned_imbalance;
+}
+
+/// Moves the cuts by counts of all ranks, or only gives the points their parts. Collective.
+SettledCuts settle(const Given& given, const Options& options, const Box& here, Decision& decision,
+                   const Report& report, Settlement& settlement, SettledCuts&& made,
+                   Participant& self) {
+    const Verdict& verdict = decision.verdict;
+    const bool may_keep = verdict.kept_imbalance < not_kept;
+    // Kept parts would still be sent.
+    if (!may_keep) decision.message = std::vector<std::byte>();
+    const bool is_searched = is_spread(options, given.ranks.number) ||
+                             (is_refined(options) && report.details.num_points > 0);
+    const StageScope stage(given.options.observer,
+                           is_searched ? Stage::refinement : Stage::assignment, self.arithmetic);
+    const AllPoints all{verdict.num_points,
+                        verdict.balanced_weight(),
+                        verdict.balanced_heaviest(),
+                        verdict.is_counted(),
+                        verdict.box,
+                        report.details.least_imbalance,
+                        verdict.kept_imbalance};
+    return settlement.run(all, here, may_keep, std::move(made), self);
+}
+
+/// Takes the settled cuts as the result.
+void take(SettledCuts&& made, double tolerance, Balance& result) {
+    Report& report = result.report;
+    result.cuts = std::move(made.cuts);
+    report.part_weights = std::move(made.part_weights);
+    report.details.rounds = made.rounds;
+    report.details.coincident_cuts = made.coincident_cuts;
+    report_measured(made.imbalance, tolerance, report);
+}
+
+/// Returns true if the new parts are not worth moving points out of the ranks' present parts.
+bool keeps_after_all(const Decision& decision, const Options& options, const Balance& made) {
+    const Verdict& verdict = decision.verdict;
+    const Report& report = made.report;
+    if (options.refine == Refine::exact)
+        return are_as_exact(decision.part_weights, report.part_weights, made.cuts,
+                            verdict.balanced_heaviest(), options);
+    return !is_worth_moving(verdict.kept_imbalance, report.imbalance, options);
 }
 
 /// Makes the ranks' present parts the result. Collective.
-void keep(Call& call, Participant& self) {
-    Decision& decision = call.decision;
+void keep(const Given& given, const Options& options, Decision& decision, Balance& result,
+          Participant& self) {
     const bool is_known = decision.verdict.answer == Answer::kept;
-    decision.cuts = std::move(call.result.cuts);
-    const StageScope stage(call.options.observer, is_known ? Stage::assignment : Stage::broadcast,
+    const StageScope stage(given.options.observer, is_known ? Stage::assignment : Stage::broadcast,
                            self.arithmetic);
     if (is_known) {
         agree(self);
     } else {
         broadcast_kept(decision, self);
     }
-    call.result.cuts = std::move(decision.cuts);
-    const Cuts& cuts = call.result.cuts;
-    Report& report = call.result.report;
+    result.cuts = std::move(decision.cuts);
+    const Cuts& cuts = result.cuts;
+    Report& report = result.report;
     report.kept = is_in_order(cuts, decision.parts);
-    report_measured(decision.verdict.kept_imbalance, call.options.imbalance_tolerance, report);
+    report_measured(decision.verdict.kept_imbalance, options.imbalance_tolerance, report);
     report.part_weights = std::move(decision.part_weights);
     // A search has counted those that would divide points kept together.
-    if (is_known || call.options.coincident == Coincident::divide)
+    if (is_known || options.coincident == Coincident::divide)
         report.details.coincident_cuts = static_cast<int>(
             std::ranges::count_if(cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
     const Part part = decision.parts[mpi::rank_of(self.comm)];
-    self.attempt([&] { call.points.renumber(std::span(&part, 1)); });
+    self.attempt([&] { given.points.renumber(std::span(&part, 1)); });
 }
 
-/// Turns the cuts across other axes than those between the ranks, if that leaves far fewer points
-/// near them; then the ranks' present parts are not kept. Collective: a reduction.
-void turn_if_better(Call& call, Participant& self) {
-    Decision& decision = call.decision;
-    Verdict& verdict = decision.verdict;
-    const double reach = wide_reach(verdict.box, verdict.num_points);
-    Bisection& turned = decision.turned;
-    if (!has_far_fewer_near(turned.cuts, call.result.cuts, reach, call.points, self)) return;
-    call.result.cuts = std::move(turned.cuts);
-    decision.brackets = std::move(turned.brackets);
-    verdict.near = verdict.turned_near;
-    verdict.kept_imbalance = not_kept;
-    call.result.report.details.estimated_imbalance = verdict.turned_imbalance;
+/// Gives every rank the cuts that many ranks have found, and the weights of all parts. Collective:
+/// two reductions.
+void complete_cuts(PointPasses& points, Balance& result, const Options& options,
+                   Participant& self) {
+    const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
+    join_cuts(result.cuts.tree, self);
+    if (result.report.details.num_points == 0) return;
+    auto& host = dynamic_cast<HostPasses&>(points);
+    result.report.part_weights =
+        part_weights(host.points(), host.parts_here(), result.cuts.num_parts, self);
 }
 
-/// Returns true if the new parts are not worth moving points out of the ranks' present parts.
-bool keeps_after_all(const Call& call) {
-    const Verdict& verdict = call.decision.verdict;
-    const Report& report = call.result.report;
-    if (call.options.refine == Refine::exact)
-        return are_as_exact(call.decision.part_weights, report.part_weights, call.result.cuts,
-                            verdict.balanced_heaviest(), call.options);
-    return !is_worth_moving(verdict.kept_imbalance, report.imbalance, call.options);
+/// Makes cuts, across the axes of earlier ones unless others are clearly better. Collective.
+Balance make_anew(const Given& given, Participant& self) {
+    Options options;
+    Contribution mine;
+    Decision decision;
+    std::optional<Settlement> settlement;
+    self.attempt([&] { prepare(given, options, mine, decision, settlement, self); });
+    const Box here = mine.summary.box;
+    Balance result;
+    result.report = decide_on_all(given, options, mine, decision, self);
+    SettledCuts made{std::move(decision.cuts), std::move(decision.brackets)};
+    const Verdict& verdict = decision.verdict;
+    if (verdict.may_turn != 0) turn_if_better(given.points, decision, made, result.report, self);
+    bool is_kept = keeps_at_once(verdict.kept_imbalance, options);
+    if (is_kept) {
+        decision.cuts = std::move(made.cuts);
+    } else {
+        made = settle(given, options, here, decision, result.report, *settlement, std::move(made),
+                      self);
+        take(std::move(made), options.imbalance_tolerance, result);
+        is_kept = verdict.kept_imbalance < not_kept && keeps_after_all(decision, options, result);
+        if (is_kept) decision.cuts = std::move(result.cuts);
+    }
+    if (is_kept) keep(given, options, decision, result, self);
+    if (verdict.answer == Answer::totals) complete_cuts(given.points, result, options, self);
+    self.attempt([&] {
+        const bool has_points = result.report.details.num_points > 0;
+        if (given.previous && !has_points) result.cuts = fitted(*given.previous, options);
+        finish_weights(verdict, result);
+        number_parts(result.cuts, given.points);
+    });
+    return result;
+}
+
+/// Returns the better of two balances, whose points have the parts of `made`: the earlier one,
+/// unless the other is worth moving points. Not collective.
+Balance better(const Given& given, Balance&& earlier, Balance&& made, Participant& self) {
+    made.report.details.rounds += earlier.report.details.rounds;
+    if (is_worth_moving(earlier.report, made.report, given.options)) return std::move(made);
+    earlier.report.details.rounds = made.report.details.rounds;
+    earlier.report.details.coincident_cuts = made.report.details.coincident_cuts;
+    self.attempt([&] {
+        given.points.assign(earlier.cuts, false);
+        number_parts(earlier.cuts, given.points);
+    });
+    return std::move(earlier);
 }
 
 }  // namespace
 
-Balance balance_from_scratch(PointPasses& points, const Options& given, bool may_keep,
-                             Participant& self) {
-    Call call(points, given.observer, self);
-    self.attempt([&] { prepare(given, may_keep, call, self); });
-    estimate(call, self);
-    if (call.decision.verdict.may_turn != 0) turn_if_better(call, self);
-    const Options& options = call.options;
-    const double kept = call.decision.verdict.kept_imbalance;
-    bool is_kept = keeps_at_once(kept, options);
-    if (!is_kept) {
-        settle(call, kept < not_kept, self);
-        is_kept = kept < not_kept && keeps_after_all(call);
-    }
-    if (is_kept) keep(call, self);
-    if (call.is_spread) hold_cuts(call, self);
-    self.attempt([&] { complete(call); });
-    return std::move(call.result);
+Ranks ranks_of(Participant& self) {
+    const mpi::Machines machines = mpi::machines_of(self);
+    return {mpi::size_of(self.comm), machines.num_ranks, machines.dealt};
 }
 
 Balance balance(PointPasses& points, const Options& options, const Cuts* previous, bool may_keep,
@@ -123,9 +317,17 @@ Balance balance(PointPasses& points, const Options& options, const Cuts* previou
     // One part for each rank, where the cuts are those of another number of ranks.
     const bool are_of_others =
         previous && options.num_parts == 0 && previous->num_parts != mpi::size_of(self.comm);
-    Balance result = previous && !are_of_others
-                         ? balance_from_earlier(points, options, *previous, may_keep, self)
-                         : balance_from_scratch(points, options, may_keep, self);
+    const Given given{points, options, are_of_others ? nullptr : previous, may_keep,
+                      ranks_of(self)};
+    Balance result;
+    if (weighs_earlier(given)) result = weigh_earlier(given, self);
+    const bool is_weighed = !result.cuts.empty();
+    const bool is_kept = is_weighed && result.report.within_tolerance;
+    if (!is_kept) {
+        Balance made = make_anew(given, self);
+        result =
+            is_weighed ? better(given, std::move(result), std::move(made), self) : std::move(made);
+    }
     result.cuts.group = mpi::size_of(self.comm) > 1 ? self.group() : 0;
     return result;
 }

@@ -26,10 +26,6 @@ struct ReportDetails {
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
     int surplus_parts = 0;          ///< parts that stay empty: more than points
-    /// Share of the weight near the earlier cuts, Cuts::near: an estimate of ghosts. 0 if not
-    /// known, as without earlier cuts.
-    double near_before = 0;
-    double near_after = 0;  ///< of the new cuts
 };
 
 /// Result of a call; the same on every rank.
@@ -79,9 +75,9 @@ RRCB_API Balance balance(const Points& points, const Options& options, const Cut
 /// @param points   with as many as last time no memory is allocated for each
 /// @param options  the same on every rank
 /// @param previous the same on every rank, or as each rank got them from a balance on `comm`;
-/// may be `result.cuts`. They are kept while the parts are within the tolerance, and always with
-/// Refine::none; Refine::exact searches them all. Limits may move cuts to other axes than
-/// Axes::order. Report::kept and the estimate are set only if the cuts are made anew
+/// may be `result.cuts`. They are kept while the parts are within the tolerance, but not with
+/// Refine::exact; new cuts prefer their axes. Limits may move cuts to other axes than Axes::order.
+/// Report::kept and the estimate are set only if the cuts are made anew
 /// @param comm     as for balance()
 /// Throws Error as balance().
 RRCB_API void balance_into(Balance& result, const Points& points, const Options& options,

@@ -30,13 +30,6 @@ struct Cut {
 /// @param dimension of the points, 1 to 3
 RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 
-/// Points near the cuts when their axes were chosen; 0 if not known.
-struct NearCuts {
-    double reach = 0;  ///< distance within which a point is near
-    double share = 0;  ///< least weight near the cuts since then, from samples, over that near one
-                       ///< cut across the longest side of a part
-};
-
 /// The tree of a recursive bisection into `num_parts` parts; bit-identical on every rank, except
 /// `points`.
 ///
@@ -54,8 +47,6 @@ struct Cuts {
     /// Hash of this rank's points of the balance if one of them has to leave, with which ghosts()
     /// recognizes them; 0: none.
     std::uint64_t points = 0;
-    /// Tells balance() when other axes would save ghosts. Set it to {} to keep the axes.
-    NearCuts near{};
 
     /// Returns true for cuts of no balance, as Cuts{}. Not collective.
     bool empty() const { return dimension == 0 && tree.empty(); }

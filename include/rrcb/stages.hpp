@@ -27,9 +27,8 @@ RRCB_API const char* name_of(Stage stage);
 /// Observes on its own rank when a stage of `balance` begins and when it ends.
 ///
 /// Every stage ends before another begins, in failing calls too. Some come again in a
-/// call: the broadcast if points stay after new cuts were counted; all from the moments on if
-/// earlier cuts spread over the ranks do not stay, or may be poor. Many ranks make the
-/// parts in the refinement; the bisection is then empty.
+/// call: the broadcast if points stay after new cuts were counted, or if many ranks made the
+/// parts, in the refinement; all from the gather on if earlier cuts do not stay.
 /// The functions may not communicate over the communicator of the call, nor throw, since no rank
 /// may fail alone.
 class RRCB_API StageObserver {

@@ -34,8 +34,6 @@ class Report:
     coincident_cuts: int  #: that would divide points which no allowed cut separates
     all_weights_zero: bool  #: balanced by count instead
     surplus_parts: int  #: parts that stay empty: more than points
-    near_before: float  #: share of the weight near the earlier cuts; 0 if not known
-    near_after: float  #: share of the weight near the cuts; 0 if not known
 
     def __repr__(self) -> str:
         values = dataclasses.asdict(self)

@@ -27,7 +27,6 @@ class Cuts:
         num_parts: int,
         tree: Array,
         shape: tuple[int, int, int] = (1, 0, 0),
-        near: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         self.dimension = dimension
         self.num_parts = num_parts
@@ -35,11 +34,10 @@ class Cuts:
         if self.tree.shape != (num_parts - 1,):
             raise c.Error(f"tree must have the shape ({num_parts - 1},), not {self.tree.shape}")
         self._shape = shape
-        self._near = near
         self._own: c.OwnedHandle | None = None
 
     def __getstate__(self) -> tuple[Any, ...]:
-        return self.dimension, self.num_parts, self.tree, self._shape, self._near
+        return self.dimension, self.num_parts, self.tree, self._shape
 
     def __setstate__(self, state: tuple[Any, ...]) -> None:
         self.__init__(*state)  # type: ignore[misc]
@@ -120,7 +118,7 @@ class Cuts:
     def give(self, balancer: c.Handle) -> None:
         """Copies the cuts to a balancer."""
         tree = self.tree.ctypes.data if len(self.tree) else None
-        given = c.Cuts(self.dimension, self.num_parts, tree, *self._shape, *self._near)
+        given = c.Cuts(self.dimension, self.num_parts, tree, *self._shape)
         c.call("set_cuts", balancer, given)
 
 
@@ -130,5 +128,4 @@ def cuts_of(balancer: c.Handle) -> Cuts:
     c.call("get_cuts", balancer, shown)
     tree = copied(shown.tree, (shown.num_parts - 1,), CUT)
     shape = (shown.group_size, shown.larger_below, shown.dealt)
-    near = (shown.near_reach, shown.near_share)
-    return Cuts(shown.dimension, shown.num_parts, tree, shape, near)
+    return Cuts(shown.dimension, shown.num_parts, tree, shape)

@@ -36,7 +36,7 @@ class Cuts(Structure):
 
     _fields_ = members(
         dimension=c_int, num_parts=c_int, tree=c_void_p, group_size=c_int, larger_below=c_int,
-        dealt=c_int, near_reach=c_double, near_share=c_double
+        dealt=c_int
     )
 
 
@@ -47,7 +47,7 @@ class Report(Structure):
         imbalance=c_double, within_tolerance=c_int, kept=c_int, num_points=c_int64,
         total_weight=c_double, least_imbalance=c_double, estimated_imbalance=c_double,
         num_records=c_int64, rounds=c_int, coincident_cuts=c_int, all_weights_zero=c_int,
-        surplus_parts=c_int, near_before=c_double, near_after=c_double
+        surplus_parts=c_int
     )
 
 

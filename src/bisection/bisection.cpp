@@ -26,10 +26,11 @@ struct Task {
     const AxisChoice& axis_choice;
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
-    double light = 0;  ///< weight of points too few to show the weight near a cut
+    std::span<const int> preferred;  ///< axes of the cuts, or none
+    double light = 0;                ///< weight of points too few to show the weight near a cut
+    bool shows_near = false;         ///< the domain is more than a few places
     Bisection result{};
-    double near_weight = 0;  ///< within the reach of the result
-    Profile profile{};       ///< of the piece being cut
+    Profile profile{};  ///< of the piece being cut
 };
 
 double share_below_node(const Descent& at, const Options& options) {
@@ -37,13 +38,28 @@ double share_below_node(const Descent& at, const Options& options) {
     return share_below(sizes, at.lower_parts());
 }
 
-/// Replaces a cut across the longest axis by one across another that has clearly less weight near
-/// it.
-void choose_fewest(const Profile& profile, std::span<const int> axes, double target, bool plain,
-                   Cut& best) {
-    // Few patches show the weight near a cut with a large error.
+/// Returns the axis of a cut, unless another one is found to leave clearly less weight near it: the
+/// preferred axis, or the longest if that is clearly longer and weights near cuts are not compared.
+int usual_axis(const Piece& piece, std::span<const int> axes, bool compares_near,
+               const Task& task) {
+    const Box& extent = task.profile.extent();
+    const int longest = longest_axis(extent, axes, nearly);
+    if (task.preferred.empty()) return longest;
+    const int preferred = task.preferred[piece.at.node];
+    if (std::ranges::find(axes, preferred) == axes.end()) return longest;
+    const auto half = [&](int axis) { return extent.upper[axis] / 2 - extent.lower[axis] / 2; };
+    const double enough = compares_near ? 0 : nearly * half(longest);
+    return half(preferred) > 0 && half(preferred) >= enough ? preferred : longest;
+}
+
+/// Replaces a cut across the usual axis by one across another that has clearly less weight near it.
+void choose_fewest(const Profile& profile, std::span<const int> axes, double target,
+                   const Task& task, Cut& best) {
+    // Few patches show the weight near a cut with a large error. Cuts that are kept for long may
+    // turn for less.
     const auto num_patches = static_cast<double>(profile.domain().patches.size());
-    const double enough = nearly - 1 / std::sqrt(num_patches);
+    const double enough = task.preferred.empty() ? nearly - 1 / std::sqrt(num_patches) : nearly;
+    const bool plain = task.options.axes.plain;
     const double reach = profile.mean_half_side();
     const Box& extent = profile.extent();
     const auto near = [&](const Cut& cut) {
@@ -72,21 +88,20 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     profile.take(piece.domain);
     const Box& extent = profile.extent();
     const auto axes = task.axis_choice(piece.at.node, piece.depth);
-    const int longest = longest_axis(extent, axes, nearly);
-    if (task.limits && task.limits->divides(piece.at))
-        return cut_in_places(piece, profile, below, longest, task.options, *task.limits);
     const double weight = profile.weight();
+    const bool compares_near = task.shows_near && weight > task.light && axes.size() > 1 &&
+                               !task.options.axes.order.is_longest();
+    const int usual = usual_axis(piece, axes, compares_near, task);
+    if (task.limits && task.limits->divides(piece.at))
+        return cut_in_places(piece, profile, below, usual, task.options, *task.limits);
     // First: a side of size 0 is empty even if the domain has no weight.
-    if (below >= 1) return plane(longest, infinity);
-    if (below <= 0 || !(weight > 0)) return plane(longest, -infinity);
+    if (below >= 1) return plane(usual, infinity);
+    if (below <= 0 || !(weight > 0)) return plane(usual, -infinity);
     // Coincident patches go to one side.
-    if (extent.lower == extent.upper) return plane(longest, below < 0.5 ? -infinity : infinity);
+    if (extent.lower == extent.upper) return plane(usual, below < 0.5 ? -infinity : infinity);
     const double target = below * weight;
-    const bool plain = task.options.axes.plain;
-    Cut cut = weighted_quantile(profile, longest, target, plain);
-    const bool shows_near = task.result.cuts.near.reach > 0 && weight > task.light;
-    if (shows_near && axes.size() > 1 && !task.options.axes.order.is_longest())
-        choose_fewest(profile, axes, target, plain, cut);
+    Cut cut = weighted_quantile(profile, usual, target, task.options.axes.plain);
+    if (compares_near) choose_fewest(profile, axes, target, task, cut);
     return cut;
 }
 
@@ -124,8 +139,6 @@ void bisect_piece(Piece piece, Task& task) {
     task.result.cuts.tree.push_back(cut);
     const Profile& profile = task.profile;
     const double value = cut.at[cut.axis];
-    if (std::isfinite(value))
-        task.near_weight += profile.weight_within(cut.axis, value, task.result.cuts.near.reach);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(profile, cut, below, depth));
     // Parts need weights only.
     if (at.num_parts == 2 && is_plane(cut, domain.dimension) && std::isfinite(value)) {
@@ -152,24 +165,21 @@ double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts
 }
 
 /// Bisects with all cuts at allowed places, if there are limits.
-Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
-                 GlobalCount num_points, const AxisChoice& axis_choice, CutLimits* limits) {
+Bisection bisect(StatisticalDomain domain, GlobalCount num_points, Task&& task) {
     constexpr double few_points = 16;
     const NonStop arithmetic;
-    Task task{options, axis_choice, limits, with_brackets};
+    const Options& options = task.options;
     task.profile.take(domain);
     const double weight = task.profile.weight();
     if (num_points > 0) task.light = few_points / static_cast<double>(num_points) * weight;
     task.result.cuts = {domain.dimension, options.num_parts, {}, options.tree};
     const auto num_parts = static_cast<std::size_t>(options.num_parts);
     task.result.cuts.tree.reserve(num_parts - 1);
-    task.result.brackets.reserve(with_brackets ? num_parts - 1 : 0);
+    task.result.brackets.reserve(task.with_brackets ? num_parts - 1 : 0);
     task.result.part_weights.reserve(num_parts);
-    const Box region = limits ? limits->region() : everywhere;
-    NearCuts& near = task.result.cuts.near;
-    near.reach = task.profile.mean_half_side() / 4;  // nearer to the cut-off radii of codes
+    const Box region = task.limits ? task.limits->region() : everywhere;
+    task.shows_near = task.profile.mean_half_side() > 0;
     bisect_piece({std::move(domain), root_of(task.result.cuts), region, 0}, task);
-    if (weight > 0) near.share = task.near_weight / weight;
     return std::move(task.result);
 }
 
@@ -190,27 +200,30 @@ double expected_error(int depth) {
 }
 
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
-                 GlobalCount num_points) {
+                 GlobalCount num_points, std::span<const int> preferred) {
     const AxisChoice axis_choice(options, Profile(domain).extent(), domain.dimension);
-    return bisect(std::move(domain), options, with_brackets, num_points, axis_choice, nullptr);
+    return bisect(std::move(domain), num_points,
+                  {options, axis_choice, nullptr, with_brackets, preferred});
 }
 
-bool are_axes_good(StatisticalDomain domain, const Cuts& cuts, const NearCuts& fresh) {
+bool are_axes_good(const StatisticalDomain& domain, const Cuts& cuts, const Cuts& fresh) {
     constexpr double enough = 0.85;
     const NonStop arithmetic;
-    const double allowed = fresh.share * weight_of(domain);
-    return !(fresh.reach > 0) ||
-           enough * weight_near(std::move(domain), root_of(cuts), cuts, fresh.reach) <= allowed;
+    const double reach = Profile(domain).mean_half_side() / 4;  // as the cut-off radii of codes
+    const auto near = [&](const Cuts& some) {
+        return weight_near(domain, root_of(some), some, reach);
+    };
+    return !(reach > 0) || enough * near(cuts) <= near(fresh);
 }
 
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
-                        bool with_brackets) {
+                        bool with_brackets, std::span<const int> preferred) {
     const int dimension = domain.dimension;
     const AxisChoice axis_choice(options, points, dimension);
     CutLimits limits(options, points, dimension,
                      axis_choice.given(root_of(options.num_parts, options.tree)));
     limits.require_room();
-    return bisect(std::move(domain), options, with_brackets, 0, axis_choice, &limits);
+    return bisect(std::move(domain), 0, {options, axis_choice, &limits, with_brackets, preferred});
 }
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes) {

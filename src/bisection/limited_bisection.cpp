@@ -66,21 +66,20 @@ Trial trial_at(const Profile& profile, const Way& way, double target, bool is_pl
     return std::abs(beside.below - target) < std::abs(trial.below - target) ? beside : trial;
 }
 
-void move_node(CutLimits& limits, const Descent& at, const Box& region, Cuts& cuts) {
-    if (at.is_part()) return;
-    Cut& cut = cuts.tree[at.node];
+bool are_in_places(CutLimits& limits, const Descent& at, const Box& region, const Cuts& cuts) {
+    if (at.is_part()) return true;
+    const Cut& cut = cuts.tree[at.node];
     if (limits.divides(at)) {
-        const Way way = ways_across(at, region, region, cut.axis, limits).front();
-        if (way.axis != cut.axis) cut = plane(way.axis, way.places.first / 2 + way.places.last / 2);
-        cut = limits.nearest(cut, way.places);
+        const Places places = limits.places(at, region, cut.axis);
+        if (places.empty() || limits.nearest(cut, places).at != cut.at) return false;
     }
-    move_node(limits, at.lower(), box_below(region, cut), cuts);
-    move_node(limits, at.upper(), box_above(region, cut), cuts);
+    return are_in_places(limits, at.lower(), box_below(region, cut), cuts) &&
+           are_in_places(limits, at.upper(), box_above(region, cut), cuts);
 }
 
 }  // namespace
 
-Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int longest,
+Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int usual,
                   const Options& options, CutLimits& limits) {
     constexpr double bearable = 0.005;
     const double weight = profile.weight();
@@ -90,7 +89,7 @@ Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int 
     Trial best{};
     double least = infinity;
     double fewest = infinity;
-    for (const Way& way : ways_across(piece.at, piece.region, profile.extent(), longest, limits)) {
+    for (const Way& way : ways_across(piece.at, piece.region, profile.extent(), usual, limits)) {
         const AxisLimits& across = limits.across(way.axis);
         const auto [first, last] = way.places;
         const Trial trial =
@@ -110,8 +109,9 @@ Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int 
     return best.cut;
 }
 
-void move_into_places(CutLimits& limits, Cuts& cuts) {
-    move_node(limits, root_of(cuts), limits.region(), cuts);
+bool are_in_places(const Box& points, const Cuts& cuts, const Options& options) {
+    CutLimits limits(options, points, cuts.dimension);
+    return limits.has_room() && are_in_places(limits, root_of(cuts), limits.region(), cuts);
 }
 
 }  // namespace rrcb

@@ -17,19 +17,18 @@ struct Piece {
 };
 
 /// Returns the cut of a piece with the share `share` of its weight below. Among the cuts with a
-/// bearable error it is the one that the options prefer: across the longest axis of its profile, or
+/// bearable error it is the one that the options prefer: across the `usual` axis, or
 /// with the least weight near it. If there is none, it is the cut with the least error. The cuts
 /// below are not considered.
-Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int longest,
+Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int usual,
                   const Options& options, CutLimits& limits);
 
 /// Bisects as bisect(), with all cuts at allowed places, for points in the box `points`. Throws
 /// Error if there is no room for the parts.
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
-                        bool with_brackets);
+                        bool with_brackets, std::span<const int> preferred = {});
 
-/// Moves cuts to allowed places, for which there is room. A cut without one across its axis gets
-/// the longest axis with one, if axes are free. Not collective.
-void move_into_places(CutLimits& limits, Cuts& cuts);
+/// Returns true if cuts are at allowed places for points in the box `points`. Not collective.
+bool are_in_places(const Box& points, const Cuts& cuts, const Options& options);
 
 }  // namespace rrcb

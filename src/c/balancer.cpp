@@ -45,7 +45,6 @@ Cuts copy_of(const rrcb_cuts& given) {
     std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
         return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
     });
-    cuts.near = {given.near_reach, given.near_share};
     check_tree(cuts);
     return cuts;
 }
@@ -148,9 +147,7 @@ int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
                    details.rounds,
                    details.coincident_cuts,
                    details.all_weights_zero ? 1 : 0,
-                   details.surplus_parts,
-                   details.near_before,
-                   details.near_after};
+                   details.surplus_parts};
     });
 }
 
@@ -163,9 +160,7 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
                  reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()),
                  own.cuts.shape.group_size,
                  own.cuts.shape.larger_below ? 1 : 0,
-                 own.cuts.shape.dealt,
-                 own.cuts.near.reach,
-                 own.cuts.near.share};
+                 own.cuts.shape.dealt};
     });
 }
 

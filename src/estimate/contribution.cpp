@@ -91,15 +91,6 @@ void add_records(PointPasses& points, const Box& box, int num_ranks, const Optio
     mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
 }
 
-void add_totals(const PartTotals& totals, const NearShare& near, Contribution& mine) {
-    const auto count = static_cast<double>(mine.summary.num_points);
-    std::vector<double>& all = mine.part_totals;
-    all = {near.by_weight * mine.summary.weight, near.by_count * count};
-    for (const double spread : near.spread) all.push_back(spread * count);
-    all.insert(all.end(), totals.weights.begin(), totals.weights.end());
-    all.insert(all.end(), totals.counts.begin(), totals.counts.end());
-}
-
 std::size_t most_cells(const Options& options) {
     constexpr std::size_t most = 8192;
     return options.tuning.support_mesh == 0 ? most : std::numeric_limits<std::size_t>::max();

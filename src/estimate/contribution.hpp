@@ -1,7 +1,6 @@
 #pragma once
 
 #include "collective/failure.hpp"
-#include "estimate/earlier_cuts.hpp"
 #include "options/request.hpp"
 
 #include <rrcb/method/statistical_domain.hpp>
@@ -48,24 +47,17 @@ struct Contribution {
     Summary summary;
     std::vector<double> records;    ///< the moments of their cells
     std::vector<double> extents{};  ///< of the points of each rank, if rank 0 reads these
-    /// From earlier cuts: weight and number of points near them, the number of points times their
-    /// spread, then weights and numbers of points in the parts, if the call counts these.
+    /// Weights, then numbers, of the points in the parts of earlier cuts, if the call counts these.
     std::vector<double> part_totals{};
 };
 
 /// Returns the totals of a rank's points, from one reading of these.
 Summary summarize(const PointSummary& points, bool are_weighted, int rank);
 
-/// Totals before the parts' totals.
-inline constexpr std::size_t num_near_totals = 2 + max_dimension;
-
 /// Reduces checked points in a box to the moments of their cells in the support mesh of the
 /// options. If all ranks seem to have only a few points for each part, each point is a cell.
 void add_records(PointPasses& points, const Box& box, int num_ranks, const Options& options,
                  Contribution& mine);
-
-/// Adds the weights and counts of the parts of earlier cuts, and of the points near these.
-void add_totals(const PartTotals& totals, const NearShare& near, Contribution& mine);
 
 /// Returns the most cells that merging leaves: a fixed number, whatever the number of ranks, unless
 /// the options choose the mesh. Twice as many lean cells may be passed on unmerged.

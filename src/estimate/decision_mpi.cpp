@@ -68,6 +68,7 @@ double least_imbalance(const Verdict& verdict, int num_parts, std::span<const do
 std::array<std::span<std::byte>, 5> arrays_of(Decision& decision) {
     const auto bytes = [](auto& array) { return std::as_writable_bytes(std::span(array)); };
     const Verdict& verdict = decision.verdict;
+    if (verdict.answer == Answer::totals) return {};
     if (verdict.answer == Answer::weights) return {bytes(decision.part_weights)};
     if (verdict.answer == Answer::kept)
         return {bytes(decision.cuts.tree), bytes(decision.part_weights), bytes(decision.parts)};
@@ -116,37 +117,26 @@ void keep(Decision& decision) {
     decision.parts = std::move(decision.held->parts);
 }
 
-Bisection bisect_gathered(StatisticalDomain domain, const Contribution& all,
-                          const Options& options) {
+Bisection bisect_gathered(StatisticalDomain domain, const Contribution& all, const Options& options,
+                          std::span<const int> preferred) {
     const bool with_brackets = is_refined(options);
     if (are_cuts_limited(options) && all.summary.num_points > 0)
-        return bisect_within(all.summary.box, std::move(domain), options, with_brackets);
-    return bisect(std::move(domain), options, with_brackets, all.summary.num_points);
+        return bisect_within(all.summary.box, std::move(domain), options, with_brackets, preferred);
+    return bisect(std::move(domain), options, with_brackets, all.summary.num_points, preferred);
 }
 
-/// Computes the weight near earlier cuts, from the first totals.
-void weigh_near(std::span<const double, num_near_totals> totals, const Summary& all,
-                bool is_counted, Verdict& verdict) {
-    const auto count = static_cast<double>(all.num_points);
-    NearCuts& near = verdict.near;
-    near.share = is_counted ? totals[1] / count : totals[0] / all.weight;
-    const double length = std::ranges::max(totals.subspan<2>()) / count;
-    const double per_cut = near.share > 0 ? near.share * (length / near.reach) : 0;
-    verdict.near_per_cut = std::isfinite(per_cut) ? per_cut : 0;
-}
-
-/// Computes the weight near earlier cuts and, if the ranks have counted points in their parts, the
-/// imbalance.
+/// Computes the imbalance of the parts of earlier cuts, whose points the ranks have counted; it is
+/// endless if limits forbid the cuts.
 void weigh_parts(const Contribution& all, const Options& options, Decision& decision) {
+    if (all.summary.num_points == 0) return;
     const std::size_t num_parts = decision.part_weights.size();
-    const std::span<const double> totals(all.part_totals);
-    if (totals.empty() || all.summary.num_points == 0) return;
-    const bool is_counted = decision.verdict.is_counted();
-    weigh_near(totals.first<num_near_totals>(), all.summary, is_counted, decision.verdict);
-    if (num_parts == 0) return;
-    std::ranges::copy(totals.subspan(num_near_totals + (is_counted ? num_parts : 0), num_parts),
+    const std::size_t first = decision.verdict.is_counted() ? num_parts : 0;
+    std::ranges::copy(std::span(all.part_totals).subspan(first, num_parts),
                       decision.part_weights.begin());
-    decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
+    const bool are_allowed =
+        !are_cuts_limited(options) || are_in_places(all.summary.box, decision.cuts, options);
+    decision.verdict.measured_imbalance =
+        are_allowed ? imbalance(decision.part_weights, options.part_sizes) : not_kept;
 }
 
 /// Reads the ranks' present parts from the extents of their points; nullopt if they are no
@@ -167,17 +157,17 @@ std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
 /// hold: always if the present parts are uneven, otherwise if they seem to be better.
 Bisection make_cuts(const Contribution& all, const Options& options, Decision& decision) {
     const StatisticalDomain domain = build_domain(all, decision.cuts.dimension);
-    Bisection made = bisect_gathered(domain, all, options);
+    Bisection made = bisect_gathered(domain, all, options, decision.preferred);
     decision.held = read_held(all, made.cuts, options);
     if (!decision.held) return made;
     const std::vector<int> axes = axes_of(decision.held->cuts.tree);
     if (axes == axes_of(made.cuts.tree)) return made;
     Options along = options;
     along.axes.order = AxisOrder::given(axes);
-    Bisection across = bisect_gathered(domain, all, along);
+    Bisection across = bisect_gathered(domain, all, along, {});
     const bool is_even = decision.held->imbalance <= options.imbalance_tolerance;
     if (!options.axes.order.is_longest() &&
-        !(is_even && are_axes_good(domain, decision.held->cuts, made.cuts.near)))
+        !(is_even && are_axes_good(domain, decision.held->cuts, made.cuts)))
         decision.turned = std::move(made);
     return across;
 }
@@ -197,10 +187,9 @@ void check_together(const Summary& summary) {
         reject("the sum of the weights of all ranks overflows; scale them down");
 }
 
-Verdict verdict_of(const Summary& summary, const NearCuts& near, std::span<const double> estimated,
+Verdict verdict_of(const Summary& summary, std::span<const double> estimated,
                    std::span<const double> part_sizes) {
     Verdict verdict{summary};
-    verdict.near = near;
     if (!estimated.empty() || summary.num_points == 0)
         verdict.estimated_imbalance = imbalance(estimated, part_sizes);
     return verdict;
@@ -226,18 +215,10 @@ void report_measured(double imbalance, double tolerance, Report& report) {
     report.within_tolerance = std::islessequal(imbalance, tolerance);
 }
 
-bool counts_earlier_parts(const Options& options) {
-    return !are_cuts_limited(options) && options.refine != Refine::exact;
-}
-
-void take_earlier(Decision& decision, const Options& options, bool spread, const Cuts& previous) {
-    Cuts& cuts = decision.cuts;
+void take_earlier(Decision& decision, const Options& options, const Cuts& previous) {
     decision.verdict.answer = Answer::weights;
-    cuts = fitted(previous, options);
-    if (!spread) {
-        decision.brackets.reserve(is_refined(options) ? cuts.tree.size() : 0);
-        decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
-    }
+    decision.cuts = fitted(previous, options);
+    decision.part_weights.resize(static_cast<std::size_t>(options.num_parts));
     make_message(std::span(decision.part_weights).size_bytes(), decision);
 }
 
@@ -272,7 +253,7 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
         estimated = std::move(made.part_weights);
     }
     Verdict& verdict = decision.verdict;
-    verdict = verdict_of(all.summary, decision.cuts.near, estimated, options.part_sizes);
+    verdict = verdict_of(all.summary, estimated, options.part_sizes);
     verdict.answer = answer;
     if (answer == Answer::weights) weigh_parts(all, options, decision);
     if (!decision.held) return;
@@ -285,7 +266,6 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
         return;
     }
     verdict.turned_imbalance = imbalance(turned.part_weights, options.part_sizes);
-    verdict.turned_near = turned.cuts.near;
 }
 
 void broadcast(Decision& decision, Participant& self) {
@@ -306,16 +286,6 @@ void broadcast(Decision& decision, Participant& self) {
     const std::size_t length = std::max(head_length, num_bytes(decision));
     mpi::broadcast(message.first(length).subspan(head_length), root, self.comm);
     unpack(decision, message);
-}
-
-Box box_together(Box box, const Participant& self) {
-    for (double& lower : box.lower) lower = -lower;
-    std::array ends{box.lower, box.upper};
-    mpi::check(
-        MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2 * max_dimension, MPI_DOUBLE, MPI_MAX, self.comm),
-        "MPI_Allreduce");
-    for (double& lower : ends[0]) lower = -lower;
-    return {ends[0], ends[1]};
 }
 
 void broadcast_kept(Decision& decision, const Participant& self) {

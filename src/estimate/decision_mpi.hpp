@@ -24,7 +24,8 @@ inline constexpr double not_kept = std::numeric_limits<double>::infinity();
 /// What rank 0 decides on.
 enum class Answer : std::int32_t {
     cuts,     ///< it makes the cuts
-    weights,  ///< of the parts of earlier cuts, if counted: all ranks have the cuts, or make them
+    weights,  ///< of the parts of earlier cuts, which all ranks have
+    totals,   ///< of all points only: many ranks make the parts
     kept      ///< the points are kept
 };
 
@@ -34,12 +35,9 @@ struct Verdict : Totals {
     Answer answer = Answer::cuts;
     double estimated_imbalance = not_known;
     double kept_imbalance = not_kept;       ///< of the ranks' present parts
-    double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
-    NearCuts near{};                        ///< of the new cuts, or counted for the earlier ones
-    double near_per_cut = 0;                ///< of the earlier cuts, see NearCuts::share
+    double measured_imbalance = not_known;  ///< of the parts of earlier cuts
     std::int32_t may_turn = 0;              ///< 1: other cuts seem to have fewer points near them
     double turned_imbalance = not_known;    ///< estimated of those
-    NearCuts turned_near{};                 ///< of those
 
     /// Returns true if points are counted, because all have the same weight or none.
     bool is_counted() const { return weight == 0 || lightest == heaviest; }
@@ -56,9 +54,9 @@ struct Verdict : Totals {
 /// Decision of rank 0: a verdict, and the arrays of its answer.
 ///
 /// cuts:    the cuts, with brackets if they may move; if the ranks' present parts may be kept,
-/// their
-///          weights, and perhaps cuts across other axes
-/// weights: of the parts of `cuts`, which all ranks have, if counted
+///          their weights, and perhaps cuts across other axes
+/// weights: of the parts of `cuts`, which all ranks have
+/// totals:  none
 /// kept:    the cuts, weights and parts of the ranks' points
 struct Decision {
     Verdict verdict;
@@ -68,6 +66,7 @@ struct Decision {
     std::vector<Part> parts{};           ///< of each rank's points
     Bisection turned{};                  ///< cuts across other axes than `cuts`, if these may turn
     std::optional<KeptTree> held{};      ///< what the ranks hold, on rank 0 if that may be kept
+    std::vector<int> preferred{};        ///< axes of the cuts, in preorder; empty: none
     std::vector<std::byte> message{};    ///< verdict and arrays, as sent
 };
 
@@ -75,7 +74,7 @@ struct Decision {
 void check_together(const Summary& summary);
 
 /// Returns the totals, and the imbalance of estimated parts, if there are any.
-Verdict verdict_of(const Summary& summary, const NearCuts& near, std::span<const double> estimated,
+Verdict verdict_of(const Summary& summary, std::span<const double> estimated,
                    std::span<const double> part_sizes);
 
 /// Returns the report on an unmeasured partition. Empty sizes: equal parts.
@@ -87,13 +86,9 @@ void report_measured(double imbalance, double tolerance, Report& report);
 /// Makes buffers for the decision; for kept parts only if rank 0 may read them. Not collective.
 void make_buffers(Decision& decision, const Options& options, int dimension, bool may_keep);
 
-/// Returns true if the parts of earlier cuts are counted: they may be good enough, and no limits
-/// move the cuts.
-bool counts_earlier_parts(const Options& options);
-
-/// Takes earlier cuts as the decision, fitted to the options. Makes buffers for the weights of
-/// their parts, which rank 0 weighs; if `spread`, numbers the cuts instead. Not collective.
-void take_earlier(Decision& decision, const Options& options, bool spread, const Cuts& previous);
+/// Takes earlier cuts, fitted to the options, as the decision, with buffers for the weights of
+/// their parts, which rank 0 compares. Not collective.
+void take_earlier(Decision& decision, const Options& options, const Cuts& previous);
 
 /// Sends the contributions of all ranks to rank 0, merged on the way. Collective.
 ///
@@ -128,9 +123,6 @@ void decide_together(const Contribution& all, StageObserver* observer, Decision&
     const StageScope stage(observer, Stage::broadcast, self.arithmetic);
     broadcast(decision, self);
 }
-
-/// Returns the smallest box around the boxes of all ranks. Collective.
-Box box_together(Box box, const Participant& self);
 
 /// Sends the parts read by the root to all ranks: the points are kept after all. Collective.
 void broadcast_kept(Decision& decision, const Participant& self);

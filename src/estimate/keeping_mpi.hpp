@@ -34,22 +34,10 @@ bool are_as_exact(std::span<const double> kept, std::span<const double> found, c
 /// it.
 bool is_worth_moving(double kept, double offered, const Options& options);
 
-/// Returns true if parts from earlier cuts are so uneven, although `least` is possible, that the
-/// axes of these cuts, which are kept, may be why.
-bool may_be_poor(double imbalance, double least, const Options& options);
-
-/// Returns true if NearCuts::share has grown so much that other axes may save ghosts.
-bool may_save_ghosts(const Options& options, const NearCuts& chosen, double share_now);
-
-/// Returns NearCuts::share for later calls, if the axes are kept; `chosen` is that of the call
-/// before, 0 after a comparison. It falls by a twentieth if cuts were moved: other axes may have
-/// become better, so calls moving cuts compare new ones now and then.
-double reference(double chosen, double share_now, bool are_moved);
-
-/// Compares the points near two sets of cuts, by samples of the `count` points of each rank.
-/// Returns true if the new cuts are worth moving points. Collective.
-bool saves_ghosts(const Cuts& reused, const Cuts& anew, const PointSample& sample, LocalIndex count,
-                  const Participant& self);
+/// Returns true if new parts are worth moving points out of the parts of earlier cuts, which are
+/// not within the tolerance: if they are not counted, if their imbalance is worth it, or if they
+/// leave fewer parts of equal size empty without a loss.
+bool is_worth_moving(const Report& kept, const Report& offered, const Options& options);
 
 /// Returns the distance from a cut within which has_far_fewer_near() counts: some spacings of
 /// points that fill their box. It is the same whichever ranks hold the points.
@@ -60,11 +48,5 @@ double wide_reach(const Box& box, std::int64_t num_points);
 /// Collective: a reduction.
 bool has_far_fewer_near(const Cuts& turned, const Cuts& held, double reach, PointPasses& points,
                         Participant& self);
-
-/// Returns the better balance: that from scratch if its balance is worth moving points, or if
-/// there is a sample and much fewer points of it are near its cuts; otherwise the points get back
-/// their `parts` by the cuts reused. Collective.
-Balance better(Balance&& reused, std::span<const Part> parts, Balance&& anew, PointPasses& points,
-               const Options& options, const PointSample* sample, Participant& self);
 
 }  // namespace rrcb

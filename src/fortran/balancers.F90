@@ -127,8 +127,7 @@ contains
     type(rrcb_cut), pointer :: tree(:)
     call settle(c_get_cuts(self%handle, from), error)
     call c_f_pointer(from%tree, tree, [from%num_parts - 1])
-    cuts = rrcb_cuts(from%dimension, from%group_size, from%dealt, from%larger_below == 1, &
-                     from%near_reach, from%near_share, tree)
+    cuts = rrcb_cuts(from%dimension, from%group_size, from%dealt, from%larger_below == 1, tree)
     cuts%tree%axis = cuts%tree%axis + 1
   end subroutine
 
@@ -143,8 +142,7 @@ contains
     if (allocated(cuts%tree)) tree = cuts%tree
     tree%axis = tree%axis - 1
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
-                   merge(1, 0, cuts%larger_below), cuts%dealt, cuts%near_reach, &
-                   cuts%near_share)
+                   merge(1, 0, cuts%larger_below), cuts%dealt)
     if (size(tree) > 0) given%tree = c_loc(tree)
     call settle(c_set_cuts(self%handle, given), error)
   end subroutine

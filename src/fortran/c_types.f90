@@ -7,7 +7,6 @@ module rrcb_c_types
     integer(c_int) :: dimension = 0, num_parts = 1
     type(c_ptr) :: tree = c_null_ptr
     integer(c_int) :: group_size = 1, larger_below = 0, dealt = 0
-    real(c_double) :: near_reach = 0, near_share = 0
   end type
 
   type, bind(c) :: c_plan

@@ -51,7 +51,6 @@ module rrcb_types
   type, public :: rrcb_cuts
     integer :: dimension = 0, group_size = 1, dealt = 0
     logical :: larger_below = .false.
-    real(c_double) :: near_reach = 0, near_share = 0 !< points near the cuts, if known
     type(rrcb_cut), allocatable :: tree(:)
   end type
 
@@ -63,7 +62,6 @@ module rrcb_types
     real(c_double) :: total_weight = 0, least_imbalance = 1, estimated_imbalance = 1
     integer(c_int64_t) :: num_records = 0
     integer(c_int) :: rounds = 0, coincident_cuts = 0, all_weights_zero = 0, surplus_parts = 0
-    real(c_double) :: near_before = 0, near_after = 0
   end type
 
   !> Lists of the points whose rank changes.

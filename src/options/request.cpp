@@ -84,8 +84,6 @@ std::uint64_t bits_of(const Cuts& cuts) {
     add(cuts.shape.group_size, hash);
     add(cuts.shape.larger_below, hash);
     add(cuts.shape.dealt, hash);
-    add(cuts.near.reach, hash);
-    add(cuts.near.share, hash);
     for (const Cut& cut : cuts.tree) {
         add(cut.axis, hash);
         for (const double x : cut.at) add(x, hash);

@@ -172,9 +172,6 @@ void check_tree_options(const Options& options, int dimension) {
 }
 
 void check_tree(const Cuts& cuts) {
-    const NearCuts& near = cuts.near;
-    require(near.reach >= 0 && near.share >= 0 && std::isfinite(near.reach + near.share),
-            "near.reach and near.share must be numbers from 0 on");
     check_dimension(cuts.dimension, "cuts");
     require(has_its_cuts(cuts),
             "the tree must hold one cut less than there are parts, in groups of 1 or more");

@@ -116,7 +116,7 @@ void bisect_domain(const Contribution& all, const PaperOptions& options,
         bisect_points(make_domain(all, dimension, options), dimension, options.num_parts,
                       part_sizes, options.cut_rule, options.plain_cuts);
     decision.cuts = std::move(made.cuts);
-    decision.verdict = verdict_of(all.summary, {}, made.part_weights, part_sizes);
+    decision.verdict = verdict_of(all.summary, made.part_weights, part_sizes);
 }
 
 }  // namespace

@@ -69,6 +69,8 @@ std::vector<Options> kinds(int num_parts, int dimension = 2) {
     kinds[4].refine = Refine::exact;
     kinds[4].coincident = Coincident::divide;
     kinds[5].axes.min_width.assign(static_cast<std::size_t>(dimension), 0.02);
+    kinds[5].coincident = Coincident::divide;
+    kinds[5].imbalance_tolerance = 1.0001;
     kinds[6].imbalance_tolerance = 1;
     kinds[6].coincident = Coincident::divide;
     return kinds;

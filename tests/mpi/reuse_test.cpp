@@ -15,6 +15,7 @@
 #include <limits>
 #include <new>
 #include <numeric>
+#include <random>
 #include <tuple>
 #include <vector>
 
@@ -92,17 +93,41 @@ TEST(Reuse, keeps_cuts_within_the_tolerance_and_tells_what_their_parts_weigh) {
             }
 }
 
-TEST(Reuse, without_refinement_keeps_any_cuts_and_measures_them) {
+TEST(Reuse, without_refinement_keeps_cuts_within_the_tolerance_only) {
     const HeldPoints all = cloud(2, 2000, false);
     const Share mine(all);
-    Options options = with_parts(3, 1.01);
+    Options options = with_parts(3, 1.2);
     options.refine = Refine::none;
+    const Cuts first = balance(mine.points(), options, {}, MPI_COMM_WORLD).cuts;
+    const Balance kept = balance(mine.points(), options, first, MPI_COMM_WORLD);
+    EXPECT_TRUE(same_cuts(kept.cuts, first));
+    EXPECT_EQ(kept.report.part_weights, weights_by_look_up(all, first));
+    EXPECT_TRUE(kept.report.within_tolerance);
     const Cuts poor{
         2, 3, {Cut{0, 0, {0.1, -INFINITY, -INFINITY}}, Cut{1, 0, {-INFINITY, 0.9, -INFINITY}}}};
-    const Balance result = balance(mine.points(), options, poor, MPI_COMM_WORLD);
-    EXPECT_TRUE(same_cuts(result.cuts, poor));
-    EXPECT_EQ(result.report.part_weights, weights_by_look_up(all, poor));
-    EXPECT_FALSE(result.report.within_tolerance);
+    const Balance made = balance(mine.points(), options, poor, MPI_COMM_WORLD);
+    EXPECT_LT(imbalance(weights_by_look_up(all, made.cuts)), 1.2);
+    for (std::size_t i = 0; i < made.parts.size(); ++i)
+        ASSERT_EQ(made.parts[i], part_of(made.cuts, mine.points().position(i)));
+}
+
+TEST(Reuse, of_the_same_axes_makes_the_cuts_of_a_call_from_nothing) {
+    for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+        HeldPoints all = cloud(2, 6000, false);
+        Options options = with_parts(7, 1.02);
+        options.refine = refine;
+        options.axes.order = AxisOrder::given({0, 1, 1, 0, 1, 1});
+        const Cuts first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD).cuts;
+        for (double& x : all.coordinates) x *= x;
+        const Share mine(all);
+        const Balance second = balance(mine.points(), options, first, MPI_COMM_WORLD);
+        const Balance anew = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        EXPECT_FALSE(same_cuts(second.cuts, first));
+        EXPECT_TRUE(same_cuts(second.cuts, anew.cuts));
+        EXPECT_EQ(second.parts, anew.parts);
+        const int more = refine == Refine::tolerance ? 1 : 0;
+        EXPECT_EQ(second.report.details.rounds, anew.report.details.rounds + more);
+    }
 }
 
 TEST(Reuse, takes_two_collectives_and_no_memory_that_grows_with_the_points) {
@@ -123,7 +148,7 @@ TEST(Reuse, takes_two_collectives_and_no_memory_that_grows_with_the_points) {
     EXPECT_EQ(bytes[0], bytes[1]);
 }
 
-TEST(Reuse, moves_cuts_beyond_the_tolerance) {
+TEST(Reuse, keeps_the_axes_of_cuts_beyond_the_tolerance) {
     for (const double tolerance : {1.01, 1.1}) {
         HeldPoints all = cloud(2, 6000, false);
         const Options options = with_parts(7, tolerance);
@@ -137,6 +162,27 @@ TEST(Reuse, moves_cuts_beyond_the_tolerance) {
         EXPECT_FALSE(same_cuts(second.cuts, first));
         for (std::size_t k = 0; k < first.tree.size(); ++k)
             EXPECT_EQ(second.cuts.tree[k].axis, first.tree[k].axis);
+    }
+}
+
+TEST(Reuse, moves_no_points_at_rest_unless_parts_become_more_even) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        HeldPoints all{1 + static_cast<int>(seed % 3), {}};
+        all.coordinates = test::uniform_cloud(1 + seed, all.dimension, seed);
+        std::mt19937_64 engine(seed);
+        for (std::size_t i = 0; i < all.count(); ++i)
+            all.weights.push_back(seed % 2 == 0 ? 1 : test::uniform(engine, 0.5, 1.5));
+        all.scatter();
+        const Share mine(all);
+        Options options = with_parts(static_cast<int>(2 + seed % 17), 1.001);
+        options.axes.order = AxisOrder::longest();
+        const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+        constexpr double round_off = 1e-12;
+        if (again.report.imbalance < first.report.imbalance * (1 - round_off)) continue;
+        EXPECT_EQ(again.parts, first.parts) << "seed " << seed;
+        EXPECT_TRUE(same_cuts(again.cuts, first.cuts)) << "seed " << seed;
+        EXPECT_NEAR(again.report.imbalance, first.report.imbalance, 1e-9);
     }
 }
 

@@ -134,11 +134,15 @@ TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
     HeldPoints all = uneven_cloud(2, true);
     Options options = spread_options(num_ranks(), 1.05);
     const Balance first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD);
+    std::vector<int> axes;
+    for (const Cut& cut : first.cuts.tree) axes.push_back(cut.axis);
     drift(0.3, all);
     const Share mine(all);
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         options.refine = refine;
-        const Balance fresh = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        Options along = options;
+        along.axes.order = AxisOrder::given(axes);
+        const Balance fresh = balance(mine.points(), along, {}, MPI_COMM_WORLD);
         const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
         if (num_ranks() > 2) {
             EXPECT_EQ(again.parts, fresh.parts);

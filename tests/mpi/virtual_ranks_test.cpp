@@ -3,10 +3,10 @@
 // are refined by what all sub-domains hold.
 #include "../support/clouds.hpp"
 #include "../support/common.hpp"
-#include "call_mpi.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "options/validation.hpp"
 #include "passes/host_passes.hpp"
+#include "search/settlement_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -80,23 +80,21 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
 
     Participant self{MPI_COMM_SELF};
     HostPasses passes(ranks.points());
-    Call call(passes, nullptr, self);
-    call.options = ranks.options;
-    call.box = passes.summary(true).box;
-    make_buffers(call.decision, ranks.options, 2, false);
-    decide(all, ranks.options, call.decision);
-    call.result.report =
-        report_of(call.decision.verdict, ranks.num_ranks(), ranks.options.part_sizes);
-    call.result.cuts = std::move(call.decision.cuts);
-    prepare_to_settle(call, false, self);
-    settle(call, false, self);
-    const Report& report = call.result.report;
+    const Box box = passes.summary(true).box;
+    Decision decision;
+    make_buffers(decision, ranks.options, 2, false);
+    decide(all, ranks.options, decision);
+    const Verdict& verdict = decision.verdict;
+    Settlement settlement(ranks.options, passes, false, self);
+    const SettledCuts made =
+        settlement.run({verdict.num_points, verdict.balanced_weight(), 1, true, verdict.box}, box,
+                       false, {std::move(decision.cuts), std::move(decision.brackets)}, self);
 
     std::vector<double> weights(ranks.options.part_sizes.size());
     for (const Part part : passes.parts_here()) weights[static_cast<std::size_t>(part)] += 1;
     EXPECT_LE(imbalance(weights, ranks.options.part_sizes), 1.01);
-    EXPECT_EQ(imbalance(weights, ranks.options.part_sizes), report.imbalance);
-    RecordProperty("rounds", report.details.rounds);
+    EXPECT_EQ(imbalance(weights, ranks.options.part_sizes), made.imbalance);
+    RecordProperty("rounds", made.rounds);
     RecordProperty("cells", static_cast<int>(all.summary.num_cells));
     RecordProperty("root_kilobytes", static_cast<int>(ranks.root_in * sizeof(double) / 1000));
     RecordProperty("longest_message_kilobytes",

@@ -4,7 +4,6 @@
 #include "all_collected.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/owned_cuts.hpp"
-#include "estimate/earlier_cuts.hpp"
 #include "options/allowed_axes.hpp"
 #include "row_cases.hpp"
 #include "search/doubles.hpp"
@@ -196,7 +195,6 @@ class RowSearches {
         tree.rule.weight_per_size = total_ / sum_of(case_.part_sizes);
         tree.rule.counted_weight = total_;
         tree.rule.is_exact = is_exact;
-        tree.rule.is_earlier = case_.start == Start::earlier;
         tree.plain_cuts = case_.plain_cuts;
         tree.centres_cuts = is_exact;
         tree.divides_coincident = case_.divides_coincident;
@@ -226,11 +224,6 @@ class RowSearches {
         options.tree = case_.shape;
         Bisection made = bisect(analytic_domain(cells, case_.dimension, box_), options, true);
         if (case_.start != Start::estimate) move(made, random);
-        if (case_.start == Start::earlier) {
-            made.cuts = fitted(std::move(made.cuts), options);
-            made.brackets.clear();
-            bracket_earlier(made.cuts, box_, made.brackets);
-        }
         start_from(made.cuts, std::move(made.brackets));
     }
 

@@ -27,8 +27,6 @@ typedef struct rrcb_cuts {
     int group_size;       /**< of rrcb::TreeShape, 1 or more */
     int larger_below;     /**< 1: rrcb::TreeShape::larger_below */
     int dealt;            /**< of rrcb::TreeShape, 0 or more */
-    double near_reach;    /**< of rrcb::NearCuts; 0 if not known */
-    double near_share;    /**< of rrcb::NearCuts */
 } rrcb_cuts;
 
 /** Report of the last balance, as rrcb::Report; the same on every rank. */
@@ -45,8 +43,6 @@ typedef struct rrcb_report {
     int coincident_cuts;        /**< that would divide points which no allowed cut separates */
     int all_weights_zero;       /**< 1: balanced by count instead */
     int surplus_parts;          /**< parts that stay empty: more than points */
-    double near_before;         /**< share of the weight near the earlier cuts; 0 if not known */
-    double near_after;          /**< share of the weight near the cuts; 0 if not known */
 } rrcb_report;
 
 /** Makes a balancer with the default options and no cuts. Collective.

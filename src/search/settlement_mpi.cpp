@@ -1,0 +1,263 @@
+#include "search/settlement_mpi.hpp"
+
+#include "arithmetic/part_share.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "options/allowed_axes.hpp"
+#include "options/call_kind.hpp"
+
+#include <rrcb/quality.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace rrcb {
+
+double PartSums::add_up(std::span<const double> part_sizes, Participant& self) {
+    const std::size_t num_parts = part_sizes.size();
+    here_.back() = self.failed() ? 1 : 0;
+    mpi::check(MPI_Reduce(here_.data(), sums_.data(), mpi::to_int(std::ssize(here_)), MPI_DOUBLE,
+                          MPI_SUM, root, self.comm),
+               "MPI_Reduce");
+    if (mpi::rank_of(self.comm) == root) sums_.back() = imbalance(sums(), part_sizes);
+    mpi::broadcast(std::as_writable_bytes(std::span(sums_)), root, self.comm);
+    if (sums_[num_parts] > 0) fail_together(some_rank, self);
+    return sums_.back();
+}
+
+std::vector<double> PartSums::take() {
+    sums_.resize(sums_.size() - 2);
+    return std::move(sums_);
+}
+
+namespace {
+
+constexpr double round_off = 1e-12;  ///< of an imbalance
+
+/// Returns the parts of a call; of the rule only what options choose.
+PartTree tree_of(const Options& options, int dimension, int num_ranks) {
+    const AxisOrder& order = options.axes.order;
+    PartTree tree;
+    tree.dimension = dimension;
+    tree.num_parts = options.num_parts;
+    tree.num_owners = is_spread(options, num_ranks) ? num_ranks : 1;
+    tree.shape = options.tree;
+    tree.rule.part_sizes = options.part_sizes;
+    if (order.is_given()) tree.cut_axes = order.axes();
+    tree.axes = allowed_axes(order, dimension);
+    tree.crosses_longest = order.is_longest();
+    tree.rule.tolerance = options.imbalance_tolerance;
+    tree.rule.is_exact = options.refine == Refine::exact;
+    tree.plain_cuts = options.axes.plain;
+    tree.centres_cuts = tree.rule.is_exact && !are_cuts_limited(options);
+    tree.divides_coincident = options.coincident == Coincident::divide;
+    tree.limits = axis_limits(options);
+    return tree;
+}
+
+/// Flags of a rank: whether it still searches, and the imbalance of its parts so far.
+Flags flags_of(const std::optional<TreeSearch>& search) {
+    if (!search) return {};
+    return {0, search->is_searching() ? 1.0 : 0.0, search->imbalance()};
+}
+
+}  // namespace
+
+Settlement::Settlement(const Options& options, PointPasses& points, bool counts,
+                       const Participant& self)
+    : options_(options),
+      points_(points),
+      is_spread_(is_spread(options, mpi::size_of(self.comm))),
+      sums_((is_refined(options) || counts) && !is_spread_ ? options.part_sizes.size() : 0),
+      memory_(workspace_of(self.comm)),
+      tree_(tree_of(options, points.dimension(), mpi::size_of(self.comm))),
+      butterfly_(mpi::rank_of(self.comm), mpi::size_of(self.comm), TreeSearch::join,
+                 is_spread_ ? Butterfly::Way::spread : Butterfly::Way::central) {}
+
+SettledCuts Settlement::run(const AllPoints& all, const Box& here, bool counts, SettledCuts&& start,
+                            Participant& self) {
+    all_ = all;
+    here_ = here;
+    made_ = std::move(start);
+    if (is_spread_ || (is_refined(options_) && all.number > 0)) {
+        refine(self);
+    } else {
+        assign(counts, self);
+    }
+    if (!is_spread_ && (counts || has_parts_)) made_.part_weights = sums_.take();
+    if (all.number == 0) made_.imbalance = 1;
+    return std::move(made_);
+}
+
+/// Assigns the points by unchanged cuts; if `counts`, counts the parts. Collective.
+void Settlement::assign(bool counts, Participant& self) {
+    self.attempt([&] {
+        const PartTotals totals = points_.assign(made_.cuts, counts);
+        if (counts) std::ranges::copy(totals.weights, sums_.here().begin());
+    });
+    if (!counts) return agree(self);
+    measure(self);
+}
+
+/// Searches for cuts with parts as even as requested. Collective.
+void Settlement::refine(Participant& self) {
+    const double tolerance = options_.imbalance_tolerance;
+    TargetRule& rule = tree_.rule;
+    start(self);
+    const bool are_accepted = accepts_cuts(self);
+    // A search likely to miss the tolerance, and be repeated exactly, is exact at once.
+    const bool may_miss = !is_spread_ && !limits_ && !rule.is_attainable();
+    rule.is_exact = rule.is_exact || (may_miss && !are_accepted);
+    const bool is_searched = rule.is_exact || !are_accepted;
+    if (is_searched && limits_)
+        search_for_better(self);
+    else if (is_searched)
+        search_once(self);
+    const bool is_good = made_.imbalance <= tolerance && num_left_empty() == 0;
+    const bool may_improve = is_searched || made_.imbalance <= tolerance;
+    if (!is_good && may_improve && !std::exchange(rule.is_exact, true)) search_for_better(self);
+    if (is_spread_) agree(self);
+}
+
+/// Derives the targets and the limits of the cuts. Not collective.
+void Settlement::start(Participant& self) {
+    const auto& sizes = options_.part_sizes;
+    const bool is_limited = are_cuts_limited(options_);
+    TargetRule& rule = tree_.rule;
+    tree_.weight = all_.weight;
+    rule.common_weight = all_.are_counted ? 1 : 0;
+    rule.heaviest = all_.heaviest;
+    rule.weight_per_size = tree_.weight / rule.size_of(root_of(options_.num_parts, options_.tree));
+    made_.imbalance = 1;
+    if (is_spread_) return;
+    fills_parts_ = !is_limited && all_.number >= std::ssize(sizes) &&
+                   std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
+    const Cuts& cuts = made_.cuts;
+    if (is_limited)
+        self.attempt(
+            [&] { limits_.emplace(options_, all_.box, cuts.dimension, axes_of(cuts.tree)); });
+}
+
+/// Returns true if there is nothing to search: the cuts are good enough, or as even as any, or the
+/// points are kept. Collective.
+bool Settlement::accepts_cuts(Participant& self) {
+    if (is_spread_ || (tree_.rule.is_exact && !limits_)) return false;
+    assign(true, self);
+    has_parts_ = true;
+    ++made_.rounds;
+    return std::min(made_.imbalance, all_.enough) <= options_.imbalance_tolerance || is_least();
+}
+
+/// Returns true if no parts are more even.
+bool Settlement::is_least() {
+    return made_.imbalance <= all_.least_imbalance * (1 + round_off) && num_left_empty() == 0;
+}
+
+/// Adds up the weights of the parts over all ranks. Collective; throws if one failed.
+void Settlement::measure(Participant& self) {
+    made_.imbalance = sums_.add_up(options_.part_sizes, self);
+    tree_.rule.counted_weight = sum_of(sums_.sums());
+}
+
+/// Returns the number of parts without weight although there are points for all; 0 if parts have
+/// different sizes, because empty ones may be the most even then.
+std::ptrdiff_t Settlement::num_left_empty() {
+    return fills_parts_ ? std::ranges::count(sums_.sums(), 0.0) : 0;
+}
+
+/// Finds all cuts, and the parts at the end. Collective.
+void Settlement::search_once(Participant& self) {
+    const bool has_parts = std::exchange(has_parts_, true);
+    const bool is_counted = !tree_.rule.is_exact && !limits_;
+    Guide guide{made_.cuts,   made_.brackets, limits_ ? &*limits_ : nullptr,
+                sums_.sums(), is_counted,     here_};
+    tree_.box = limits_ ? limits_->region() : all_.box;
+    const Cuts none{.dimension = tree_.dimension,
+                    .num_parts = tree_.num_parts,
+                    .tree = {},
+                    .shape = tree_.shape};
+    std::vector<Bracket> intervals;
+    std::unique_ptr<OpenPoints> open;
+    std::optional<TreeSearch> search;
+    self.attempt([&] {
+        if (is_spread_) {
+            open = open_points(points_, none, {}, false, memory_.open);
+        } else {
+            intervals = likely_intervals(tree_.rule, guide);
+            if (!limits_) guide.brackets = intervals;
+            open = open_points(points_, made_.cuts, intervals, has_parts, memory_.open);
+        }
+        search.emplace(tree_, butterfly_.rank(), *open, is_spread_ ? nullptr : &guide);
+    });
+    made_.rounds += run_rounds(search, self);
+    const int num_coincident = search->num_coincident();
+    made_.coincident_cuts += is_spread_ ? mpi::sum_of(num_coincident, self.comm) : num_coincident;
+    self.attempt([&] {
+        std::ranges::copy(open->settle(), sums_.here().begin());
+        if (is_spread_) made_.cuts = search->own_cuts();
+    });
+    if (is_spread_)
+        made_.imbalance = butterfly_.flags()[2];
+    else
+        measure(self);
+}
+
+/// Ends a search, which this rank lacks if it has failed; returns the number of rounds.
+///
+/// Collective: each round is a pass to the owners and one back, and a spread search ends with one
+/// to the owners. Throws on every rank the failure of one, before or here; a failure in the last
+/// messages is held back until the next agreement.
+int Settlement::run_rounds(std::optional<TreeSearch>& search, Participant& self) {
+    const bool is_central = butterfly_.is_central();
+    // Rank 0 of a central search knows all nodes, and sends with its answers whether any are left.
+    const bool follows_first = is_central && butterfly_.rank() == root;
+    // All ranks know the same flags after each round, and therefore agree on the next messages.
+    for (int rounds = 0;; ++rounds) {
+        butterfly_.clear();
+        self.attempt([&] { search->ask(butterfly_); });
+        messages_.run(butterfly_, Butterfly::to_owners, flags_of(search), self);
+        if (!is_central && butterfly_.flags()[1] == 0) return rounds;
+        self.attempt([&] { search->decide(butterfly_); });
+        if (follows_first) self.attempt([&] { search->follow(butterfly_); });
+        messages_.run(butterfly_, Butterfly::back, flags_of(search), self);
+        if (!follows_first) self.attempt([&] { search->follow(butterfly_); });
+        if (is_central && butterfly_.flags()[1] == 0) return rounds + 1;
+    }
+}
+
+/// Searches all cuts, and keeps the new ones if they are better. Collective.
+void Settlement::search_for_better(Participant& self) {
+    // Look-ups may not find the parts again.
+    const bool keeps_parts = is_spread_ || tree_.divides_coincident;
+    Cuts cuts_before;
+    std::vector<double> sums_before;
+    std::vector<Part> parts_before;
+    self.attempt([&] {
+        const auto sums = sums_.sums();
+        cuts_before = made_.cuts;
+        sums_before.assign(sums.begin(), sums.end());
+        if (keeps_parts) parts_before = points_.parts();
+    });
+    const double imbalance_before = made_.imbalance;
+    const int coincident_before = std::exchange(made_.coincident_cuts, 0);
+    const std::ptrdiff_t empty_before = num_left_empty();
+    search_once(self);
+    // Parts are filled only if they stay within the tolerance or as even as they were.
+    const std::ptrdiff_t gain = empty_before - num_left_empty();
+    const double tolerance = options_.imbalance_tolerance;
+    const double most = gain > 0 ? std::max(imbalance_before, tolerance) : imbalance_before;
+    const double margin = gain > 0 ? round_off : -round_off;
+    if (made_.imbalance < most * (1 + margin)) return;
+    made_.imbalance = imbalance_before;
+    made_.coincident_cuts = coincident_before;
+    made_.cuts = std::move(cuts_before);
+    std::ranges::copy(sums_before, sums_.sums().begin());
+    self.attempt([&] {
+        if (keeps_parts) return points_.set_parts(parts_before);
+        points_.assign(made_.cuts, false);
+    });
+}
+
+}  // namespace rrcb

@@ -21,12 +21,13 @@ struct Renumbered {
 ///
 /// Parts of a group of the cuts, such as those of a machine, stay in one group. The numbers are
 /// unchanged if REMAP is off, the parts differ in size, a part is on several ranks or there are
-/// more than 2^17 parts. With one part on each rank an object is to be kept on its rank. Otherwise it is to be
-/// kept in the part that the callbacks name, or on its rank if they name none on any rank.
+/// more than 2^17 parts. With one part on each rank an object is to be kept on its rank. Otherwise
+/// it is to be kept in the part that the callbacks name, or on its rank if they name none on any
+/// rank.
 class Renumbering {
   public:
-    /// Allocates all memory. `layout` outlives it. Throws std::bad_alloc, which all ranks must agree
-    /// on before run(). Not collective.
+    /// Allocates all memory. `layout` outlives it. Throws std::bad_alloc, which all ranks must
+    /// agree on before run(). Not collective.
     Renumbering(const Parameters& parameters, const Layout& layout, bool any_names_parts,
                 const TreeShape& shape, const Communicator& comm);
 

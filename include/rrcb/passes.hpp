@@ -129,8 +129,8 @@ class RRCB_API PointPasses {
 
     /// Opens the points that some place of the cuts in their intervals would bring to another part,
     /// as collect(); all points if `cuts` has no tree. The answer stands for collect(),
-    /// collect_more(), boxes() and settle(), and borrows the cuts. Returns null if the engine is to call these instead,
-    /// and to keep copies of the open points, as all passes of this version do.
+    /// collect_more(), boxes() and settle(), and borrows the cuts. Returns null if the engine is to
+    /// call these instead, and to keep copies of the open points, as all passes of this version do.
     virtual std::unique_ptr<OpenPoints> open(const Cuts& cuts, std::span<const Bracket> intervals,
                                              bool has_parts);
 

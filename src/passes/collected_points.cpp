@@ -316,17 +316,6 @@ std::vector<Entries> CollectedPoints::take_below(std::span<const WiderNode> node
     return taken;
 }
 
-std::vector<double> CollectedPoints::part_weights(const Descent& at) const {
-    std::vector<double> weights;
-    for (Part p = at.first_part; p < at.first_part + at.num_parts; ++p)
-        weights.push_back(total_of(p).weight);
-    for (const Entries& some : waiting_in(at))
-        for (const LocalIndex i : some)
-            weights[descend(*cuts_, collected_.position(i), at).first_part - at.first_part] +=
-                collected_.weight(i);
-    return weights;
-}
-
 /// Settles the points that wait at a node or below, by the cuts.
 void CollectedPoints::settle_waiting(const Descent& at) {
     if (at.is_part()) return;

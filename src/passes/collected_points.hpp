@@ -29,7 +29,6 @@ class CollectedPoints final : public OpenPoints {
     Gap gap(const Descent& at, const Cut& cut) override;
     void cut(const Descent& at, const Cut& cut, const Lot& lot) override;
     void widen(std::span<const WiderNode> nodes) override;
-    std::vector<double> part_weights(const Descent& at) const override;
     std::vector<double> settle() override;
 
   private:

@@ -104,9 +104,6 @@ class OpenPoints {
     /// well. Reads all points once.
     virtual void widen(std::span<const WiderNode> nodes) = 0;
 
-    /// Returns the weights of the parts below a node by the cuts.
-    virtual std::vector<double> part_weights(const Descent& at) const = 0;
-
     /// Gives all points their part, those that still wait by the cuts. Returns the weights of this
     /// rank's points in each part; none for a tree without cuts. Called last.
     virtual std::vector<double> settle() = 0;

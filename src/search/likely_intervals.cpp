@@ -22,8 +22,7 @@ Bracket interval_of(const Descent& at, int depth, const TargetRule& rule, const 
     const double in_half = guide.is_counted ? expected_error(depth) * weight_of(at, sums) : 0;
     if (in_half > 0) {
         const bool stays = shifted == 0 && rule.may_stay(at, sums);
-        const double missing =
-            stays ? 0 : rule.missing_below(at, weight_of(at, sums), weight_of(at.lower(), sums));
+        const double missing = stays ? 0 : rule.missing_below(at, sums);
         const double open = stays ? 0 : shifted / 2 / in_half + least;
         const auto widths = [&](double there) {
             return std::min(open + caution * std::max(there, 0.0) / in_half,

@@ -76,27 +76,7 @@ double TargetRule::most_weight(const Descent& at) const {
     return weight_per_size * size_of(at) * (1 + excess);
 }
 
-/// Returns the allowed weight below a cut nearest to the present weight, with a margin in
-/// which the search may end.
-CutTarget TargetRule::nearest_target(const Descent& at, double weight, double below) const {
-    constexpr double share_of_gap = 16;
-    const double most = std::min(most_weight(at.lower()), weight);
-    const double least = std::max(weight - most_weight(at.upper()), 0.0);
-    const double gap = most - least;
-    const double margin = std::max(gap / share_of_gap, heaviest / 2);
-    CutTarget target;
-    target.slack = std::min(margin, std::max(gap / 2, common_weight / 2));
-    if (!(gap > 0)) {
-        target.target = share_below(at) * weight;
-    } else if (2 * margin > gap) {
-        target.target = least + gap / 2;
-    } else {
-        target.target = std::clamp(below, least + margin, most - margin);
-    }
-    return target;
-}
-
-CutTarget TargetRule::target_of(const Descent& at, double weight, double below) const {
+CutTarget TargetRule::target_of(const Descent& at, double weight) const {
     CutTarget target;
     target.share = share_below(at);
     target.target = target.share * weight;
@@ -106,7 +86,6 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     // Slightly less: an odd point then always goes above the cut.
     if (is_exact) target.target = std::max(0.0, target.target - std::ldexp(common_weight, -12));
     if (is_exact || !(weight > 0)) return target;
-    if (is_earlier && below >= 0) return nearest_target(at, weight, below);
     // The tolerance left at this node is divided evenly, as factors, among its levels.
     const double ideal = weight_per_size * size_of(at);
     const int levels = num_levels(at.shape, at.num_parts);
@@ -115,9 +94,8 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     return target;
 }
 
-double TargetRule::missing_below(const Descent& at, double weight, double below) const {
-    const bool is_known = !is_exact && below != not_counted && weight > 0;
-    return is_known ? target_of(at, weight, below).target - below : 0;
+double TargetRule::missing_below(const Descent& at, std::span<const double> part_weights) const {
+    return share_below(at) * weight_of(at, part_weights) - weight_of(at.lower(), part_weights);
 }
 
 CountLimits TargetRule::count_limits(const Descent& at, GlobalCount count, double weight) const {

@@ -8,12 +8,7 @@
 
 namespace rrcb {
 
-inline constexpr double not_counted = -1;
-
-/// Rule for the weight below each cut of the tree, and for its slack.
-///
-/// If cuts are `earlier` ones, each moves as little as all parts within the tolerance allow, so
-/// that few points change parts. Otherwise each moves to the share of the parts below it.
+/// Rule for the weight below each cut of the tree, the share of the parts there, and for its slack.
 struct TargetRule {
     std::span<const double> part_sizes{};  ///< one per part; empty: all 1, in a spread search
     double tolerance = 1;                  ///< of the imbalance of all parts
@@ -22,7 +17,6 @@ struct TargetRule {
     double weight_per_size = 0;            ///< ideal weight of a part of size 1
     double counted_weight = 0;             ///< of all parts, if these were counted
     bool is_exact = false;                 ///< no slack but half a point
-    bool is_earlier = false;               ///< the cuts come from an earlier call, not limited
 
     /// Returns true if points of this weight are so few that a histogram has more numbers.
     bool are_few(double weight) const {
@@ -47,13 +41,11 @@ struct TargetRule {
     /// that the cuts below can meet it.
     bool may_stay(const Descent& at, std::span<const double> part_weights) const;
 
-    /// Returns the target of a node's cut, from the counted weight of the node, and the weight
-    /// below its present cut, if counted.
-    CutTarget target_of(const Descent& at, double weight, double below = not_counted) const;
+    /// Returns the target of a node's cut, from the counted weight of the node.
+    CutTarget target_of(const Descent& at, double weight) const;
 
-    /// Returns the weight missing below a node's cut, from the counted weight of the node and below
-    /// its present cut; 0 if these are not known.
-    double missing_below(const Descent& at, double weight, double below) const;
+    /// Returns the weight missing below a node's cut.
+    double missing_below(const Descent& at, std::span<const double> part_weights) const;
 
     /// Returns the numbers of points below a node's cut that fill all parts, of `count` points that
     /// weigh `weight`. With parts of different sizes any number: an empty part may then be the most
@@ -67,7 +59,6 @@ struct TargetRule {
     double smallest_weight(const Descent& at) const;
     double attainable_tolerance(const Descent& at) const;
     double most_weight(const Descent& at) const;
-    CutTarget nearest_target(const Descent& at, double weight, double below) const;
 };
 
 /// Returns the weight of all parts of a node.

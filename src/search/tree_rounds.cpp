@@ -48,9 +48,6 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) const {
     payload[0] = mark_of_histogram;
     count_points(node, std::span(payload).subspan(1));
     if (counts_all_axes(node)) count_other_axes(node, payload);
-    if (!node.counts_parts) return;
-    const auto weights = open_.part_weights(node.at);
-    payload.insert(payload.end(), weights.begin(), weights.end());
 }
 
 /// Counts this rank's points in the bins of a search.
@@ -67,11 +64,11 @@ void TreeSearch::count_points(const Node& node, std::span<double> histogram) con
 
 /// Appends this rank's points of a lot or a part.
 void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
-    LotRecord record{1.0 * rank_, {open_.weight_at(node.at)}};
-    if (!node.at.is_part()) record.points = open_.lot(node.at, node.search.cut);
+    const bool is_part = node.at.is_part();
+    LotRecord record{1.0 * rank_, is_part ? PointsInLot{open_.weight_at(node.at)}
+                                          : open_.lot(node.at, node.search.cut)};
     if (!(record.points.weight > 0)) return;
-    if (!node.at.is_part())
-        record.points.weight = rounded_to(node.search.quantum, record.points.weight);
+    if (!is_part) record.points.weight = rounded_to(node.search.quantum, record.points.weight);
     payload.push_back(mark_of_weights);
     append(record, payload);
 }
@@ -151,10 +148,7 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
             told.weight += points.weight;
     }
     append(told, answer);
-    if (node.counts_parts) {
-        const auto sums = guide_->sums.subspan(node.at.first_part, node.at.num_parts);
-        answer.insert(answer.end(), sums.begin(), sums.end());
-    } else if (node.search.stage == CutSearch::dividing) {
+    if (node.search.stage == CutSearch::dividing) {
         append(node.lot, answer);
     } else if (node.search.stage == CutSearch::over_points && !guide_) {
         append(node.found, answer);
@@ -201,8 +195,6 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
         search.stage = CutSearch::done;
         if (guide_) search.cut = cut_unsearched(node, tree_.rule.share_below(node.at));
         node.weight = 0;
-        const std::vector<double> nothing(static_cast<std::size_t>(node.at.num_parts));
-        if (node.counts_parts) take_sums(node, nothing);
         return search;
     }
     const auto records = payload.subspan(1);
@@ -226,7 +218,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
 
 /// Sets the target of a node of known weight, with `count` points.
 void TreeSearch::aim(Node& node, GlobalCount count) const {
-    node.target = tree_.rule.target_of(node.at, node.weight, node.guided_below);
+    node.target = tree_.rule.target_of(node.at, node.weight);
     node.target.places = node.places;
     node.target.divides = tree_.divides_coincident && !tree_.plain_cuts;
     if (node.target.places.all())
@@ -238,7 +230,6 @@ void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histo
                                        CutSearch& search) {
     node.weight = sum_of(weights_in(histogram, layout_));
     if (!guide_) node.found = box_in(histogram);
-    if (node.counts_parts && take_sums(node, histogram.subspan(layout_.length()))) return;
     aim(node, static_cast<GlobalCount>(sum_of(counts_in(histogram, layout_))));
     std::vector<double> along_axis;
     if (counts_all_axes(node)) histogram = along_axis = choose_axis(node, histogram, search);
@@ -273,10 +264,6 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
     if (node.search.stage == CutSearch::dividing) {
         node.search = answer.search;
         return end_at_cut(std::move(node), read<LotAnswer>(more));
-    }
-    if (std::exchange(node.counts_parts, false) && take_sums(node, more)) {
-        node.are_parts_counted = true;
-        return enter(std::move(node));
     }
     follow_search(std::move(node), answer.search, more);
 }

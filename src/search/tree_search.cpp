@@ -91,7 +91,6 @@ void TreeSearch::add_node(Node&& entered) {
         node.settled_below = open_.total_in(at.lower());
         node.settled_above = open_.total_in(at.upper());
     }
-    node.counts_parts = recounts() && !node.are_parts_counted;
     node.search = guide_ ? search_from_guide(node) : search_in_box(node);
     node.is_taken = is_taken_at_once(node);
     if (!node.is_taken) return;
@@ -105,7 +104,7 @@ bool TreeSearch::is_taken_at_once(const Node& node) const {
     const bool is_open =
         !guide_ || (!guide_->limits && guide_->brackets[node.at.node].lower == -infinity &&
                     guide_->brackets[node.at.node].upper == infinity);
-    return is_open && tree_.rule.are_few(node.weight) && node.is_counted && !node.counts_parts;
+    return is_open && tree_.rule.are_few(node.weight) && node.is_counted;
 }
 
 /// Goes on below a cut.
@@ -194,7 +193,6 @@ CutSearch TreeSearch::search_from_guide(Node& node) const {
     const Descent& at = node.at;
     const Cut& cut = guide_->cuts.tree[at.node];
     Bracket bracket = guide_->brackets[at.node];
-    if (node.are_parts_counted) node.guided_below = weight_of(at.lower(), guide_->sums);
     if (guide_->limits) {
         node.places = guide_->limits->places(at, node.box, cut.axis);
         const AxisLimits& limits = guide_->limits->across(cut.axis);
@@ -202,8 +200,9 @@ CutSearch TreeSearch::search_from_guide(Node& node) const {
         bracket.upper = limits.nearest(bracket.upper, bracket.lower, node.places.last);
     } else {
         bracket.lower = std::max(bracket.lower, -std::numeric_limits<double>::max());
-        // Whole intervals take 1 % more rounds; 1.5 % more points move from earlier cuts.
-        const double missing = tree_.rule.missing_below(at, node.weight, node.guided_below);
+        // Whole intervals take 1 % more rounds.
+        const double missing =
+            node.are_parts_counted ? tree_.rule.missing_below(at, guide_->sums) : 0;
         if (missing > 0) bracket.lower = std::max(bracket.lower, cut.at[cut.axis]);
         if (missing < 0)
             bracket.upper = std::min(bracket.upper, std::nextafter(cut.at[cut.axis], infinity));
@@ -221,13 +220,6 @@ void TreeSearch::widen() {
                                                           : Bracket{before.upper, infinity}});
     }
     if (!nodes.empty()) open_.widen(nodes);
-}
-
-/// Takes the weights of a node's parts over all ranks. Returns whether its cut may stay.
-bool TreeSearch::take_sums(Node& node, std::span<const double> sums) const {
-    std::ranges::copy(sums, guide_->sums.begin() + node.at.first_part);
-    node.guided_below = weight_of(node.at.lower(), guide_->sums);
-    return tree_.rule.may_stay(node.at, guide_->sums);
 }
 
 }  // namespace rrcb

@@ -50,9 +50,9 @@ struct Guide {
     Cuts& cuts;                         ///< the search moves them, but keeps their axes
     std::span<const Bracket> brackets;  ///< in which they are looked for first
     CutLimits* limits;                  ///< null if cuts are not limited
-    std::span<double> sums;  ///< of the parts by the cuts, if they were counted; moved too
-    bool is_counted;         ///< the sums belong to the cuts
-    Box box;                 ///< of the points of this rank
+    std::span<const double> sums;       ///< of the parts by the cuts, if they were counted
+    bool is_counted;                    ///< the sums belong to the cuts
+    Box box;                            ///< of the points of this rank
 };
 
 /// Returns intervals in which the cuts of a guide end, most probably.
@@ -76,7 +76,7 @@ std::vector<Bracket> likely_intervals(const TargetRule& rule, const Guide& guide
 ///
 /// Central: rank 0 owns all nodes, in which all ranks take part. Cuts start from a Guide, which
 /// fixes their axes, and may be limited. If the counted parts of a node are good enough, its cuts
-/// are kept. If an earlier cut moves, the first count of a node below includes its parts.
+/// are kept.
 class TreeSearch {
   public:
     /// Starts a search of open points of this rank: a spread one without a guide, a central one
@@ -115,9 +115,8 @@ class TreeSearch {
     int num_coincident() const { return num_coincident_; }
 
   private:
-    /// First entry of a node's record from a rank with points there: it contains a histogram and
-    /// perhaps the weights of the parts below, the candidates, the weights of ranks, or the gap
-    /// around the cut.
+    /// First entry of a node's record from a rank with points there: it contains a histogram, the
+    /// candidates, the weights of ranks, or the gap around the cut.
     static constexpr double mark_of_histogram = 0;
     static constexpr double mark_of_candidates = 1;
     static constexpr double mark_of_weights = 2;
@@ -142,27 +141,24 @@ class TreeSearch {
         bool is_counted = true;          ///< false if the weight is wrong by up to a point
         bool are_parts_counted = false;  ///< the guide's sums contain its parts' weights
         CutSearch search{};
-        Total settled_below{};      ///< points of this rank below the interval of the cut
-        Total settled_above{};      ///< and above
-        Gap gap{};                  ///< while it is centred
-        bool is_wider = false;      ///< the cut has left its interval
-        bool is_taken = false;      ///< the owner gets all points, which were not counted
-        bool counts_parts = false;  ///< the first count includes the parts of the current cuts
-        Box found{};                ///< at the owner only: box of the points, once counted
-        CutTarget target{};         ///< likewise
-        LotAnswer lot{};            ///< likewise
-        double guided_below = not_counted;  ///< weight below the guide's cut, if counted
-        Places places{};                    ///< allowed for the cut
+        Total settled_below{};  ///< points of this rank below the interval of the cut
+        Total settled_above{};  ///< and above
+        Gap gap{};              ///< while it is centred
+        bool is_wider = false;  ///< the cut has left its interval
+        bool is_taken = false;  ///< the owner gets all points, which were not counted
+        Box found{};            ///< at the owner only: box of the points, once counted
+        CutTarget target{};     ///< likewise
+        LotAnswer lot{};        ///< likewise
+        Places places{};        ///< allowed for the cut
     };
 
-    /// Answer of an owner, followed by a LotAnswer, or after the first count of a node by the
-    /// weights of the parts below, if these were counted, or its box in a spread search.
+    /// Answer of an owner, followed by a LotAnswer, or after the first count of a node in a spread
+    /// search by its box.
     struct Answer {
         CutSearch search;
         double weight = 0;
     };
 
-    bool recounts() const { return tree_.rule.is_earlier && !tree_.rule.is_exact; }
     int owner_of(const Descent& at) const;
     bool takes_part(const Descent& at) const;
     double ideal_share(const Descent& part) const;
@@ -202,7 +198,6 @@ class TreeSearch {
     void decide_by_first_count(Node& node, std::span<const double> histogram, CutSearch& search);
     void follow(Node&& node, std::span<const double> payload);
     void follow_search(Node&& node, const CutSearch& next, std::span<const double> more);
-    bool take_sums(Node& node, std::span<const double> sums) const;
 
     PartTree tree_;
     const Guide* guide_;  ///< null in a spread search

@@ -128,14 +128,6 @@ class BruteOpenPoints final : public OpenPoints {
         }
     }
 
-    std::vector<double> part_weights(const Descent& at) const override {
-        std::vector<double> weights(static_cast<std::size_t>(at.num_parts));
-        for (const LocalIndex i : in(at))
-            weights[static_cast<std::size_t>(part_of(i, states_[i].at) - at.first_part)] +=
-                points_.weight(i);
-        return weights;
-    }
-
     std::vector<double> settle() override {
         std::vector<double> weights(has_cuts() ? static_cast<std::size_t>(cuts_.num_parts) : 0);
         for (LocalIndex i = 0; i < points_.count; ++i) {

@@ -16,7 +16,7 @@
 namespace rrcb::test {
 
 /// Cuts that a search starts from: none, if the owners of nodes search; those that rank 0 estimates
-/// from moments; any others.
+/// from moments; or estimated ones, moved.
 enum class Start { nothing, estimate, anywhere };
 
 struct RowCase {

@@ -124,41 +124,10 @@ TEST(TargetRule, keeps_every_part_within_the_tolerance_however_the_slack_is_spen
     }
 }
 
-/// A rule for earlier cuts of equal parts that are to weigh 100 each.
-TargetRule earlier_rule(const std::vector<double>& sizes, double tolerance, double heaviest = 0) {
-    TargetRule rule = rule_of(sizes, tolerance);
-    rule.is_earlier = true;
-    rule.heaviest = heaviest;
-    rule.counted_weight = 100 * static_cast<double>(sizes.size());
-    return rule;
-}
-
-TEST(TargetRule, of_earlier_cuts_goes_to_the_nearest_end_of_what_is_allowed) {
-    const std::vector<double> sizes{1, 1};
-    const TargetRule rule = earlier_rule(sizes, 1.1);
-    // From 90 to 110 below; a sixteenth of that is room to end the search in.
-    const CutTarget less = rule.target_of({0, 0, 2}, 200, 130);
-    EXPECT_NEAR(less.target, 110 - 20.0 / 16, 1e-10);
-    EXPECT_NEAR(less.slack, 20.0 / 16, 1e-10);
-    EXPECT_NEAR(rule.target_of({0, 0, 2}, 200, 75).target, 90 + 20.0 / 16, 1e-10);
-    EXPECT_NEAR(rule.target_of({0, 0, 2}, 200, 104).target, 104, 1e-10);
-    EXPECT_NEAR(rule.target_of({0, 0, 2}, 200).target, 100, 1e-10) << "nothing was counted";
-}
-
-TEST(TargetRule, of_earlier_cuts_leaves_room_for_whole_points) {
-    const std::vector<double> sizes{1, 1};
-    const CutTarget target = earlier_rule(sizes, 1.1, 8).target_of({0, 0, 2}, 200, 130);
-    EXPECT_NEAR(target.target, 106, 1e-10);
-    EXPECT_NEAR(target.slack, 4, 1e-10);
-    // Points of 40 do not fit into the 20 between the ends: the middle is safest.
-    EXPECT_NEAR(earlier_rule(sizes, 1.1, 40).target_of({0, 0, 2}, 200, 130).target, 100, 1e-10);
-    EXPECT_NEAR(earlier_rule(sizes, 1.1).target_of({0, 0, 2}, 240, 200).target, 120, 1e-10)
-        << "too heavy for any cut";
-}
-
 TEST(TargetRule, lets_cuts_stay_whose_sides_can_be_mended_below_or_need_no_mending) {
     const std::vector<double> sizes(4, 1.0);
-    const TargetRule rule = earlier_rule(sizes, 1.1);
+    TargetRule rule = rule_of(sizes, 1.1);
+    rule.counted_weight = 400;
     const Descent top{0, 0, 4};
     EXPECT_TRUE(rule.may_stay(top, std::vector<double>{120, 80, 100, 100}));
     EXPECT_FALSE(rule.may_stay({1, 0, 2}, std::vector<double>{120, 80, 100, 100}));
@@ -169,27 +138,6 @@ TEST(TargetRule, lets_cuts_stay_whose_sides_can_be_mended_below_or_need_no_mendi
     EXPECT_TRUE(rule.are_within(top, std::vector<double>{110, 110, 70, 110}));
     EXPECT_FALSE(rule.are_within(top, std::vector<double>{110, 110, 69, 111}));
     EXPECT_TRUE(rule.are_within({1, 0, 2}, std::vector<double>{110, 110, 69, 111}));
-}
-
-TEST(TargetRule, of_earlier_cuts_keeps_every_part_within_the_tolerance_from_wherever_they_were) {
-    for (const int num_parts : {2, 3, 5, 8, 13}) {
-        const std::vector<double> sizes(static_cast<std::size_t>(num_parts), 1.0);
-        const TargetRule rule = earlier_rule(sizes, 1.05);
-        const auto heaviest = [&](auto&& again, const Descent& at, double weight) -> double {
-            if (at.is_part()) return weight;
-            double most = 0;
-            for (const double before : {0.0, weight}) {
-                const CutTarget target = rule.target_of(at, weight, before);
-                for (const double below :
-                     {target.target - target.slack, target.target + target.slack})
-                    most = std::max({most, again(again, at.lower(), below),
-                                     again(again, at.upper(), weight - below)});
-            }
-            return most;
-        };
-        EXPECT_LE(heaviest(heaviest, {0, 0, num_parts}, 100.0 * num_parts), 105 + 1e-9)
-            << num_parts;
-    }
 }
 
 }  // namespace

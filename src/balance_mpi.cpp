@@ -56,9 +56,6 @@ Options introduce(const Given& given, const PointSummary& summary, Contribution&
     const bool spread = is_spread(options, given.ranks.number);
     require(options.tree.dealt == 0 || !spread,
             "tree.dealt must be 0 if many ranks make the parts; raise tuning.central_parts");
-    require(dynamic_cast<HostPasses*>(&given.points) || !spread,
-            "many ranks make the parts, which takes points on the host; raise "
-            "tuning.central_parts");
     if (given.previous) check_previous(*given.previous, options, dimension);
     mine.summary = summarize(summary, given.points.has_weights(), mpi::rank_of(self.comm));
     mine.summary.request = request_of(options, dimension, given.previous);
@@ -247,14 +244,14 @@ void keep(const Given& given, const Options& options, Decision& decision, Balanc
 
 /// Gives every rank the cuts that many ranks have found, and the weights of all parts. Collective:
 /// two reductions.
-void complete_cuts(PointPasses& points, Balance& result, const Options& options,
-                   Participant& self) {
+void complete_cuts(Balance& result, const Options& options, Participant& self) {
     const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
     join_cuts(result.cuts.tree, self);
-    if (result.report.details.num_points == 0) return;
-    auto& host = dynamic_cast<HostPasses&>(points);
-    result.report.part_weights =
-        part_weights(host.points(), host.parts_here(), result.cuts.num_parts, self);
+    if (result.report.details.num_points == 0) return result.report.part_weights.clear();
+    std::vector<double>& weights = result.report.part_weights;
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, weights.data(), mpi::to_int(std::ssize(weights)),
+                             MPI_DOUBLE, MPI_SUM, self.comm),
+               "MPI_Allreduce");
 }
 
 /// Makes cuts, across the axes of earlier ones unless others are clearly better. Collective.
@@ -281,7 +278,7 @@ Balance make_anew(const Given& given, Participant& self) {
         if (is_kept) decision.cuts = std::move(result.cuts);
     }
     if (is_kept) keep(given, options, decision, result, self);
-    if (verdict.answer == Answer::totals) complete_cuts(given.points, result, options, self);
+    if (verdict.answer == Answer::totals) complete_cuts(result, options, self);
     self.attempt([&] {
         const bool has_points = result.report.details.num_points > 0;
         if (given.previous && !has_points) result.cuts = fitted(*given.previous, options);

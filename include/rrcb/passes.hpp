@@ -180,7 +180,7 @@ class RRCB_API PointPasses {
 /// empty. Collective.
 ///
 /// @param points   of this rank; a rank without points has passes as well
-/// @param options  the same on every rank; more parts than Tuning::central_parts are refused
+/// @param options  the same on every rank
 /// @param previous as for balance()
 /// @param comm     as for balance()
 /// @return the cuts and a report

@@ -44,7 +44,8 @@ CollectedPoints::CollectedPoints(PointPasses& points, const Cuts& cuts,
     : points_(points),
       memory_(memory),
       collected_(std::move(memory.points)),
-      parts_(std::move(memory.parts)) {
+      parts_(std::move(memory.parts)),
+      num_parts_(cuts.num_parts) {
     const Descent root = root_of(cuts);
     if (std::ssize(cuts.tree) == cuts.num_parts - 1) {
         cuts_ = &cuts;
@@ -174,7 +175,7 @@ void CollectedPoints::narrow(const Cut& cut, const Entries& entries, Gap& gap) c
 /// Narrows a gap along its first axis by the settled points, which are not at the cut.
 void CollectedPoints::narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) {
     if (part_boxes_.empty()) {
-        part_boxes_ = points_.boxes(cuts_->num_parts);
+        part_boxes_ = points_.boxes(num_parts_);
         for (LocalIndex i = 0; i < parts_.size(); ++i)
             if (parts_[i] != no_part) widen_box(part_boxes_[parts_[i]], collected_.position(i));
     }
@@ -326,14 +327,16 @@ void CollectedPoints::settle_waiting(const Descent& at) {
 }
 
 std::vector<double> CollectedPoints::settle() {
-    std::vector<double> weights;
+    std::vector<double> weights(static_cast<std::size_t>(num_parts_));
     if (has_cuts()) {
         settle_waiting(root_of(*cuts_));
-        for (Part part = 0; part < cuts_->num_parts; ++part)
-            weights.push_back(total_of(part).weight);
+        for (Part part = 0; part < num_parts_; ++part) weights[part] = total_of(part).weight;
     }
     for (const auto& [place, entries] : held_)
-        for (const LocalIndex i : entries) parts_[i] = place.first;
+        for (const LocalIndex i : entries) {
+            parts_[i] = place.first;
+            weights[place.first] += collected_.weight(i);
+        }
     points_.settle(collected_, parts_);
     memory_ = {std::move(collected_), std::move(parts_)};
     return weights;

@@ -63,7 +63,8 @@ class CollectedPoints final : public OpenPoints {
     PointPasses& points_;
     OpenMemory& memory_;  ///< gets the points back
     Collected collected_;
-    std::vector<Part> parts_;          ///< of the collected points, no_part of those that wait
+    std::vector<Part> parts_;  ///< of the collected points, no_part of those that wait
+    int num_parts_;
     const Cuts* cuts_ = nullptr;       ///< null in a tree without cuts
     std::vector<Step> steps_;          ///< at each node of the cuts
     std::vector<Total> arrived_;       ///< totals of the collected points with parts

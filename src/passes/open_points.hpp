@@ -105,7 +105,7 @@ class OpenPoints {
     virtual void widen(std::span<const WiderNode> nodes) = 0;
 
     /// Gives all points their part, those that still wait by the cuts. Returns the weights of this
-    /// rank's points in each part; none for a tree without cuts. Called last.
+    /// rank's points in each part. Called last.
     virtual std::vector<double> settle() = 0;
 };
 

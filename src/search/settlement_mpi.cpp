@@ -178,30 +178,32 @@ void Settlement::search_once(Participant& self) {
                     .num_parts = tree_.num_parts,
                     .tree = {},
                     .shape = tree_.shape};
+    const Guide* const known = is_spread_ ? nullptr : &guide;
     std::vector<Bracket> intervals;
     std::unique_ptr<OpenPoints> open;
     std::optional<TreeSearch> search;
     self.attempt([&] {
-        if (is_spread_) {
-            open = open_points(points_, none, {}, false, memory_.open);
-        } else {
+        if (known) {
             intervals = likely_intervals(tree_.rule, guide);
             if (!limits_) guide.brackets = intervals;
-            open = open_points(points_, made_.cuts, intervals, has_parts, memory_.open);
         }
-        search.emplace(tree_, butterfly_.rank(), *open, is_spread_ ? nullptr : &guide);
+        open = open_points(points_, known ? made_.cuts : none, intervals, has_parts, memory_.open);
+        search.emplace(tree_, butterfly_.rank(), *open, known);
     });
     made_.rounds += run_rounds(search, self);
     const int num_coincident = search->num_coincident();
-    made_.coincident_cuts += is_spread_ ? mpi::sum_of(num_coincident, self.comm) : num_coincident;
+    made_.coincident_cuts += known ? num_coincident : mpi::sum_of(num_coincident, self.comm);
+    std::vector<double> weights;
     self.attempt([&] {
-        std::ranges::copy(open->settle(), sums_.here().begin());
-        if (is_spread_) made_.cuts = search->own_cuts();
+        weights = open->settle();
+        if (!known) made_.cuts = search->own_cuts();
     });
-    if (is_spread_)
-        made_.imbalance = butterfly_.flags()[2];
-    else
-        measure(self);
+    if (known) {
+        std::ranges::copy(weights, sums_.here().begin());
+        return measure(self);
+    }
+    made_.part_weights = std::move(weights);
+    made_.imbalance = butterfly_.flags()[2];
 }
 
 /// Ends a search, which this rank lacks if it has failed; returns the number of rounds.
@@ -210,20 +212,20 @@ void Settlement::search_once(Participant& self) {
 /// to the owners. Throws on every rank the failure of one, before or here; a failure in the last
 /// messages is held back until the next agreement.
 int Settlement::run_rounds(std::optional<TreeSearch>& search, Participant& self) {
-    const bool is_central = butterfly_.is_central();
+    const bool has_one_owner = tree_.num_owners == 1;
     // Rank 0 of a central search knows all nodes, and sends with its answers whether any are left.
-    const bool follows_first = is_central && butterfly_.rank() == root;
+    const bool follows_first = has_one_owner && butterfly_.rank() == root;
     // All ranks know the same flags after each round, and therefore agree on the next messages.
     for (int rounds = 0;; ++rounds) {
         butterfly_.clear();
         self.attempt([&] { search->ask(butterfly_); });
         messages_.run(butterfly_, Butterfly::to_owners, flags_of(search), self);
-        if (!is_central && butterfly_.flags()[1] == 0) return rounds;
+        if (!has_one_owner && butterfly_.flags()[1] == 0) return rounds;
         self.attempt([&] { search->decide(butterfly_); });
         if (follows_first) self.attempt([&] { search->follow(butterfly_); });
         messages_.run(butterfly_, Butterfly::back, flags_of(search), self);
         if (!follows_first) self.attempt([&] { search->follow(butterfly_); });
-        if (is_central && butterfly_.flags()[1] == 0) return rounds + 1;
+        if (has_one_owner && butterfly_.flags()[1] == 0) return rounds + 1;
     }
 }
 
@@ -233,10 +235,12 @@ void Settlement::search_for_better(Participant& self) {
     const bool keeps_parts = is_spread_ || tree_.divides_coincident;
     Cuts cuts_before;
     std::vector<double> sums_before;
+    std::vector<double> here_before;
     std::vector<Part> parts_before;
     self.attempt([&] {
         const auto sums = sums_.sums();
         cuts_before = made_.cuts;
+        here_before = made_.part_weights;
         sums_before.assign(sums.begin(), sums.end());
         if (keeps_parts) parts_before = points_.parts();
     });
@@ -253,6 +257,7 @@ void Settlement::search_for_better(Participant& self) {
     made_.imbalance = imbalance_before;
     made_.coincident_cuts = coincident_before;
     made_.cuts = std::move(cuts_before);
+    made_.part_weights = std::move(here_before);
     std::ranges::copy(sums_before, sums_.sums().begin());
     self.attempt([&] {
         if (keeps_parts) return points_.set_parts(parts_before);

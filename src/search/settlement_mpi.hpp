@@ -60,7 +60,8 @@ struct AllPoints {
 struct SettledCuts {
     Cuts cuts{};
     std::vector<Bracket> brackets{};     ///< in which the search for the cuts of rank 0 begins
-    std::vector<double> part_weights{};  ///< over all ranks, if counted
+    std::vector<double> part_weights{};  ///< over all ranks, if counted; of this rank's
+                                         ///< points if many ranks make the parts
     double imbalance = std::numeric_limits<double>::quiet_NaN();  ///< NaN if not counted
     int rounds = 0;
     int coincident_cuts = 0;

@@ -34,6 +34,7 @@ struct Case {
         options.refine = one_of(3) == 0 ? Refine::exact : Refine::tolerance;
         options.coincident = one_of(2) == 0 ? Coincident::together : Coincident::divide;
         const auto size = static_cast<std::size_t>(1) << one_of(15);
+        if (one_of(4) == 0) options.tuning.central_parts = 2;  // many ranks make more parts
         name = "seed " + std::to_string(seed) + " shape " + std::to_string(shape);
         std::mt19937_64 engine(1000 * seed + static_cast<unsigned>(rank()));
         add_points(shape, engine() % (2 * size), engine);

@@ -246,15 +246,13 @@ TEST(Passes, that_answer_with_other_lengths_are_refused_on_all_ranks) {
         }
 }
 
-TEST(Passes, are_refused_if_many_ranks_make_the_parts) {
-    const Cloud cloud(100, 2, 5);
-    test::BrutePasses passes = cloud.passes();
-    Options options;
-    options.num_parts = 5;
-    options.tuning.central_parts = 2;
-    const std::string text = error_of(passes, options);
-    EXPECT_EQ(text.find("raise tuning.central_parts") != std::string::npos, num_ranks() > 2)
-        << text;
+TEST(Passes, are_divided_by_many_ranks_too) {
+    Cloud cloud(700, 2, 5);
+    for (std::size_t i = 0; i < 700; ++i) cloud.weights.push_back(static_cast<double>(1 + i % 7));
+    for (Options& options : kinds(9)) {
+        options.tuning.central_parts = 2;
+        expect_same(cloud, options, {}, "many ranks");
+    }
 }
 
 }  // namespace

@@ -129,10 +129,10 @@ class BruteOpenPoints final : public OpenPoints {
     }
 
     std::vector<double> settle() override {
-        std::vector<double> weights(has_cuts() ? static_cast<std::size_t>(cuts_.num_parts) : 0);
+        std::vector<double> weights(static_cast<std::size_t>(cuts_.num_parts));
         for (LocalIndex i = 0; i < points_.count; ++i) {
             const Part part = parts_[i] = part_of(i, states_[i].at);
-            if (has_cuts()) weights[static_cast<std::size_t>(part)] += points_.weight(i);
+            weights[static_cast<std::size_t>(part)] += points_.weight(i);
         }
         return weights;
     }

@@ -131,6 +131,10 @@ class RRCB_API PointPasses {
     /// as collect(); all points if `cuts` has no tree. The answer stands for collect(),
     /// collect_more(), boxes() and settle(), and borrows the cuts. Returns null if the engine is to
     /// call these instead, and to keep copies of the open points, as all passes of this version do.
+    ///
+    /// @param cuts      as for collect(); without a tree none
+    /// @param intervals one per cut
+    /// @param has_parts the points have the parts by these cuts
     virtual std::unique_ptr<OpenPoints> open(const Cuts& cuts, std::span<const Bracket> intervals,
                                              bool has_parts);
 

@@ -32,8 +32,6 @@ class HostPasses final : public PointPasses {
     std::vector<Part> parts() const override { return parts_; }
     void set_parts(std::span<const Part> parts) override;
 
-    /// Returns the arrays, without weights if these are not used.
-    const Points& points() const { return points_; }
     /// Returns the parts, one per point from the first summary() on.
     std::span<Part> parts_here() { return parts_; }
     /// Moves the parts out.

@@ -151,7 +151,7 @@ void prepare(const Given& given, Options& options, Contribution& mine, Decision&
     if (given.previous) decision.preferred = axes_of(given.previous->tree);
     if (spread && given.previous && !options.axes.order.is_given())
         options.axes.order = AxisOrder::given(decision.preferred);
-    settlement.emplace(options, points, reads_kept, self);
+    settlement.emplace(options, points, reads_kept || given.previous, self);
     if (spread) {
         decision.verdict.answer = Answer::totals;
         return;
@@ -181,6 +181,7 @@ SettledCuts settle(const Given& given, const Options& options, const Box& here, 
                    Participant& self) {
     const Verdict& verdict = decision.verdict;
     const bool may_keep = verdict.kept_imbalance < not_kept;
+    const bool counts = may_keep || given.previous;
     // Kept parts would still be sent.
     if (!may_keep) decision.message = std::vector<std::byte>();
     const bool is_searched = is_spread(options, given.ranks.number) ||
@@ -194,7 +195,7 @@ SettledCuts settle(const Given& given, const Options& options, const Box& here, 
                         verdict.box,
                         report.details.least_imbalance,
                         verdict.kept_imbalance};
-    return settlement.run(all, here, may_keep, std::move(made), self);
+    return settlement.run(all, here, counts, std::move(made), self);
 }
 
 /// Takes the settled cuts as the result.

@@ -120,4 +120,4 @@ if comm.rank == 0:
 
 # Output on 4 ranks:
 # 66744352 pairs of neighbours met in 100 steps
-# 7 rebalances, mean imbalance 1.121807640
+# 6 rebalances, mean imbalance 1.101568684

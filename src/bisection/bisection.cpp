@@ -38,27 +38,25 @@ double share_below_node(const Descent& at, const Options& options) {
     return share_below(sizes, at.lower_parts());
 }
 
-/// Returns the axis of a cut, unless another one is found to leave clearly less weight near it: the
-/// preferred axis, or the longest if that is clearly longer and weights near cuts are not compared.
-int usual_axis(const Piece& piece, std::span<const int> axes, bool compares_near,
-               const Task& task) {
+/// Returns the preferred axis of a cut, if the piece has an extent along it; with
+/// AxisOrder::longest() nearly the longest one. Otherwise returns the longest axis.
+int usual_axis(const Piece& piece, std::span<const int> axes, const Task& task) {
     const Box& extent = task.profile.extent();
     const int longest = longest_axis(extent, axes, nearly);
     if (task.preferred.empty()) return longest;
     const int preferred = task.preferred[piece.at.node];
     if (std::ranges::find(axes, preferred) == axes.end()) return longest;
     const auto half = [&](int axis) { return extent.upper[axis] / 2 - extent.lower[axis] / 2; };
-    const double enough = compares_near ? 0 : nearly * half(longest);
+    const double enough = task.options.axes.order.is_longest() ? nearly * half(longest) : 0;
     return half(preferred) > 0 && half(preferred) >= enough ? preferred : longest;
 }
 
 /// Replaces a cut across the usual axis by one across another that has clearly less weight near it.
 void choose_fewest(const Profile& profile, std::span<const int> axes, double target,
                    const Task& task, Cut& best) {
-    // Few patches show the weight near a cut with a large error. Cuts that are kept for long may
-    // turn for less.
+    // Few patches show the weight near a cut with a large error.
     const auto num_patches = static_cast<double>(profile.domain().patches.size());
-    const double enough = task.preferred.empty() ? nearly - 1 / std::sqrt(num_patches) : nearly;
+    const double enough = nearly - 1 / std::sqrt(num_patches);
     const bool plain = task.options.axes.plain;
     const double reach = profile.mean_half_side();
     const Box& extent = profile.extent();
@@ -89,11 +87,10 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     const Box& extent = profile.extent();
     const auto axes = task.axis_choice(piece.at.node, piece.depth);
     const double weight = profile.weight();
-    const bool compares_near = task.shows_near && weight > task.light && axes.size() > 1 &&
-                               !task.options.axes.order.is_longest();
-    const int usual = usual_axis(piece, axes, compares_near, task);
+    const bool counts_near = !task.options.axes.order.is_longest() && task.preferred.empty();
+    const int usual = usual_axis(piece, axes, task);
     if (task.limits && task.limits->divides(piece.at))
-        return cut_in_places(piece, profile, below, usual, task.options, *task.limits);
+        return cut_in_places(piece, profile, below, usual, counts_near, task.options, *task.limits);
     // First: a side of size 0 is empty even if the domain has no weight.
     if (below >= 1) return plane(usual, infinity);
     if (below <= 0 || !(weight > 0)) return plane(usual, -infinity);
@@ -101,7 +98,9 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     if (extent.lower == extent.upper) return plane(usual, below < 0.5 ? -infinity : infinity);
     const double target = below * weight;
     Cut cut = weighted_quantile(profile, usual, target, task.options.axes.plain);
-    if (compares_near) choose_fewest(profile, axes, target, task, cut);
+    const bool shows_near = task.shows_near && weight > task.light;
+    if (counts_near && shows_near && axes.size() > 1)
+        choose_fewest(profile, axes, target, task, cut);
     return cut;
 }
 
@@ -206,8 +205,8 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
                   {options, axis_choice, nullptr, with_brackets, preferred});
 }
 
-bool are_axes_good(const StatisticalDomain& domain, const Cuts& cuts, const Cuts& fresh) {
-    constexpr double enough = 0.85;
+bool are_axes_good(const StatisticalDomain& domain, const Cuts& cuts, const Cuts& fresh,
+                   double enough) {
     const NonStop arithmetic;
     const double reach = Profile(domain).mean_half_side() / 4;  // as the cut-off radii of codes
     const auto near = [&](const Cuts& some) {

@@ -14,13 +14,13 @@ double expected_error(int depth);
 
 /// As the public function, with complete options and, on request, the brackets of the cuts. The
 /// domain stands for `num_points`; 0: for any number. Axes of `preferred`, one per cut in preorder
-/// or none, are taken unless others are clearly better.
+/// or none, are taken where that is possible.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
                  GlobalCount num_points = 0, std::span<const int> preferred = {});
 
-/// Returns true if the weight near all cuts is not much more than that near `fresh` cuts of the
-/// same domain. This is less strict than for a new cut, whose domain is another; otherwise cuts
-/// might turn in every call. Points in few places have no weight near cuts that could be compared.
-bool are_axes_good(const StatisticalDomain& domain, const Cuts& cuts, const Cuts& fresh);
+/// Returns true if the weight near all cuts, times `enough`, is not more than that near `fresh`
+/// cuts of the same domain. Points in few places have no weight near cuts that could be compared.
+bool are_axes_good(const StatisticalDomain& domain, const Cuts& cuts, const Cuts& fresh,
+                   double enough);
 
 }  // namespace rrcb

@@ -80,11 +80,10 @@ bool are_in_places(CutLimits& limits, const Descent& at, const Box& region, cons
 }  // namespace
 
 Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int usual,
-                  const Options& options, CutLimits& limits) {
+                  bool counts_near, const Options& options, CutLimits& limits) {
     constexpr double bearable = 0.005;
     const double weight = profile.weight();
     const double bearable_error = bearable * std::min(share, 1 - share) * weight;
-    const bool counts_near = !options.axes.order.is_longest();
     const double reach = counts_near ? profile.mean_half_side() : 0;
     Trial best{};
     double least = infinity;

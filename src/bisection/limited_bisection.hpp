@@ -17,11 +17,11 @@ struct Piece {
 };
 
 /// Returns the cut of a piece with the share `share` of its weight below. Among the cuts with a
-/// bearable error it is the one that the options prefer: across the `usual` axis, or
-/// with the least weight near it. If there is none, it is the cut with the least error. The cuts
+/// bearable error it is the one across the `usual` axis or, if it `counts_near`, with clearly less
+/// weight near it. If there is none, it is the cut with the least error. The cuts
 /// below are not considered.
 Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int usual,
-                  const Options& options, CutLimits& limits);
+                  bool counts_near, const Options& options, CutLimits& limits);
 
 /// Bisects as bisect(), with all cuts at allowed places, for points in the box `points`. Throws
 /// Error if there is no room for the parts.

@@ -151,13 +151,27 @@ std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
     return read_kept_tree(extents, estimate, options);
 }
 
+/// Bisects the cells of all ranks across the axes of earlier cuts, unless free ones leave clearly
+/// less weight near all cuts together: one cut that turns moves all points below it.
+Bisection choose_axes(const StatisticalDomain& domain, const Contribution& all,
+                      const Options& options, std::span<const int> earlier) {
+    constexpr double enough = 0.9;
+    Bisection made = bisect_gathered(domain, all, options, {});
+    if (earlier.empty() || std::ranges::equal(axes_of(made.cuts.tree), earlier)) return made;
+    Bisection along = bisect_gathered(domain, all, options, earlier);
+    const bool stays =
+        options.axes.order.is_longest() || are_axes_good(domain, along.cuts, made.cuts, enough);
+    return stays ? along : made;
+}
+
 /// Bisects the cells of all ranks, and reads what the ranks hold. If that is a bisection, the cuts
 /// are across its axes; otherwise points at rest might turn in every call. Cuts across other axes
 /// come as well, for points to be counted near them, because the estimate depends on what the ranks
 /// hold: always if the present parts are uneven, otherwise if they seem to be better.
 Bisection make_cuts(const Contribution& all, const Options& options, Decision& decision) {
+    constexpr double enough = 0.85;
     const StatisticalDomain domain = build_domain(all, decision.cuts.dimension);
-    Bisection made = bisect_gathered(domain, all, options, decision.preferred);
+    Bisection made = choose_axes(domain, all, options, decision.preferred);
     decision.held = read_held(all, made.cuts, options);
     if (!decision.held) return made;
     const std::vector<int> axes = axes_of(decision.held->cuts.tree);
@@ -167,7 +181,7 @@ Bisection make_cuts(const Contribution& all, const Options& options, Decision& d
     Bisection across = bisect_gathered(domain, all, along, {});
     const bool is_even = decision.held->imbalance <= options.imbalance_tolerance;
     if (!options.axes.order.is_longest() &&
-        !(is_even && are_axes_good(domain, decision.held->cuts, made.cuts)))
+        !(is_even && are_axes_good(domain, decision.held->cuts, made.cuts, enough)))
         decision.turned = std::move(made);
     return across;
 }

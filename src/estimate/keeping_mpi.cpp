@@ -132,7 +132,6 @@ bool is_worth_moving(double kept, double offered, const Options& options) {
 
 bool is_worth_moving(const Report& kept, const Report& offered, const Options& options) {
     constexpr double rounding = 1e-12;
-    if (!is_refined(options)) return true;
     const auto num_empty = [](const Report& report) {
         return std::ranges::count(report.part_weights, 0.0);
     };

@@ -35,8 +35,8 @@ bool are_as_exact(std::span<const double> kept, std::span<const double> found, c
 bool is_worth_moving(double kept, double offered, const Options& options);
 
 /// Returns true if new parts are worth moving points out of the parts of earlier cuts, which are
-/// not within the tolerance: if they are not counted, if their imbalance is worth it, or if they
-/// leave fewer parts of equal size empty without a loss.
+/// not within the tolerance: if their imbalance is worth it, or if they leave fewer parts of equal
+/// size empty without a loss.
 bool is_worth_moving(const Report& kept, const Report& offered, const Options& options);
 
 /// Returns the distance from a cut within which has_far_fewer_near() counts: some spacings of

@@ -86,7 +86,7 @@ SettledCuts Settlement::run(const AllPoints& all, const Box& here, bool counts, 
     } else {
         assign(counts, self);
     }
-    if (!is_spread_ && (counts || has_parts_)) made_.part_weights = sums_.take();
+    if (!is_spread_ && (counts || has_parts_) && all.number > 0) made_.part_weights = sums_.take();
     if (all.number == 0) made_.imbalance = 1;
     return std::move(made_);
 }

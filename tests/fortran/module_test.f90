@@ -59,6 +59,17 @@ program module_test
   particles%x = x(1, :)
   particles%short = real(x(1, :), c_float)
 
+  call other%create(MPI_COMM_WORLD)
+  call other%set("refine", "NONE")
+  call other%balance(rrcb_interleaved_points(x), parts)
+  images = x**3
+  call other%balance(rrcb_interleaved_points(images), parts)
+  deallocate (images)
+  do i = 1, 3
+    k = count(parts == i - 1)
+    call expect(num_points == 0 .or. (k > 80 .and. k < 120), "uncounted cuts follow the points")
+  end do
+  call other%destroy()
   call balancer%create(MPI_COMM_WORLD, error)
   call expect(error == rrcb_ok, "create")
   call balancer%set("refine ", "EXACT ", error)
@@ -121,6 +132,7 @@ program module_test
   call expect(error == rrcb_ok .and. all(again == parts), "assign_all")
   again = -1
   call other%set("refine", "NONE")
+  call other%set("imbalance_tolerance", "2")
   call other%set("tree.group_size", "1")
   call other%set("tree.larger_below", "OFF")
   call other%set("tree.dealt", "0")

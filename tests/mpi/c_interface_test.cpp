@@ -162,6 +162,25 @@ TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
     EXPECT_EQ(parts, anew.parts);
 }
 
+TEST_F(CInterface, keeps_uncounted_cuts_within_the_tolerance_only) {
+    Cloud cloud(2);
+    const Options options{.imbalance_tolerance = 1.1, .refine = Refine::none};
+    ASSERT_EQ(rrcb_set(balancer, "refine", "NONE"), RRCB_OK);
+    ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", "1.1"), RRCB_OK);
+    ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
+    const Cuts first = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
+    Cuts cuts = first;
+    for (int call = 0; call < 6; ++call) {
+        const rrcb_points points = cloud.in_c();
+        ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
+        const Balance expected = rrcb::balance(cloud.points(), options, cuts, MPI_COMM_WORLD);
+        EXPECT_EQ(parts, expected.parts);
+        cuts = expected.cuts;
+        for (double& x : cloud.coordinates) x = std::pow(x, 1.2);
+    }
+    EXPECT_TRUE(num_ranks() == 1 || cuts.tree[0].at != first.tree[0].at);
+}
+
 /// Parts 0 and 2 on the left, for two machines of two ranks, which are dealt in turns.
 TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
     const std::array<rrcb_cut, 3> tree{{{0, 0, {2}}, {0, 0, {1}}, {0, 0, {3}}}};

@@ -181,7 +181,21 @@ def test_balances_from_earlier_cuts():
     later = rrcb.balance(moved, comm=comm, previous=pickle.loads(pickle.dumps(first.cuts)))
     check_balance(later, moved)
     assert later.report.imbalance <= 1.01
-    assert "imbalance" in repr(later.report) and len(repr(later.report).splitlines()) == 14
+    assert "imbalance" in repr(later.report) and len(repr(later.report).splitlines()) == 12
+
+
+def test_keeps_uncounted_cuts_within_the_tolerance_only():
+    x = np.random.default_rng([5, ME]).random((2000, 2))
+    balance = rrcb.balance(x, comm=comm, refine="NONE", imbalance_tolerance=1.1)
+    first = balance.cuts
+    for _ in range(6):
+        balance = rrcb.balance(
+            x, comm=comm, previous=balance, refine="NONE", imbalance_tolerance=1.1
+        )
+        counts = comm.allreduce(np.bincount(balance.parts, minlength=RANKS).astype(float))
+        assert counts.max() / counts.mean() < 1.15
+        x = x**1.2
+    assert RANKS == 1 or not np.array_equal(balance.cuts.tree, first.tree)
 
 
 def test_reads_cuts_of_the_other_byte_order():

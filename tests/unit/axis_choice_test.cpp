@@ -127,17 +127,14 @@ TEST(AxisRule, crosses_the_longest_axis_unless_another_saves_a_tenth) {
     EXPECT_EQ(axes_by({}, corners, 2), (std::vector<int>{1}));
 }
 
-TEST(PreferredAxes, are_taken_unless_another_saves_a_tenth) {
+TEST(PreferredAxes, are_taken_where_points_extend_along_them) {
     const auto axes = [](const AxisOrder& order, double height, std::vector<int> preferred) {
         return axes_of(cuts_by(order, even_box(1, height), 4, 0, preferred).tree);
     };
-    EXPECT_EQ(axes({}, 1, {1, 0, 0}), (std::vector<int>{1, 0, 0}));
-    EXPECT_EQ(axes({}, 1.08, {0, 1, 1}), (std::vector<int>{0, 1, 1}));
-    EXPECT_EQ(axes({}, 1.2, {0, 1, 1}), (std::vector<int>{1, 0, 0}));
+    EXPECT_EQ(axes({}, 1.5, {0, 0, 0}), (std::vector<int>{0, 0, 0}));
     EXPECT_EQ(axes(AxisOrder::longest(), 1.08, {0, 1, 1}), (std::vector<int>{0, 1, 1}));
     EXPECT_EQ(axes(AxisOrder::longest(), 1.2, {0, 1, 1}), (std::vector<int>{1, 0, 0}));
     EXPECT_EQ(axes(AxisOrder::among({1}), 1, {0, 0, 0}), (std::vector<int>{1, 1, 1}));
-    // No weight is near a cut where the points have no extent.
     StatisticalDomain line{2, {{{0, 0, 0}, {1, 0, 0}, 1}}};
     EXPECT_EQ(axes_of(cuts_by({}, line, 2, 0, {1}).tree), (std::vector<int>{0}));
 }
@@ -145,13 +142,13 @@ TEST(PreferredAxes, are_taken_unless_another_saves_a_tenth) {
 TEST(KeptAxes, are_good_if_all_cuts_together_have_about_as_much_weight_near) {
     const StatisticalDomain square = even_box(1, 1);
     const Cuts fresh = cuts_by({}, square, 4);
-    EXPECT_TRUE(are_axes_good(square, cuts_by({}, square, 4), fresh));
-    EXPECT_FALSE(are_axes_good(square, cuts_by(AxisOrder::among({0}), square, 4), fresh));
+    EXPECT_TRUE(are_axes_good(square, cuts_by({}, square, 4), fresh, 0.85));
+    EXPECT_FALSE(are_axes_good(square, cuts_by(AxisOrder::among({0}), square, 4), fresh, 0.85));
     // Four quarters in another order: the first cut is the worse, the others are the better.
     const StatisticalDomain high = even_box(1, 1.4);
     const Cuts quarters = cuts_by(AxisOrder::given({0, 1, 1}), high, 4);
     EXPECT_EQ(axes_by({}, high, 4), (std::vector<int>{1, 0, 0}));
-    EXPECT_TRUE(are_axes_good(high, quarters, cuts_by({}, high, 4)));
+    EXPECT_TRUE(are_axes_good(high, quarters, cuts_by({}, high, 4), 0.85));
 }
 
 }  // namespace

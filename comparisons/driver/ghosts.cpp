@@ -152,11 +152,13 @@ struct Follower {
     void go_on(const rrcb::Points& points, bool keeps_axes) {
         if (balance.cuts.num_parts != options.num_parts) {
             balance = rrcb::balance(points, options, {}, MPI_COMM_SELF);
+            std::vector<int> axes;
+            for (const rrcb::Cut& cut : balance.cuts.tree) axes.push_back(cut.axis);
+            if (keeps_axes) options.axes.order = rrcb::AxisOrder::given(axes);
             return;
         }
-        rrcb::Cuts previous = std::exchange(balance.cuts, {});
+        const rrcb::Cuts previous = std::exchange(balance.cuts, {});
         const std::vector<Part> before = std::move(balance.parts);
-        if (keeps_axes) previous.near = {};
         balance = rrcb::balance(points, options, previous, MPI_COMM_SELF);
         std::size_t changed = 0;
         for (std::size_t i = 0; i < before.size(); ++i) changed += before[i] != balance.parts[i];

@@ -12,7 +12,7 @@ from pathlib import Path
 TYPE_DATA = re.compile(r"(typeinfo|typeinfo name|vtable) for rrcb::(\w+)$")
 
 # What has no body in the library.
-ELSEWHERE = re.compile(r"(template|using|typedef|static_assert|constexpr|inline|virtual)\b"
+ELSEWHERE = re.compile(r"(template|using|typedef|static_assert|constexpr|inline)\b"
                        r"|.*=\s*(0|default|delete)$", re.S)
 
 

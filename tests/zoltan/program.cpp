@@ -213,16 +213,6 @@ void repeat(Program& program, int times) {
     for (int i = 0; i < times; ++i) program.partition();
 }
 
-std::vector<char> bytes_of(const Zoltan_Struct* zz) {
-    std::vector<char> bytes(Zoltan_Serialize_Size(zz));
-    EXPECT_EQ(Zoltan_Serialize(zz, bytes.size(), bytes.data()), ZOLTAN_OK);
-    return bytes;
-}
-
-int unpack(Zoltan_Struct* zz, std::vector<char> bytes) {
-    return Zoltan_Deserialize(zz, bytes.size(), bytes.data());
-}
-
 void count_migration(Zoltan_Struct* handle, Migration& migration) {
     ZOLTAN_OBJ_SIZE_FN* size = [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int* code) {
         *code = ZOLTAN_OK;

@@ -96,9 +96,17 @@ void use_hier(Program& program, const char* inner_method);
 /// Partitions again and again.
 void repeat(Program& program, int times);
 
-/// The contents of a handle, and a handle with them.
-std::vector<char> bytes_of(const Zoltan_Struct* zz);
-int unpack(Zoltan_Struct* zz, std::vector<char> bytes);
+/// Returns the contents of a handle. Inline, because an older Zoltan lacks the functions.
+inline std::vector<char> bytes_of(const Zoltan_Struct* zz) {
+    std::vector<char> bytes(Zoltan_Serialize_Size(zz));
+    EXPECT_EQ(Zoltan_Serialize(zz, bytes.size(), bytes.data()), ZOLTAN_OK);
+    return bytes;
+}
+
+/// Gives a handle such contents; returns Zoltan's code.
+inline int unpack(Zoltan_Struct* zz, std::vector<char> bytes) {
+    return Zoltan_Deserialize(zz, bytes.size(), bytes.data());
+}
 
 /// Lets Zoltan migrate objects, which it then counts.
 void count_migration(Zoltan_Struct* handle, Migration& migration);

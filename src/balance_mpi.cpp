@@ -5,7 +5,6 @@
 #include "collective/duplicate.hpp"
 #include "collective/machines_mpi.hpp"
 #include "collective/stage_scope.hpp"
-#include "cuts/cut_limits.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "estimate/earlier_cuts.hpp"
 #include "estimate/keeping_mpi.hpp"
@@ -19,7 +18,6 @@
 #include "verbose_mpi.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -89,18 +87,6 @@ void number_parts(const Cuts& cuts, PointPasses& points) {
     points.renumber(numbers);
 }
 
-/// Gives the weights of parts the unit of the points, and the user's order. Not collective.
-void finish_weights(const Verdict& verdict, Balance& result) {
-    const Cuts& cuts = result.cuts;
-    std::vector<double>& weights = result.report.part_weights;
-    if (verdict.is_counted())
-        for (double& weight : weights) weight *= verdict.unit();
-    if (cuts.shape.dealt == 0) return;
-    const std::vector<double> of_ends = weights;
-    for (std::size_t end = 0; end < of_ends.size(); ++end)
-        weights[part_at(cuts, static_cast<Part>(end))] = of_ends[end];
-}
-
 /// Returns true if the parts of earlier cuts are weighed, because they may be kept.
 bool weighs_earlier(const Given& given) {
     if (!given.previous || given.options.refine == Refine::exact) return false;
@@ -123,16 +109,15 @@ Balance weigh_earlier(const Given& given, Participant& self) {
         mine.part_totals = totals.weights;
         mine.part_totals.insert(mine.part_totals.end(), totals.counts.begin(), totals.counts.end());
     });
-    Balance result;
+    Balance result{.report = decide_on_all(given, options, mine, decision, self)};
     Report& report = result.report;
-    report = decide_on_all(given, options, mine, decision, self);
     result.cuts = std::move(decision.cuts);
     report_measured(report.imbalance, options.imbalance_tolerance, report);
     if (report.details.num_points == 0) return result;
     report.details.rounds = is_refined(options) ? 1 : 0;
     report.part_weights = std::move(decision.part_weights);
     self.attempt([&] {
-        finish_weights(decision.verdict, result);
+        finish_weights(decision.verdict, result.cuts, report.part_weights);
         number_parts(result.cuts, given.points);
     });
     return result;
@@ -159,20 +144,6 @@ void prepare(const Given& given, Options& options, Contribution& mine, Decision&
     if (reads_kept && given.may_keep) append_extent(summary, points.dimension(), mine.extents);
     make_buffers(decision, options, points.dimension(), reads_kept);
     add_records(points, summary.box, given.ranks.number, options, mine);
-}
-
-/// Turns the cuts across other axes than those between the ranks, if that leaves far fewer points
-/// near them; then the ranks' present parts are not kept. Collective: a reduction.
-void turn_if_better(PointPasses& points, Decision& decision, SettledCuts& made, Report& report,
-                    Participant& self) {
-    Verdict& verdict = decision.verdict;
-    const double reach = wide_reach(verdict.box, verdict.num_points);
-    Bisection& turned = decision.turned;
-    if (!has_far_fewer_near(turned.cuts, made.cuts, reach, points, self)) return;
-    made.cuts = std::move(turned.cuts);
-    made.brackets = std::move(turned.brackets);
-    verdict.kept_imbalance = not_kept;
-    report.details.estimated_imbalance = verdict.turned_imbalance;
 }
 
 /// Moves the cuts by counts of all ranks, or only gives the points their parts. Collective.
@@ -263,11 +234,13 @@ Balance make_anew(const Given& given, Participant& self) {
     std::optional<Settlement> settlement;
     self.attempt([&] { prepare(given, options, mine, decision, settlement, self); });
     const Box here = mine.summary.box;
-    Balance result;
-    result.report = decide_on_all(given, options, mine, decision, self);
+    Balance result{.report = decide_on_all(given, options, mine, decision, self)};
     SettledCuts made{std::move(decision.cuts), std::move(decision.brackets)};
     const Verdict& verdict = decision.verdict;
-    if (verdict.may_turn != 0) turn_if_better(given.points, decision, made, result.report, self);
+    if (verdict.may_turn != 0 && turns(decision, made.cuts, given.points, self)) {
+        made = {std::move(decision.turned.cuts), std::move(decision.turned.brackets)};
+        result.report.details.estimated_imbalance = verdict.turned_imbalance;
+    }
     bool is_kept = keeps_at_once(verdict.kept_imbalance, options);
     if (is_kept) {
         decision.cuts = std::move(made.cuts);
@@ -283,14 +256,13 @@ Balance make_anew(const Given& given, Participant& self) {
     self.attempt([&] {
         const bool has_points = result.report.details.num_points > 0;
         if (given.previous && !has_points) result.cuts = fitted(*given.previous, options);
-        finish_weights(verdict, result);
+        finish_weights(verdict, result.cuts, result.report.part_weights);
         number_parts(result.cuts, given.points);
     });
     return result;
 }
 
-/// Returns the better of two balances, whose points have the parts of `made`: the earlier one,
-/// unless the other is worth moving points. Not collective.
+/// Returns `made`, whose parts the points have, or `earlier` if that is not worth moving them.
 Balance better(const Given& given, Balance&& earlier, Balance&& made, Participant& self) {
     made.report.details.rounds += earlier.report.details.rounds;
     if (is_worth_moving(earlier.report, made.report, given.options)) return std::move(made);

@@ -224,6 +224,15 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
     return report;
 }
 
+void finish_weights(const Verdict& verdict, const Cuts& cuts, std::vector<double>& weights) {
+    if (verdict.is_counted())
+        for (double& weight : weights) weight *= verdict.unit();
+    if (cuts.shape.dealt == 0) return;
+    const std::vector<double> of_ends = weights;
+    for (std::size_t end = 0; end < of_ends.size(); ++end)
+        weights[part_at(cuts, static_cast<Part>(end))] = of_ends[end];
+}
+
 void report_measured(double imbalance, double tolerance, Report& report) {
     report.imbalance = imbalance;
     report.within_tolerance = std::islessequal(imbalance, tolerance);

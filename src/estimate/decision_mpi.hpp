@@ -80,6 +80,9 @@ Verdict verdict_of(const Summary& summary, std::span<const double> estimated,
 /// Returns the report on an unmeasured partition. Empty sizes: equal parts.
 Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes);
 
+/// Gives the weights of parts the unit of the points, and the user's order. Not collective.
+void finish_weights(const Verdict& verdict, const Cuts& cuts, std::vector<double>& weights);
+
 /// Adds the counted imbalance.
 void report_measured(double imbalance, double tolerance, Report& report);
 

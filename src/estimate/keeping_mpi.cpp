@@ -32,8 +32,8 @@ double nearness(const Cuts& cuts, const Vector& position, double reach) {
     return sum;
 }
 
-}  // namespace
-
+/// Returns the distance from a cut within which has_far_fewer_near() counts: some spacings of
+/// points that fill their box. It is the same whichever ranks hold the points.
 double wide_reach(const Box& box, std::int64_t num_points) {
     constexpr double spacings = 6;
     double sum = 0;
@@ -48,6 +48,8 @@ double wide_reach(const Box& box, std::int64_t num_points) {
     return 2 * spacings * std::exp((sum - std::log(static_cast<double>(num_points))) / num_axes);
 }
 
+/// Returns true if far fewer points are near the cuts `turned` than near `held`. Collective: a
+/// reduction.
 bool has_far_fewer_near(const Cuts& turned, const Cuts& held, double reach, PointPasses& points,
                         Participant& self) {
     constexpr double enough = 0.85;
@@ -67,6 +69,16 @@ bool has_far_fewer_near(const Cuts& turned, const Cuts& held, double reach, Poin
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, near.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");
     return static_cast<double>(near[0]) < enough * static_cast<double>(near[1]);
+}
+
+}  // namespace
+
+bool turns(Decision& decision, const Cuts& held, PointPasses& points, Participant& self) {
+    Verdict& verdict = decision.verdict;
+    const double reach = wide_reach(verdict.box, verdict.num_points);
+    const bool turns = has_far_fewer_near(decision.turned.cuts, held, reach, points, self);
+    if (turns) verdict.kept_imbalance = not_kept;
+    return turns;
 }
 
 bool reads_kept_tree(const Options& options, int num_ranks) {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "collective/participant.hpp"
+#include "estimate/decision_mpi.hpp"
 
 #include <rrcb/passes.hpp>
 
-#include <cstdint>
 #include <span>
 
 // When points stay in their parts.
@@ -39,14 +38,10 @@ bool is_worth_moving(double kept, double offered, const Options& options);
 /// size empty without a loss.
 bool is_worth_moving(const Report& kept, const Report& offered, const Options& options);
 
-/// Returns the distance from a cut within which has_far_fewer_near() counts: some spacings of
-/// points that fill their box. It is the same whichever ranks hold the points.
-double wide_reach(const Box& box, std::int64_t num_points);
-
-/// Returns true if far fewer points are near the cuts `turned` than near `held`. By counts, because
-/// an estimate depends on which ranks hold the points, and might turn the cuts in every call.
-/// Collective: a reduction.
-bool has_far_fewer_near(const Cuts& turned, const Cuts& held, double reach, PointPasses& points,
-                        Participant& self);
+/// Turns the cuts across other axes than those between the ranks, if that leaves far fewer points
+/// near them than near `held`; then the ranks' present parts are not kept. By counts, because an
+/// estimate depends on which ranks hold the points, and might turn the cuts in every call. Returns
+/// whether it does. Collective: a reduction.
+bool turns(Decision& decision, const Cuts& held, PointPasses& points, Participant& self);
 
 }  // namespace rrcb

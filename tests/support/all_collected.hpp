@@ -5,6 +5,7 @@
 #include "passes/host_passes.hpp"
 #include "passes/open_points.hpp"
 
+#include <deque>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -24,9 +25,10 @@ inline Collected all_collected(const Points& points) {
 /// Opens all points before any cut is known, as a spread search does.
 inline std::unique_ptr<OpenPoints> all_open(PointPasses& points, int num_parts,
                                             const TreeShape& shape = {}) {
-    static OpenMemory memory;  // which settle() uses once more
-    const Cuts none{
-        .dimension = points.dimension(), .num_parts = num_parts, .tree = {}, .shape = shape};
+    static OpenMemory memory;       // which settle() uses once more
+    static std::deque<Cuts> trees;  // which the open points borrow
+    const Cuts& none = trees.emplace_back(
+        Cuts{.dimension = points.dimension(), .num_parts = num_parts, .tree = {}, .shape = shape});
     return open_points(points, none, {}, false, memory);
 }
 

@@ -109,7 +109,7 @@ Balance weigh_earlier(const Given& given, Participant& self) {
         mine.part_totals = totals.weights;
         mine.part_totals.insert(mine.part_totals.end(), totals.counts.begin(), totals.counts.end());
     });
-    Balance result{.report = decide_on_all(given, options, mine, decision, self)};
+    Balance result{{}, {}, decide_on_all(given, options, mine, decision, self)};
     Report& report = result.report;
     result.cuts = std::move(decision.cuts);
     report_measured(report.imbalance, options.imbalance_tolerance, report);
@@ -234,7 +234,7 @@ Balance make_anew(const Given& given, Participant& self) {
     std::optional<Settlement> settlement;
     self.attempt([&] { prepare(given, options, mine, decision, settlement, self); });
     const Box here = mine.summary.box;
-    Balance result{.report = decide_on_all(given, options, mine, decision, self)};
+    Balance result{{}, {}, decide_on_all(given, options, mine, decision, self)};
     SettledCuts made{std::move(decision.cuts), std::move(decision.brackets)};
     const Verdict& verdict = decision.verdict;
     if (verdict.may_turn != 0 && turns(decision, made.cuts, given.points, self)) {

@@ -27,6 +27,8 @@ struct Task {
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
     std::span<const int> preferred;  ///< axes of the cuts, or none
+    double* near_weight;             ///< near all cuts; null if not asked for
+    double reach = 0;                ///< within which weight is near
     double light = 0;                ///< weight of points too few to show the weight near a cut
     bool shows_near = false;         ///< the domain is more than a few places
     Bisection result{};
@@ -127,6 +129,11 @@ Bracket bracket_of(const Profile& profile, const Cut& cut, double below, int dep
     return {lower, std::nextafter(upper, infinity)};
 }
 
+/// Returns the distance from a cut within which weight is near, like the cut-off radii of codes.
+double near_reach(const Profile& profile) {
+    return profile.mean_half_side() / 4;
+}
+
 void bisect_piece(Piece piece, Task& task) {
     const auto& [domain, at, region, depth] = piece;
     if (at.is_part()) {
@@ -138,6 +145,8 @@ void bisect_piece(Piece piece, Task& task) {
     task.result.cuts.tree.push_back(cut);
     const Profile& profile = task.profile;
     const double value = cut.at[cut.axis];
+    if (task.near_weight && task.reach > 0 && std::isfinite(value))
+        *task.near_weight += profile.weight_within(cut.axis, value, task.reach);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(profile, cut, below, depth));
     // Parts need weights only.
     if (at.num_parts == 2 && is_plane(cut, domain.dimension) && std::isfinite(value)) {
@@ -178,6 +187,7 @@ Bisection bisect(StatisticalDomain domain, GlobalCount num_points, Task&& task) 
     task.result.part_weights.reserve(num_parts);
     const Box region = task.limits ? task.limits->region() : everywhere;
     task.shows_near = task.profile.mean_half_side() > 0;
+    task.reach = near_reach(task.profile);
     bisect_piece({std::move(domain), root_of(task.result.cuts), region, 0}, task);
     return std::move(task.result);
 }
@@ -199,16 +209,16 @@ double expected_error(int depth) {
 }
 
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
-                 GlobalCount num_points, std::span<const int> preferred) {
+                 GlobalCount num_points, std::span<const int> preferred, double* near_weight) {
     const AxisChoice axis_choice(options, Profile(domain).extent(), domain.dimension);
     return bisect(std::move(domain), num_points,
-                  {options, axis_choice, nullptr, with_brackets, preferred});
+                  {options, axis_choice, nullptr, with_brackets, preferred, near_weight});
 }
 
 bool are_axes_good(const StatisticalDomain& domain, const Cuts& cuts, const Cuts& fresh,
                    double enough) {
     const NonStop arithmetic;
-    const double reach = Profile(domain).mean_half_side() / 4;  // as the cut-off radii of codes
+    const double reach = near_reach(Profile(domain));
     const auto near = [&](const Cuts& some) {
         return weight_near(domain, root_of(some), some, reach);
     };
@@ -216,13 +226,14 @@ bool are_axes_good(const StatisticalDomain& domain, const Cuts& cuts, const Cuts
 }
 
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
-                        bool with_brackets, std::span<const int> preferred) {
+                        bool with_brackets, std::span<const int> preferred, double* near_weight) {
     const int dimension = domain.dimension;
     const AxisChoice axis_choice(options, points, dimension);
     CutLimits limits(options, points, dimension,
                      axis_choice.given(root_of(options.num_parts, options.tree)));
     limits.require_room();
-    return bisect(std::move(domain), 0, {options, axis_choice, &limits, with_brackets, preferred});
+    return bisect(std::move(domain), 0,
+                  {options, axis_choice, &limits, with_brackets, preferred, near_weight});
 }
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes) {

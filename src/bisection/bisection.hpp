@@ -14,9 +14,10 @@ double expected_error(int depth);
 
 /// As the public function, with complete options and, on request, the brackets of the cuts. The
 /// domain stands for `num_points`; 0: for any number. Axes of `preferred`, one per cut in preorder
-/// or none, are taken where that is possible.
+/// or none, are taken where that is possible. `near_weight` gets the weight near all cuts.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets,
-                 GlobalCount num_points = 0, std::span<const int> preferred = {});
+                 GlobalCount num_points = 0, std::span<const int> preferred = {},
+                 double* near_weight = nullptr);
 
 /// Returns true if the weight near all cuts, times `enough`, is not more than that near `fresh`
 /// cuts of the same domain. Points in few places have no weight near cuts that could be compared.

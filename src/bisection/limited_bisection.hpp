@@ -26,7 +26,8 @@ Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int 
 /// Bisects as bisect(), with all cuts at allowed places, for points in the box `points`. Throws
 /// Error if there is no room for the parts.
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
-                        bool with_brackets, std::span<const int> preferred = {});
+                        bool with_brackets, std::span<const int> preferred = {},
+                        double* near_weight = nullptr);
 
 /// Returns true if cuts are at allowed places for points in the box `points`. Not collective.
 bool are_in_places(const Box& points, const Cuts& cuts, const Options& options);

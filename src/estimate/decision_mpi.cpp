@@ -118,11 +118,13 @@ void keep(Decision& decision) {
 }
 
 Bisection bisect_gathered(StatisticalDomain domain, const Contribution& all, const Options& options,
-                          std::span<const int> preferred) {
+                          std::span<const int> preferred, double* near_weight = nullptr) {
     const bool with_brackets = is_refined(options);
     if (are_cuts_limited(options) && all.summary.num_points > 0)
-        return bisect_within(all.summary.box, std::move(domain), options, with_brackets, preferred);
-    return bisect(std::move(domain), options, with_brackets, all.summary.num_points, preferred);
+        return bisect_within(all.summary.box, std::move(domain), options, with_brackets, preferred,
+                             near_weight);
+    return bisect(std::move(domain), options, with_brackets, all.summary.num_points, preferred,
+                  near_weight);
 }
 
 /// Computes the imbalance of the parts of earlier cuts, whose points the ranks have counted; it is
@@ -156,11 +158,13 @@ std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
 Bisection choose_axes(const StatisticalDomain& domain, const Contribution& all,
                       const Options& options, std::span<const int> earlier) {
     constexpr double enough = 0.9;
-    Bisection made = bisect_gathered(domain, all, options, {});
+    double near_free = 0;
+    Bisection made =
+        bisect_gathered(domain, all, options, {}, earlier.empty() ? nullptr : &near_free);
     if (earlier.empty() || std::ranges::equal(axes_of(made.cuts.tree), earlier)) return made;
-    Bisection along = bisect_gathered(domain, all, options, earlier);
-    const bool stays =
-        options.axes.order.is_longest() || are_axes_good(domain, along.cuts, made.cuts, enough);
+    double near_along = 0;
+    Bisection along = bisect_gathered(domain, all, options, earlier, &near_along);
+    const bool stays = options.axes.order.is_longest() || enough * near_along <= near_free;
     return stays ? along : made;
 }
 

@@ -4,11 +4,7 @@
 #include "bisection/bisection.hpp"
 #include "cuts/tree.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <span>
-#include <utility>
 
 namespace rrcb {
 

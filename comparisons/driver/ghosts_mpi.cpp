@@ -233,7 +233,7 @@ GhostCounter::GhostCounter(const Workload& workload, const GhostRule& rule, MPI_
     : comm_(comm), rule_(rule) {
     const FinitePoints mine(workload.points());
     const rrcb::Box box = joined_box(mine.box, comm);
-    radius_ = rule.radius.value_or(2 * median_spacing(mine.positions, comm));
+    radius_ = rule.radius ? *rule.radius : 2 * median_spacing(mine.positions, comm);
     const CubeGrid grid(box, radius_);
     num_layers_ = grid.num_layers;
     const int num_ranks = size_of(comm);

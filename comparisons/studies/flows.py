@@ -47,7 +47,7 @@ def ratio_name(factor: float, radius: str) -> str:
 
 
 def summary(calls: pd.DataFrame) -> pd.DataFrame:
-    """A row for each run: sums over the calls, ghosts of a call on average, the largest imbalance, and ratios."""
+    """A row for each run: sums over the calls, ghosts of a call on average, and the largest imbalance."""
     runs = calls.groupby(RUN, sort=False)
     rows = runs[["moved", "rounds", "messages", "bytes"]].sum()
     rows.insert(0, "calls", runs.size())
@@ -55,27 +55,40 @@ def summary(calls: pd.DataFrame) -> pd.DataFrame:
     for radius in RADII:
         rows[f"ghosts_{radius}"] = runs[f"ghosts_{radius}"].mean()
     rows["imbalance"] = runs["imbalance"].max()
+    return rows.reset_index()
+
+
+def with_others(rows: pd.DataFrame, file: Path) -> pd.DataFrame:
+    """Adds the runs of the same flows and parts by other policies that are in a flows.csv."""
+    others = read_all(file)[list(rows)]
+    are_same = others.set_index(RUN[:3]).index.isin(rows.set_index(RUN[:3]).index)
+    return pd.concat([rows, others[are_same & ~others["policy"].isin(rows["policy"])]], ignore_index=True)
+
+
+def with_ratios(rows: pd.DataFrame) -> pd.DataFrame:
+    """Adds the cost of each run over that of the best policy."""
+    rows = rows.copy()
     for factor in FACTORS:
         for radius in RADII:
             cost = factor * rows["calls"] * rows[f"ghosts_{radius}"] + rows["moved"]
-            rows[ratio_name(factor, radius)] = cost / cost.groupby(level=RUN[:3], sort=False).transform("min")
-    return rows.reset_index()
+            least = cost.groupby([rows[name] for name in RUN[:3]]).transform("min")
+            rows[ratio_name(factor, radius)] = cost / least
+    return rows
 
 
 def case_of(row: pd.Series) -> str:
     return f"{row['flow']}, {row['parts']} parts"
 
 
-def cost_table(rows: pd.DataFrame) -> list[list[str]]:
+def cost_table(rows: pd.DataFrame, radius: str) -> list[list[str]]:
     """The mean and the worst ratio of each policy, over flows and numbers of parts."""
-    lines = [["H", "policy", *(f"{radius}: {of}" for radius in RADII for of in ("mean", "worst", "worst case"))]]
-    for factor in FACTORS:
-        for policy, own in rows.groupby("policy", sort=False):
-            line = [f"{factor:g}", policy]
-            for radius in RADII:
-                ratios = own[ratio_name(factor, radius)]
-                line += [f"{ratios.mean():.3f}", f"{ratios.max():.3f}", case_of(own.loc[ratios.idxmax()])]
-            lines.append(line)
+    lines = [["policy", *(f"H = {factor:g}: {of}" for factor in FACTORS for of in ("mean", "worst", "worst case"))]]
+    for policy, own in rows.groupby("policy", sort=False):
+        line = [policy]
+        for factor in FACTORS:
+            ratios = own[ratio_name(factor, radius)]
+            line += [f"{ratios.mean():.3f}", f"{ratios.max():.3f}", case_of(own.loc[ratios.idxmax()])]
+        lines.append(line)
     return lines
 
 
@@ -137,6 +150,7 @@ def main() -> None:
     parser.add_argument("--flows", help="names by commas; all")
     parser.add_argument("--parts", help="numbers by commas; 4,16")
     parser.add_argument("--policies", default="all", help="names by commas; all")
+    parser.add_argument("--others", type=Path, help="flows.csv of an earlier run, for policies that are not run")
     parser.add_argument("--history", action="store_true", help="print each call and the counts of each flow")
     parser.add_argument("--driver", type=Path, help="a program beside rrcb_flows, which is not built then")
     given = parser.parse_args()
@@ -148,11 +162,14 @@ def main() -> None:
     numbers = given.parts or ("4" if given.quick else "4,16")
     calls = pd.concat(follow(program, given.out, int(parts), flows, given.policies) for parts in numbers.split(","))
     rows = summary(calls)
+    rows = with_ratios(with_others(rows, given.others) if given.others else rows)
     rows.to_csv(given.out / "flows.csv", index=False)
     if given.history:
         print(calls.to_string(index=False))
         print("\n" + markdown_table(flow_table(rows)))
-    print("\nCost of a flow over that of the best policy\n\n" + markdown_table(cost_table(rows)))
+    for radius in RADII:
+        print(f"\nCost of a flow over that of the best policy, {radius} ghosts\n")
+        print(markdown_table(cost_table(rows, radius)))
     print("\nTraffic, all ranks\n\n" + markdown_table(traffic_table(rows)))
     draw(rows, given.out / "flows.png")
 

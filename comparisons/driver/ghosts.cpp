@@ -1,16 +1,13 @@
 // Ghosts of the parts of several methods, made by one process, as CSV on standard output.
 //
-//   rrcb_ghosts clouds [--quick]        clouds of 20,000 points, several seeds
-//   rrcb_ghosts flow SCENE [--quick]    points of a simulation, from earlier cuts and from scratch
+//   rrcb_ghosts [--quick]    clouds of 20,000 points, several seeds
 //
-// A point is a ghost within the radius of GhostCounter; of clouds, three times that.
+// A point is a ghost within three times the radius of GhostCounter.
 #include "cloud.hpp"
 #include "failure.hpp"
 #include "ghosts_mpi.hpp"
 #include "partitioner_mpi.hpp"
 #include "row.hpp"
-#include "scene_choice_mpi.hpp"
-#include "scene_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 #include <rrcb/rrcb.hpp>
@@ -142,67 +139,6 @@ void compare_clouds(bool quick) {
                 compare({name, quick ? 1000 : 20'000, dimension, seed});
 }
 
-/// Parts of one rule along a flow.
-struct Follower {
-    rrcb::Options options;
-    rrcb::Balance balance{};
-    double moved = 0;  ///< parts of all points
-
-    /// Takes the points where they are now; points keep their order.
-    void go_on(const rrcb::Points& points, bool keeps_axes) {
-        if (balance.cuts.num_parts != options.num_parts) {
-            balance = rrcb::balance(points, options, {}, MPI_COMM_SELF);
-            std::vector<int> axes;
-            for (const rrcb::Cut& cut : balance.cuts.tree) axes.push_back(cut.axis);
-            if (keeps_axes) options.axes.order = rrcb::AxisOrder::given(axes);
-            return;
-        }
-        const rrcb::Cuts previous = std::exchange(balance.cuts, {});
-        const std::vector<Part> before = std::move(balance.parts);
-        balance = rrcb::balance(points, options, previous, MPI_COMM_SELF);
-        std::size_t changed = 0;
-        for (std::size_t i = 0; i < before.size(); ++i) changed += before[i] != balance.parts[i];
-        moved += static_cast<double>(changed) / static_cast<double>(before.size());
-    }
-};
-
-void follow(const std::string& name, int num_parts, bool quick) {
-    const mpm::Scene scene = choose_scene(name, quick, MPI_COMM_SELF);
-    const int num_steps = quick ? 100 : steps_to_end(scene, MPI_COMM_SELF);
-    const int every = std::max(1, num_steps / 200);
-    mpm::Simulation simulation(scene, MPI_COMM_SELF);
-    Follower turns{};
-    turns.options.num_parts = num_parts;
-    Follower keeps = turns;
-    Follower longest = turns;
-    longest.options.axes.order = rrcb::AxisOrder::longest();
-    for (int step = 0; step <= num_steps; ++step) {
-        if (step > 0) simulation.step();
-        if (step % every != 0) continue;
-        const Workload now = snapshot(name, simulation);
-        turns.go_on(now.points(), false);
-        keeps.go_on(now.points(), true);
-        longest.go_on(now.points(), true);
-        if (step / every % 20 != 0) continue;
-        const GhostCounter counter(now, {}, MPI_COMM_SELF);
-        const auto ghosts = [&](const std::vector<Part>& parts) {
-            return static_cast<double>(counter.count(parts, num_parts).sum);
-        };
-        print(Row()
-                  .add("scene", name)
-                  .add("parts", num_parts)
-                  .add("step", step)
-                  .add("ghosts", ghosts(turns.balance.parts))
-                  .add("ghosts_of_first_axes", ghosts(keeps.balance.parts))
-                  .add("ghosts_of_longest", ghosts(longest.balance.parts))
-                  .add("ghosts_from_scratch",
-                       ghosts(rrcb::balance(now.points(), turns.options, {}, MPI_COMM_SELF).parts))
-                  .add("moved", turns.moved)
-                  .add("moved_of_first_axes", keeps.moved)
-                  .add("moved_of_longest", longest.moved));
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -210,16 +146,10 @@ int main(int argc, char** argv) {
     float version = 0;
     Zoltan_Initialize(argc, argv, &version);
     int exit_code = 0;
-    const std::vector<std::string_view> words(argv + 1, argv + argc);
-    const bool quick = !words.empty() && words.back() == "--quick";
     try {
-        if (words.size() >= 1 && words[0] == "clouds") {
-            compare_clouds(quick);
-        } else if (words.size() >= 2 && words[0] == "flow") {
-            for (const int num_parts : {4, 16}) follow(std::string(words[1]), num_parts, quick);
-        } else {
-            throw Failure("clouds, or flow and a scene, is needed; see the source");
-        }
+        if (argc > 2 || (argc == 2 && argv[1] != std::string_view("--quick")))
+            throw Failure("--quick is the only option");
+        compare_clouds(argc == 2);
     } catch (const std::exception& error) {
         std::cerr << "rrcb_ghosts: " << error.what() << '\n';
         exit_code = 1;

@@ -1,4 +1,4 @@
-"""Compares the ghosts of methods: on 13 clouds, and along flows from earlier cuts."""
+"""Compares the ghosts of methods on 13 clouds."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from document import markdown_table
-from driver import OUT, PROGRAMS, ROOT, build, on_ranks
+from driver import OUT, PROGRAMS, build, on_ranks
 from results import read_all
 
 CASE = ["cloud", "dim", "parts"]
 BASE, OURS = "zoltan-rcb", "rrcb-arrays"
 COUNTS = ["ghosts", "ghosts_max", "neighbours_max"]
-FLOWS = ("dam_break", ROOT / "comparisons/studies/granular_flow.yaml")
 
 
 def ratios(rows: pd.DataFrame) -> pd.DataFrame:
@@ -43,19 +42,6 @@ def table(found: pd.DataFrame) -> list[list[str]]:
     return lines
 
 
-def flow_table(rows: pd.DataFrame) -> list[list[str]]:
-    """The worst tenth of each flow, and what moved in all, over that of cuts that keep their axes."""
-    lines = [["flow", "parts", "ghosts / from scratch", "of first axes", "moved / of first axes"]]
-    for (scene, parts), run in rows.groupby(["scene", "parts"], sort=False):
-        last = run.iloc[-1]
-        lines.append([
-            Path(scene).stem, str(parts), f"{(run['ghosts'] / run['ghosts_from_scratch']).max():.2f}",
-            f"{(run['ghosts_of_first_axes'] / run['ghosts_from_scratch']).max():.2f}",
-            f"{last['moved'] / last['moved_of_first_axes']:.2f}",
-        ])  # fmt: skip
-    return lines
-
-
 def count(program: Path, file: Path, *words: str) -> pd.DataFrame:
     print("rrcb_ghosts", *words, file=sys.stderr, flush=True)
     with file.open("w") as rows:
@@ -66,7 +52,7 @@ def count(program: Path, file: Path, *words: str) -> pd.DataFrame:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=OUT / "ghosts", help="folder of the results")
-    parser.add_argument("--quick", action="store_true", help="few points, one seed, one short flow")
+    parser.add_argument("--quick", action="store_true", help="few points, one seed")
     parser.add_argument("--driver", type=Path, help="a program beside rrcb_ghosts, which is not built then")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
@@ -75,11 +61,7 @@ def main() -> None:
     program = (given.driver.parent if given.driver else PROGRAMS) / "rrcb_ghosts"
     quick = ["--quick"] * given.quick
     print("Ghosts over those of zoltan-rcb\n")
-    print(markdown_table(table(ratios(count(program, given.out / "clouds.csv", "clouds", *quick)))))
-    flows = [count(program, given.out / f"flow_{k}.csv", "flow", str(flow), *quick)
-             for k, flow in enumerate(FLOWS[: 1 if quick else None])]  # fmt: skip
-    print("\nFrom earlier cuts\n")
-    print(markdown_table(flow_table(pd.concat(flows))))
+    print(markdown_table(table(ratios(count(program, given.out / "clouds.csv", *quick)))))
 
 
 if __name__ == "__main__":

@@ -108,7 +108,6 @@ void mirror(const Walls& walls, GridPatch<D>& patch) {
                          const double sign = parity(wall, axis, a);
                          to.velocity[a] = sign * from.velocity[a];
                          to.velocity_change[a] = sign * from.velocity_change[a];
-                         to.strain_velocity[a] = sign * from.strain_velocity[a];
                      }
                  });
 }

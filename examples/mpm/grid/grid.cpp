@@ -41,11 +41,8 @@ void resize(GridPatch<D>& patch, const NodeRange<D>& nodes) {
     for (std::vector<double>& field : patch.fields) field.resize(num_nodes);
 }
 
-namespace {
-
-/// Moves the nodes, whose masses strain the points as least(node) at least.
-template <int D, typename Least>
-double move_nodes_of(GridPatch<D>& patch, double time_step, double lightest_point, Least least) {
+template <int D>
+double move_nodes(GridPatch<D>& patch, double time_step, double lightest_point) {
     double fastest = 0;  // squared
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         const NodeSums<D>& node = patch.sums[n];
@@ -55,30 +52,13 @@ double move_nodes_of(GridPatch<D>& patch, double time_step, double lightest_poin
         const double share = std::min(node.mass / lightest_point, 1.0);
         double square = 0;
         for (std::size_t a = 0; a < D; ++a) {
-            const double old_velocity = node.momentum[a] / node.mass;
-            const double impulse = time_step * node.force[a];
-            motion.velocity_change[a] = impulse / node.mass;
-            motion.velocity[a] = old_velocity + motion.velocity_change[a];
-            motion.strain_velocity[a] = old_velocity + impulse / std::max(node.mass, least(n));
+            motion.velocity_change[a] = time_step * node.force[a] / node.mass;
+            motion.velocity[a] = node.momentum[a] / node.mass + motion.velocity_change[a];
             square += motion.velocity[a] * motion.velocity[a];
         }
         fastest = std::max(fastest, share * share * square);
     }
     return std::sqrt(fastest);
-}
-
-}  // namespace
-
-template <int D>
-double move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_mass,
-                  double lightest_point) {
-    if (!least_mass.field)
-        return move_nodes_of(patch, time_step, lightest_point,
-                             [least = least_mass.everywhere](std::size_t) { return least; });
-    return move_nodes_of(
-        patch, time_step, lightest_point,
-        [most = least_mass.everywhere, field = patch.fields[*least_mass.field].data()](
-            std::size_t n) { return most * std::sqrt(std::sqrt(std::sqrt(field[n]))); });
 }
 
 template NodeRange<2> intersection<2>(const NodeRange<2>&, const NodeRange<2>&);
@@ -87,7 +67,7 @@ template NodeRange<2> nodes_of<2>(const GridShape&, const Box&, int);
 template NodeRange<3> nodes_of<3>(const GridShape&, const Box&, int);
 template void resize<2>(GridPatch<2>&, const NodeRange<2>&);
 template void resize<3>(GridPatch<3>&, const NodeRange<3>&);
-template double move_nodes<2>(GridPatch<2>&, double, const LeastMass&, double);
-template double move_nodes<3>(GridPatch<3>&, double, const LeastMass&, double);
+template double move_nodes<2>(GridPatch<2>&, double, double);
+template double move_nodes<3>(GridPatch<3>&, double, double);
 
 }  // namespace mpm

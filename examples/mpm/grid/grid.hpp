@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace mpm {
@@ -34,7 +33,6 @@ template <int D>
 struct NodeMotion {
     Components<D> velocity{};         ///< at the end of the step
     Components<D> velocity_change{};  ///< over the step
-    Components<D> strain_velocity{};  ///< whose gradient strains the points, see move_nodes
 };
 
 /// Box of nodes, numbered over the whole grid.
@@ -107,22 +105,11 @@ void visit_nodes(const NodeRange<D>& range, Visit visit) {
 template <int D>
 void resize(GridPatch<D>& patch, const NodeRange<D>& nodes);
 
-/// The least mass of a node, kg: the same on all, or times the eighth root of a field of the nodes.
-struct LeastMass {
-    double everywhere = 0;
-    std::optional<std::size_t> field = {};  ///< number in GridPatch::fields
-};
-
 /// Moves the nodes by the sums of a step.
-///
-/// A node at the rim of a point's reach has next to no mass but a finite force. Its large
-/// acceleration does no harm where the same small shape function weights it. In the velocity
-/// gradient it does: there its mass counts as at least `least_mass`. Momentum stays exact.
 ///
 /// Returns the speed of the fastest node, m/s. Nodes lighter than the lightest point count as heavy
 /// as that: no point moves with more of their velocity.
 template <int D>
-double move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_mass,
-                  double lightest_point);
+double move_nodes(GridPatch<D>& patch, double time_step, double lightest_point);
 
 }  // namespace mpm

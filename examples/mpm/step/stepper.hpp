@@ -5,6 +5,7 @@
 #include "parallel/ghost_nodes_mpi.hpp"
 #include "parallel/ownership_mpi.hpp"
 #include "scene/lattice.hpp"
+#include "scene/light_nodes.hpp"
 #include "step/work.hpp"
 #include "transfer/transfers.hpp"
 
@@ -15,11 +16,6 @@
 #include <span>
 
 namespace mpm {
-
-/// Least mass of the nodes of a scene under a cure of locking. Where bodies differ in density it
-/// adds a field of the nodes, so that each node goes by the points that touch it.
-template <int D>
-LeastMass add_least_mass(const Scene& scene, Particles& particles, Stages<D>& stages);
 
 /// A simulation of either dimension. Its virtual calls are per step, never per point.
 class Simulation::Model {
@@ -91,12 +87,11 @@ class Stepper final : public Simulation::Model {
     Scene ground_;  ///< the same with planes in place of walls with friction
     MPI_Comm comm_;
     MotionColumns motion_ = add_motion_columns(particles, D);
-    double wave_speed_;
+    StepRule rule_;
     std::unique_ptr<Transfers<D>> transfers_;
     std::vector<MaterialModel<D>> materials_;
     std::optional<Column> material_column_;  ///< where the scene has several materials
     Stages<D> stages_;
-    LeastMass least_mass_;
     double lightest_point_ = std::numeric_limits<double>::infinity();  ///< of all ranks, kg
     double fastest_node_ = 0;  ///< of this rank in the last step, m/s; see move_nodes
     double fingerprint_;       ///< of the points at the start

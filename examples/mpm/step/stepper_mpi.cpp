@@ -22,16 +22,6 @@ MPI_Comm duplicate(MPI_Comm comm) {
     return own;
 }
 
-double max_wave_speed(const Scene& scene) {
-    double largest = 0;
-    for (const Body& body : scene.bodies) {
-        const Material& material = scene.materials[material_of(scene, body)];
-        const Values values = values_of(material, scene.dimension);
-        largest = std::max(largest, find_material_kind(material).wave_speed(values));
-    }
-    return largest;
-}
-
 /// Stages of a scene but for the mirror images in walls. Walls and planes enter before effects.
 template <int D>
 Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_speed,
@@ -57,13 +47,12 @@ Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm
       scene_(scene),
       ground_(with_ground(scene)),
       comm_(duplicate(comm)),
-      wave_speed_(max_wave_speed(scene)),
-      transfers_(make_transfers<D>(scene_, particles)),
+      rule_(rule_for(scene)),
+      transfers_(make_transfers<D>(scene_.shape_function, rule_.least_weight, particles)),
       fingerprint_(points.fingerprint),
       ownership_(ground_.grid, scene_.walls, comm_) {
     build_materials();
-    stages_ = build_stages<D>(scene_, ground_, wave_speed_, particles);
-    least_mass_ = add_least_mass<D>(scene_, particles, stages_);
+    stages_ = build_stages<D>(scene_, ground_, rule_.wave_speed, particles);
     add_images<D>(ground_, stages_);
     patch_.shape = ground_.grid;
     patch_.margin = transfers_->margin();
@@ -135,7 +124,7 @@ void Stepper<D>::advance_nodes() {
     const StepTime now{time, time_step};
     for (const auto& effect : stages_.forces) effect.kernel(patch_, now);
     for (const auto& effect : stages_.constraints) effect.kernel(patch_, now);
-    fastest_node_ = move_nodes(patch_, time_step, least_mass_, lightest_point_);
+    fastest_node_ = move_nodes(patch_, time_step, lightest_point_);
     for (const auto& effect : stages_.moved) effect.kernel(patch_, now);
 }
 
@@ -197,7 +186,7 @@ double Stepper<D>::fastest_point() const {
 
 template <int D>
 void Stepper<D>::set_time_step() {
-    time_step = scene_.courant_number * scene_.grid.spacing / (wave_speed_ + max_speed);
+    time_step = rule_.courant_number * scene_.grid.spacing / (rule_.wave_speed + max_speed);
     // The last step ends at the end.
     if (time < scene_.end_time) time_step = std::min(time_step, scene_.end_time - time);
 }

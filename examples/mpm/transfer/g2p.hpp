@@ -67,14 +67,13 @@ template <int D, std::size_t N, std::size_t axis>
 template <int D, std::size_t N>
 struct RunMotion {
     using Values = std::array<double, power(N, D)>;
-    std::array<Values, D> velocity, change, strain;
+    std::array<Values, D> velocity, change;
 
     RunMotion(const NodeMotion<D>* lowest, const std::array<std::size_t, power(N, D)>& offsets) {
         for (std::size_t n = 0; n < offsets.size(); ++n)
             for (std::size_t a = 0; a < D; ++a) {
                 velocity[a][n] = lowest[offsets[n]].velocity[a];
                 change[a][n] = lowest[offsets[n]].velocity_change[a];
-                strain[a][n] = lowest[offsets[n]].strain_velocity[a];
             }
     }
 };
@@ -100,7 +99,7 @@ template <int D, std::size_t N>
     const std::array<Components<D>, power(N, D)>& slopes, const RunMotion<D, N>& motion) {
     double expansion = 0;
     for (std::size_t n = 0; n < slopes.size(); ++n)
-        for (std::size_t a = 0; a < D; ++a) expansion += slopes[n][a] * motion.strain[a][n];
+        for (std::size_t a = 0; a < D; ++a) expansion += slopes[n][a] * motion.velocity[a][n];
     return expansion;
 }
 
@@ -133,7 +132,8 @@ template <int D, class Shape, VolumeChange change>
         double expansion = 0;
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
             unrolled<D>([&](auto b) __attribute__((always_inline)) {
-                const double slope = inverse_spacing * slope_at<D, N, b>(motion.strain[a], weights);
+                const double slope =
+                    inverse_spacing * slope_at<D, N, b>(motion.velocity[a], weights);
                 gradient[a][b][k] = slope;
                 if constexpr (a == b) expansion = a == 0 ? slope : expansion + slope;
             });

@@ -15,26 +15,23 @@ struct Weights {
     std::array<double, N> slope{};  ///< per cell
 };
 
-/// Two nodes to a point.
-///
-/// A node that only points near a face reach is light, but as stiff as others, so explicit steps
-/// would be unstable. Therefore a point counts as at least 3/4 C^2 of a cell from each face, where
-/// C is the Courant number: the square of the node's frequency is then at most 4/3 per step. Forces
-/// and strains use the same functions, so that this yields no energy.
+/// Two nodes to a point. None has less than the least weight of it (scene/light_nodes.hpp).
 struct LinearShape {
     static constexpr std::size_t num_nodes = 2;
     static constexpr int margin = 0;
+    static constexpr double most_least_weight = 1.0 / 3;  ///< more would leave no slope of weights
 
-    explicit LinearShape(double courant_number = 0)
-        : least(std::clamp(0.75 * courant_number * courant_number, 1e-12, 0.5)), most(1 - least) {}
+    /// The slopes need the velocities of both nodes, and a node without mass has no velocity:
+    /// weights are above 0.
+    explicit LinearShape(double least_weight = 0)
+        : least(std::max(least_weight, 1e-12)), most(1 - least) {}
 
     /// Lowest node of a coordinate.
     int first_node(const GridShape& shape, double coordinate, std::size_t axis) const {
         return cell_of(shape, coordinate, axis);
     }
 
-    /// Weights at `u` cells from the lowest node, both above 0: the slopes need the velocities of
-    /// both nodes, and a node without mass has no velocity.
+    /// Weights at `u` cells from the lowest node.
     Weights<2> at(double u) const {
         const double above = u > least ? u : least;
         const double inside = above < most ? above : most;
@@ -47,12 +44,13 @@ struct LinearShape {
 };
 
 /// Quadratic B-spline (Steffen, Kirby and Berzins 2008): smooth gradients, so that points
-/// cross cells without noise.
+/// cross cells without noise. Neither outer node has less than the least weight of a point.
 struct QuadraticShape {
     static constexpr std::size_t num_nodes = 3;
     static constexpr int margin = 1;
+    static constexpr double most_least_weight = 1.0 / 8;  ///< that of a point above a node
 
-    explicit QuadraticShape(double /*courant_number*/ = 0) {}
+    explicit QuadraticShape(double least_weight = 0) : least(least_weight) {}
 
     /// Lowest of the three nodes around the nearest one.
     int first_node(const GridShape& shape, double coordinate, std::size_t axis) const {
@@ -62,9 +60,14 @@ struct QuadraticShape {
 
     Weights<3> at(double u) const {
         const double d = u - 1;
-        return {{0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)},
-                {d - 0.5, -2 * d, d + 0.5}};
+        const double spline_below = 0.5 * (0.5 - d) * (0.5 - d);
+        const double spline_above = 0.5 * (0.5 + d) * (0.5 + d);
+        const double below = spline_below > least ? spline_below : least;
+        const double above = spline_above > least ? spline_above : least;
+        return {{below, 1 - below - above, above}, {d - 0.5, -2 * d, d + 0.5}};
     }
+
+    double least;
 };
 
 }  // namespace mpm

@@ -11,7 +11,7 @@ namespace {
 template <int D, class Shape>
 class TransfersOf final : public Transfers<D> {
   public:
-    TransfersOf(double courant_number, Particles& particles) : shape_(courant_number) {
+    TransfersOf(double least_weight, Particles& particles) : shape_(least_weight) {
         columns_.motion = add_motion_columns(particles, D);
         columns_.stress = add_stress_columns<D>(particles);
     }
@@ -131,13 +131,14 @@ class TransfersOf final : public Transfers<D> {
 }  // namespace
 
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles) {
-    if (scene.shape_function == ShapeFunction::linear)
-        return std::make_unique<TransfersOf<D, LinearShape>>(scene.courant_number, particles);
-    return std::make_unique<TransfersOf<D, QuadraticShape>>(scene.courant_number, particles);
+std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, double least_weight,
+                                             Particles& particles) {
+    if (shape == ShapeFunction::linear)
+        return std::make_unique<TransfersOf<D, LinearShape>>(least_weight, particles);
+    return std::make_unique<TransfersOf<D, QuadraticShape>>(least_weight, particles);
 }
 
-template std::unique_ptr<Transfers<2>> make_transfers<2>(const Scene&, Particles&);
-template std::unique_ptr<Transfers<3>> make_transfers<3>(const Scene&, Particles&);
+template std::unique_ptr<Transfers<2>> make_transfers<2>(ShapeFunction, double, Particles&);
+template std::unique_ptr<Transfers<3>> make_transfers<3>(ShapeFunction, double, Particles&);
 
 }  // namespace mpm

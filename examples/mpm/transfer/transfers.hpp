@@ -165,8 +165,10 @@ class Transfers {
                          std::vector<double>& field) const = 0;
 };
 
-/// Transfers with the shape function of a scene; adds the columns they need.
+/// Transfers with a shape function; adds the columns they need. `least_weight` is the least that a
+/// point has on any of its nodes along an axis.
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles);
+std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, double least_weight,
+                                             Particles& particles);
 
 }  // namespace mpm

@@ -1,5 +1,5 @@
 // Tens of thousands of steps with default settings: whatever a body does, its energy never grows.
-#include "support.hpp"
+#include "energy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,39 +7,6 @@
 
 namespace mpm::test {
 namespace {
-
-/// Energy of a simulation from step to step. Stresses belong to the end of a step and velocities to
-/// its middle: the kinetic energy at the end is the product of the velocities before and after it.
-class Energy {
-  public:
-    explicit Energy(const Simulation& simulation) : simulation_(simulation) {
-        const Totals totals = simulation.totals();
-        stored_ = totals.strain_energy + totals.potential_energy;
-        const auto ids = column("id"), x = column("velocity_x"), y = column("velocity_y");
-        velocities_.resize(static_cast<std::size_t>(*std::ranges::max_element(ids)) + 1);
-        for (std::size_t p = 0; p < ids.size(); ++p)
-            velocities_[static_cast<std::size_t>(ids[p])] = {x[p], y[p]};
-    }
-
-    /// Energy at the construction, once a step has been made since, J.
-    double before_the_step() const {
-        const auto ids = column("id"), mass = column("mass");
-        const auto x = column("velocity_x"), y = column("velocity_y");
-        double kinetic = 0;
-        for (std::size_t p = 0; p < ids.size(); ++p) {
-            const auto& before = velocities_[static_cast<std::size_t>(ids[p])];
-            kinetic += 0.5 * mass[p] * (before[0] * x[p] + before[1] * y[p]);
-        }
-        return kinetic + stored_;
-    }
-
-  private:
-    std::span<const double> column(const char* name) const { return simulation_.particles()[name]; }
-
-    const Simulation& simulation_;
-    double stored_;
-    std::vector<std::array<double, 2>> velocities_;
-};
 
 /// Largest growth of the energy over that before step `first`, by it.
 double growth(const Scene& scene, int num_steps, std::int64_t first = 0) {

@@ -15,8 +15,9 @@ Scene column(double aspect) {
     return scene;
 }
 
-/// How far a column of sand of half width 1 runs, by that width: to where its layer gets thinner
-/// than two points. Single grains lie beyond.
+/// How far a column of sand of half width 1 runs, by that width: to the middle of the first three
+/// cells whose layer is thinner than two points on average. Single grains lie beyond, and single
+/// cells are thinner or thicker by a half than their neighbours.
 double run_out(const Scene& scene) {
     Simulation simulation(scene, MPI_COMM_WORLD);
     while (simulation.time() < scene.end_time) simulation.step();
@@ -24,8 +25,9 @@ double run_out(const Scene& scene) {
     std::vector<int> points(static_cast<std::size_t>(scene.grid.num_cells[0]));
     for (const double x : gathered(simulation, "x", MPI_COMM_WORLD))
         ++points[static_cast<std::size_t>(x / scene.grid.spacing)];
-    const auto end = std::ranges::find_if(points, [&](int count) { return count < layer; });
-    return scene.grid.spacing * static_cast<double>(end - points.begin()) - 1;
+    std::size_t cell = 1;
+    while (points[cell - 1] + points[cell] + points[cell + 1] >= 3 * layer) ++cell;
+    return scene.grid.spacing * static_cast<double>(cell) - 1;
 }
 
 // Lube, Huppert, Sparks and Freundt 2005: 1.2 a for aspects below 2.3; at a = 2 their

@@ -16,6 +16,7 @@
 #include "passes/host_passes.hpp"
 #include "search/settlement_mpi.hpp"
 #include "verbose_mpi.hpp"
+#include "workspace_mpi.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -57,10 +58,11 @@ Options introduce(const Given& given, const PointSummary& summary, Contribution&
     if (given.previous) check_previous(*given.previous, options, dimension);
     mine.summary = summarize(summary, given.points.has_weights(), mpi::rank_of(self.comm));
     mine.summary.request = request_of(options, dimension, given.previous);
-    if (!options.part_sizes.empty() && options.tree.dealt != 0)
+    Cuts ends{dimension, options.num_parts, {}, options.tree};
+    if (given.previous) ends.numbers = given.previous->numbers;
+    if (!options.part_sizes.empty())
         for (Part end = 0; end < options.num_parts; ++end)
-            options.part_sizes[end] =
-                given.options.part_sizes[options.tree.part_at(end, options.num_parts)];
+            options.part_sizes[end] = given.options.part_sizes[ends.part_at(end)];
     if (!spread || !options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
     return options;
 }
@@ -81,10 +83,7 @@ Report decide_on_all(const Given& given, const Options& options, Contribution& m
 
 /// Numbers the parts of the points, ends of the tree, as the user does. Not collective.
 void number_parts(const Cuts& cuts, PointPasses& points) {
-    if (cuts.shape.dealt == 0) return;
-    std::vector<Part> numbers(static_cast<std::size_t>(cuts.num_parts));
-    for (Part end = 0; end < cuts.num_parts; ++end) numbers[end] = part_at(cuts, end);
-    points.renumber(numbers);
+    if (!cuts.is_numbered_in_order()) points.renumber(numbers_of(cuts));
 }
 
 /// Returns true if the parts of earlier cuts are weighed, because they may be kept.
@@ -102,8 +101,8 @@ Balance weigh_earlier(const Given& given, Participant& self) {
     self.attempt([&] {
         const StageScope stage(given.options.observer, Stage::assignment, self.arithmetic);
         given.points.use_weights(true);
-        const bool needs_box = are_cuts_limited(given.options);
-        options = introduce(given, given.points.summary(needs_box), mine, self);
+        const PointSummary summary = given.points.summary(are_cuts_limited(given.options));
+        options = introduce(given, summary, mine, self);
         take_earlier(decision, options, *given.previous);
         const PartTotals totals = given.points.assign(decision.cuts, true);
         mine.part_totals = totals.weights;
@@ -133,10 +132,12 @@ void prepare(const Given& given, Options& options, Contribution& mine, Decision&
     options = introduce(given, summary, mine, self);
     const bool spread = is_spread(options, given.ranks.number);
     const bool reads_kept = !spread && reads_kept_tree(options, given.ranks.number);
-    if (given.previous) decision.preferred = axes_of(given.previous->tree);
+    decision.earlier = given.previous;
     if (spread && given.previous && !options.axes.order.is_given())
-        options.axes.order = AxisOrder::given(decision.preferred);
-    settlement.emplace(options, points, reads_kept || given.previous, self);
+        options.axes.order = AxisOrder::given(axes_of(given.previous->tree));
+    settlement.emplace(options, points, reads_kept || given.previous, workspace_of(self.comm).open,
+                       self);
+    if (given.previous) decision.cuts.numbers = given.previous->numbers;
     if (spread) {
         decision.verdict.answer = Answer::totals;
         return;
@@ -177,16 +178,6 @@ void take(SettledCuts&& made, double tolerance, Balance& result) {
     report.details.rounds = made.rounds;
     report.details.coincident_cuts = made.coincident_cuts;
     report_measured(made.imbalance, tolerance, report);
-}
-
-/// Returns true if the new parts are not worth moving points out of the ranks' present parts.
-bool keeps_after_all(const Decision& decision, const Options& options, const Balance& made) {
-    const Verdict& verdict = decision.verdict;
-    const Report& report = made.report;
-    if (options.refine == Refine::exact)
-        return are_as_exact(decision.part_weights, report.part_weights, made.cuts,
-                            verdict.balanced_heaviest(), options);
-    return !is_worth_moving(verdict.kept_imbalance, report.imbalance, options);
 }
 
 /// Makes the ranks' present parts the result. Collective.
@@ -237,10 +228,14 @@ Balance make_anew(const Given& given, Participant& self) {
     Balance result{{}, {}, decide_on_all(given, options, mine, decision, self)};
     SettledCuts made{std::move(decision.cuts), std::move(decision.brackets)};
     const Verdict& verdict = decision.verdict;
-    if (verdict.may_turn != 0 && turns(decision, made.cuts, given.points, self)) {
+    bool has_numbers = verdict.has_numbers != 0;
+    if (verdict.may_turn != 0) has_numbers = turns(decision, made.cuts, given.points, self);
+    if (verdict.may_turn != 0 && has_numbers) {
         made = {std::move(decision.turned.cuts), std::move(decision.turned.brackets)};
         result.report.details.estimated_imbalance = verdict.turned_imbalance;
     }
+    if (has_numbers) made.cuts.numbers = std::move(decision.numbers);
+    made.cuts.debt = verdict.debt;
     bool is_kept = keeps_at_once(verdict.kept_imbalance, options);
     if (is_kept) {
         decision.cuts = std::move(made.cuts);
@@ -268,6 +263,7 @@ Balance better(const Given& given, Balance&& earlier, Balance&& made, Participan
     if (is_worth_moving(earlier.report, made.report, given.options)) return std::move(made);
     earlier.report.details.rounds = made.report.details.rounds;
     earlier.report.details.coincident_cuts = made.report.details.coincident_cuts;
+    earlier.cuts.debt = made.cuts.debt;
     self.attempt([&] {
         given.points.assign(earlier.cuts, false);
         number_parts(earlier.cuts, given.points);

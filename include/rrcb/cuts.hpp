@@ -34,13 +34,18 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// `points`.
 ///
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves shape.lower_parts(n) of
-/// them below its cut. End k of the tree, from the lowest, is part shape.part_at(k, num_parts): k
-/// itself unless parts are dealt to groups.
+/// them below its cut. End k of the tree, from the lowest, is part_at(k): k itself unless parts are
+/// dealt to groups, or have kept their numbers when cuts turned.
 struct Cuts {
     int dimension = 0;      ///< of the points
     int num_parts = 1;      ///< of the tree
     std::vector<Cut> tree;  ///< in preorder
     TreeShape shape{};      ///< of the tree
+    /// Part of each end, from the lowest; empty: as shape.part_at().
+    std::vector<Part> numbers{};
+    /// What the axes of the cuts have cost more than others since they were chosen, as a share of
+    /// the points, for the next balance.
+    double debt = 0;
     /// Random number of the ranks of the balance, with which calls check their communicator; 0:
     /// none, as of a balance on one rank. Set it to 0 to use the cuts on other ranks.
     std::uint64_t group = 0;
@@ -50,6 +55,12 @@ struct Cuts {
 
     /// Returns true for cuts of no balance, as Cuts{}. Not collective.
     bool empty() const { return dimension == 0 && tree.empty(); }
+    /// Returns the part at an end of the tree. Not collective.
+    Part part_at(Part end) const {
+        return numbers.empty() ? shape.part_at(end, num_parts) : numbers[end];
+    }
+    /// Returns true if end k is part k. Not collective.
+    bool is_numbered_in_order() const { return numbers.empty() && shape.dealt == 0; }
 };
 
 /// Stands for no part.

@@ -118,10 +118,9 @@ void assign(const Execution& exec, const Cuts& cuts, const Views& x,
     detail::require_on_device(parts.extent(0) == passes.count(),
                               "parts must have one entry per point");
     passes.assign(cuts, false);
-    if (cuts.shape.dealt == 0) return;
+    if (cuts.is_numbered_in_order()) return;
     std::vector<Part> numbers;
-    for (Part end = 0; end < cuts.num_parts; ++end)
-        numbers.push_back(cuts.shape.part_at(end, cuts.num_parts));
+    for (Part end = 0; end < cuts.num_parts; ++end) numbers.push_back(cuts.part_at(end));
     passes.renumber(numbers);
 }
 

@@ -83,6 +83,10 @@ struct Axes {
     /// Planes only: points on a plane stay together, above it, and regions are half-open boxes.
     bool plain = false;
 
+    /// Steps of the program from one call to the next, > 0 and finite: the more, the sooner cuts of
+    /// `previous` turn to axes with fewer ghosts, which pay in each step.
+    double steps = 50;
+
     /// Least extent of every part along each axis, > 0 and finite, one per axis of the points;
     /// empty: any. Between two cuts `upper - lower >= min_width` holds as doubles compute it. On a
     /// side without a cut the extent ends at the bounding box of all points of the call. Along an

@@ -27,6 +27,8 @@ class Cuts:
         num_parts: int,
         tree: Array,
         shape: tuple[int, int, int] = (1, 0, 0),
+        numbers: Array | None = None,
+        debt: float = 0,
     ) -> None:
         self.dimension = dimension
         self.num_parts = num_parts
@@ -34,10 +36,12 @@ class Cuts:
         if self.tree.shape != (num_parts - 1,):
             raise c.Error(f"tree must have the shape ({num_parts - 1},), not {self.tree.shape}")
         self._shape = shape
+        self._numbers = None if numbers is None else np.ascontiguousarray(numbers, dtype=np.int32)
+        self._debt = debt
         self._own: c.OwnedHandle | None = None
 
     def __getstate__(self) -> tuple[Any, ...]:
-        return self.dimension, self.num_parts, self.tree, self._shape
+        return (self.dimension, self.num_parts, self.tree, self._shape, self._numbers, self._debt)
 
     def __setstate__(self, state: tuple[Any, ...]) -> None:
         self.__init__(*state)  # type: ignore[misc]
@@ -118,7 +122,8 @@ class Cuts:
     def give(self, balancer: c.Handle) -> None:
         """Copies the cuts to a balancer."""
         tree = self.tree.ctypes.data if len(self.tree) else None
-        given = c.Cuts(self.dimension, self.num_parts, tree, *self._shape)
+        numbers = None if self._numbers is None else self._numbers.ctypes.data
+        given = c.Cuts(self.dimension, self.num_parts, tree, *self._shape, numbers, self._debt)
         c.call("set_cuts", balancer, given)
 
 
@@ -128,4 +133,5 @@ def cuts_of(balancer: c.Handle) -> Cuts:
     c.call("get_cuts", balancer, shown)
     tree = copied(shown.tree, (shown.num_parts - 1,), CUT)
     shape = (shown.group_size, shown.larger_below, shown.dealt)
-    return Cuts(shown.dimension, shown.num_parts, tree, shape)
+    numbers = copied(shown.numbers, (shown.num_parts,), np.int32) if shown.numbers else None
+    return Cuts(shown.dimension, shown.num_parts, tree, shape, numbers, shown.debt)

@@ -36,7 +36,7 @@ class Cuts(Structure):
 
     _fields_ = members(
         dimension=c_int, num_parts=c_int, tree=c_void_p, group_size=c_int, larger_below=c_int,
-        dealt=c_int
+        dealt=c_int, numbers=c_void_p, debt=c_double
     )
 
 

@@ -131,7 +131,7 @@ Bracket bracket_of(const Profile& profile, const Cut& cut, double below, int dep
 
 /// Returns the distance from a cut within which weight is near, like the cut-off radii of codes.
 double near_reach(const Profile& profile) {
-    return profile.mean_half_side() / 4;
+    return near_share * profile.mean_half_side();
 }
 
 void bisect_piece(Piece piece, Task& task) {

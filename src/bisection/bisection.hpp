@@ -12,6 +12,9 @@ double share_below(std::span<const double> sizes, int num_below);
 /// `depth`, the number of cuts above, because fewer cells are left.
 double expected_error(int depth);
 
+/// Share of a mean half side of the patches within which weight is near the cuts.
+inline constexpr double near_share = 0.25;
+
 /// As the public function, with complete options and, on request, the brackets of the cuts. The
 /// domain stands for `num_points`; 0: for any number. Axes of `preferred`, one per cut in preorder
 /// or none, are taken where that is possible. `near_weight` gets the weight near all cuts.

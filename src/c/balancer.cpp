@@ -45,6 +45,8 @@ Cuts copy_of(const rrcb_cuts& given) {
     std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
         return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
     });
+    if (given.numbers) cuts.numbers.assign(given.numbers, given.numbers + size + 1);
+    cuts.debt = given.debt;
     check_tree(cuts);
     return cuts;
 }
@@ -160,7 +162,9 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
                  reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()),
                  own.cuts.shape.group_size,
                  own.cuts.shape.larger_below ? 1 : 0,
-                 own.cuts.shape.dealt};
+                 own.cuts.shape.dealt,
+                 own.cuts.numbers.empty() ? nullptr : own.cuts.numbers.data(),
+                 own.cuts.debt};
     });
 }
 

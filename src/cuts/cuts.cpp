@@ -32,6 +32,7 @@ void check_shape(const Cuts& cuts) {
     const TreeShape& shape = cuts.shape;
     require(shape.dealt == 0 || (shape.group_size >= 1 && shape.number_fits(cuts.num_parts)),
             "the shape of the cuts must be one for so many parts; keep it with the cuts");
+    require(cuts.numbers.empty() || std::ssize(cuts.numbers) == cuts.num_parts, illegal_numbers);
 }
 
 /// Returns true if no position is on the upper side of `lower` and on the lower side of `upper`,
@@ -87,9 +88,22 @@ int num_levels(const TreeShape& shape, int num_parts) {
     return halvings((num_parts - 1) / group_size + 1) + halvings(std::min(group_size, num_parts));
 }
 
+Part end_of(const Cuts& cuts, Part part) {
+    if (cuts.numbers.empty()) return cuts.shape.end_of(part, cuts.num_parts);
+    const auto at = std::ranges::find(cuts.numbers, part);
+    require(at != cuts.numbers.end(), illegal_numbers);
+    return static_cast<Part>(at - cuts.numbers.begin());
+}
+
+std::vector<Part> numbers_of(const Cuts& cuts) {
+    std::vector<Part> numbers;
+    for (Part end = 0; end < cuts.num_parts; ++end) numbers.push_back(cuts.part_at(end));
+    return numbers;
+}
+
 void number_parts(const Cuts& cuts, std::span<Part> ends) {
-    if (cuts.shape.dealt == 0) return;
-    for (Part& end : ends) end = part_at(cuts, end);
+    if (cuts.is_numbered_in_order()) return;
+    for (Part& end : ends) end = cuts.part_at(end);
 }
 
 Descent node_at(const Cuts& cuts, std::size_t node) {
@@ -133,7 +147,7 @@ Part part_of(const Cuts& cuts, const Vector& position) {
     for (int a = 0; a < cuts.dimension; ++a)
         if (std::isnan(position[a])) [[unlikely]]
             return no_part;
-    return part_at(cuts, descend(cuts, position, root_of(cuts)).first_part);
+    return cuts.part_at(descend(cuts, position, root_of(cuts)).first_part);
 }
 
 Box box_of(const Cuts& cuts, Part part) {
@@ -160,7 +174,7 @@ std::vector<Part> parts_touching_sides(const Cuts& cuts, const Box& box) {
         if (!is_region_empty(cuts, part, region_of(cuts, part))) parts.push_back(part);
     });
     number_parts(cuts, parts);
-    if (cuts.shape.dealt != 0) std::ranges::sort(parts);
+    if (!cuts.is_numbered_in_order()) std::ranges::sort(parts);
     return parts;
 }
 

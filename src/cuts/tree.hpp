@@ -34,13 +34,11 @@ inline Descent root_of(const Cuts& cuts) {
     return root_of(cuts.num_parts, cuts.shape);
 }
 
-/// Return the part at an end of the tree, and the end of a part.
-inline Part part_at(const Cuts& cuts, Part end) {
-    return cuts.shape.part_at(end, cuts.num_parts);
-}
-inline Part end_of(const Cuts& cuts, Part part) {
-    return cuts.shape.end_of(part, cuts.num_parts);
-}
+/// Returns the end of the tree of a part.
+Part end_of(const Cuts& cuts, Part part);
+
+/// Returns the part at each end of the tree.
+std::vector<Part> numbers_of(const Cuts& cuts);
 
 /// Replaces ends of the tree by their parts.
 void number_parts(const Cuts& cuts, std::span<Part> ends);

@@ -9,6 +9,7 @@
 #include "cuts/tree.hpp"
 #include "estimate/earlier_cuts.hpp"
 #include "estimate/keeping_mpi.hpp"
+#include "estimate/turning.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 
@@ -65,18 +66,19 @@ double least_imbalance(const Verdict& verdict, int num_parts, std::span<const do
 }
 
 /// Returns the arrays of the answer, as bytes.
-std::array<std::span<std::byte>, 5> arrays_of(Decision& decision) {
+std::array<std::span<std::byte>, 6> arrays_of(Decision& decision) {
     const auto bytes = [](auto& array) { return std::as_writable_bytes(std::span(array)); };
     const Verdict& verdict = decision.verdict;
     if (verdict.answer == Answer::totals) return {};
     if (verdict.answer == Answer::weights) return {bytes(decision.part_weights)};
     if (verdict.answer == Answer::kept)
         return {bytes(decision.cuts.tree), bytes(decision.part_weights), bytes(decision.parts)};
-    std::array arrays{bytes(decision.cuts.tree), bytes(decision.brackets),
-                      bytes(decision.part_weights), bytes(decision.turned.cuts.tree),
-                      bytes(decision.turned.brackets)};
+    std::array arrays{bytes(decision.cuts.tree),       bytes(decision.brackets),
+                      bytes(decision.part_weights),    bytes(decision.turned.cuts.tree),
+                      bytes(decision.turned.brackets), bytes(decision.numbers)};
     if (!(verdict.kept_imbalance < not_kept)) arrays[2] = {};
     if (verdict.may_turn == 0) arrays[3] = arrays[4] = {};
+    if (verdict.has_numbers == 0) arrays[5] = {};
     return arrays;
 }
 
@@ -117,16 +119,6 @@ void keep(Decision& decision) {
     decision.parts = std::move(decision.held->parts);
 }
 
-Bisection bisect_gathered(StatisticalDomain domain, const Contribution& all, const Options& options,
-                          std::span<const int> preferred, double* near_weight = nullptr) {
-    const bool with_brackets = is_refined(options);
-    if (are_cuts_limited(options) && all.summary.num_points > 0)
-        return bisect_within(all.summary.box, std::move(domain), options, with_brackets, preferred,
-                             near_weight);
-    return bisect(std::move(domain), options, with_brackets, all.summary.num_points, preferred,
-                  near_weight);
-}
-
 /// Computes the imbalance of the parts of earlier cuts, whose points the ranks have counted; it is
 /// endless if limits forbid the cuts.
 void weigh_parts(const Contribution& all, const Options& options, Decision& decision) {
@@ -153,19 +145,13 @@ std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
     return read_kept_tree(extents, estimate, options);
 }
 
-/// Bisects the cells of all ranks across the axes of earlier cuts, unless free ones leave clearly
-/// less weight near all cuts together: one cut that turns moves all points below it.
-Bisection choose_axes(const StatisticalDomain& domain, const Contribution& all,
-                      const Options& options, std::span<const int> earlier) {
-    constexpr double enough = 0.9;
-    double near_free = 0;
-    Bisection made =
-        bisect_gathered(domain, all, options, {}, earlier.empty() ? nullptr : &near_free);
-    if (earlier.empty() || std::ranges::equal(axes_of(made.cuts.tree), earlier)) return made;
-    double near_along = 0;
-    Bisection along = bisect_gathered(domain, all, options, earlier, &near_along);
-    const bool stays = options.axes.order.is_longest() || enough * near_along <= near_free;
-    return stays ? along : made;
+/// Returns the tree that the ranks hold, with the number of the rank at each end.
+Cuts numbered_by_ranks(const KeptTree& held) {
+    Cuts cuts = held.cuts;
+    cuts.numbers.resize(held.parts.size());
+    for (std::size_t rank = 0; rank < held.parts.size(); ++rank)
+        cuts.numbers[held.parts[rank]] = static_cast<Part>(rank);
+    return cuts;
 }
 
 /// Bisects the cells of all ranks, and reads what the ranks hold. If that is a bisection, the cuts
@@ -175,18 +161,29 @@ Bisection choose_axes(const StatisticalDomain& domain, const Contribution& all,
 Bisection make_cuts(const Contribution& all, const Options& options, Decision& decision) {
     constexpr double enough = 0.85;
     const StatisticalDomain domain = build_domain(all, decision.cuts.dimension);
-    Bisection made = choose_axes(domain, all, options, decision.preferred);
+    const bool with_brackets = is_refined(options);
+    const Cuts* earlier = decision.earlier;
+    decision.numbers.clear();
+    Bisection made = earlier ? bisect_along(domain, all, options, *earlier)
+                             : bisect_gathered(domain, all, options, with_brackets);
     decision.held = read_held(all, made.cuts, options);
     if (!decision.held) return made;
     const std::vector<int> axes = axes_of(decision.held->cuts.tree);
     if (axes == axes_of(made.cuts.tree)) return made;
+    if (earlier) {
+        decision.held.reset();
+        return made;
+    }
     Options along = options;
     along.axes.order = AxisOrder::given(axes);
-    Bisection across = bisect_gathered(domain, all, along, {});
+    Bisection across = bisect_gathered(domain, all, along, with_brackets);
     const bool is_even = decision.held->imbalance <= options.imbalance_tolerance;
-    if (!options.axes.order.is_longest() &&
-        !(is_even && are_axes_good(domain, decision.held->cuts, made.cuts, enough)))
-        decision.turned = std::move(made);
+    if (options.axes.order.is_longest() ||
+        (is_even && are_axes_good(domain, decision.held->cuts, made.cuts, enough)))
+        return across;
+    keep_numbers(domain, options.part_sizes, numbered_by_ranks(*decision.held), made.cuts);
+    decision.numbers = made.cuts.numbers;
+    decision.turned = std::move(made);
     return across;
 }
 
@@ -231,10 +228,10 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
 void finish_weights(const Verdict& verdict, const Cuts& cuts, std::vector<double>& weights) {
     if (verdict.is_counted())
         for (double& weight : weights) weight *= verdict.unit();
-    if (cuts.shape.dealt == 0) return;
+    if (cuts.is_numbered_in_order()) return;
     const std::vector<double> of_ends = weights;
     for (std::size_t end = 0; end < of_ends.size(); ++end)
-        weights[part_at(cuts, static_cast<Part>(end))] = of_ends[end];
+        weights[cuts.part_at(static_cast<Part>(end))] = of_ends[end];
 }
 
 void report_measured(double imbalance, double tolerance, Report& report) {
@@ -254,6 +251,8 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
     const std::size_t num_cuts = num_parts - 1;
     Cuts& cuts = decision.cuts;
     cuts = {dimension, static_cast<int>(num_parts), std::vector<Cut>(num_cuts), options.tree};
+    if (decision.earlier) cuts.numbers = decision.earlier->numbers;
+    if (decision.earlier || may_keep) decision.numbers.resize(num_parts);
     decision.brackets.resize(is_refined(options) ? num_cuts : 0);
     if (may_keep) {
         decision.part_weights.resize(num_parts);
@@ -262,9 +261,10 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
         decision.turned.brackets = decision.brackets;
     }
     const std::size_t of_cuts = num_cuts * sizeof(Cut) + decision.brackets.size() * sizeof(Bracket);
-    make_message(
-        (may_keep ? 2 : 1) * of_cuts + decision.parts.size() * (sizeof(double) + sizeof(Part)),
-        decision);
+    make_message((may_keep ? 2 : 1) * of_cuts +
+                     decision.parts.size() * (sizeof(double) + sizeof(Part)) +
+                     decision.numbers.size() * sizeof(Part),
+                 decision);
 }
 
 void decide(const Contribution& all, const Options& options, Decision& decision) {
@@ -274,6 +274,8 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
     if (answer == Answer::cuts) {
         const std::size_t num_brackets = decision.brackets.size();
         Bisection made = make_cuts(all, options, decision);
+        if (decision.earlier && made.cuts.numbers != decision.earlier->numbers)
+            decision.numbers = made.cuts.numbers;
         decision.cuts = std::move(made.cuts);
         decision.brackets = std::move(made.brackets);
         decision.brackets.resize(num_brackets);
@@ -282,6 +284,8 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
     Verdict& verdict = decision.verdict;
     verdict = verdict_of(all.summary, estimated, options.part_sizes);
     verdict.answer = answer;
+    verdict.debt = decision.cuts.debt;
+    verdict.has_numbers = decision.numbers.empty() ? 0 : 1;
     if (answer == Answer::weights) weigh_parts(all, options, decision);
     if (!decision.held) return;
     verdict.kept_imbalance = decision.held->imbalance;

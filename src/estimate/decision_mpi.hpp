@@ -38,6 +38,8 @@ struct Verdict : Totals {
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts
     std::int32_t may_turn = 0;              ///< 1: other cuts seem to have fewer points near them
     double turned_imbalance = not_known;    ///< estimated of those
+    std::int32_t has_numbers = 0;           ///< 1: parts have other numbers than before
+    double debt = 0;                        ///< of the cuts
 
     /// Returns true if points are counted, because all have the same weight or none.
     bool is_counted() const { return weight == 0 || lightest == heaviest; }
@@ -54,7 +56,7 @@ struct Verdict : Totals {
 /// Decision of rank 0: a verdict, and the arrays of its answer.
 ///
 /// cuts:    the cuts, with brackets if they may move; if the ranks' present parts may be kept,
-///          their weights, and perhaps cuts across other axes
+///          their weights, and perhaps cuts across other axes; numbers of the parts after a turn
 /// weights: of the parts of `cuts`, which all ranks have
 /// totals:  none
 /// kept:    the cuts, weights and parts of the ranks' points
@@ -66,7 +68,8 @@ struct Decision {
     std::vector<Part> parts{};           ///< of each rank's points
     Bisection turned{};                  ///< cuts across other axes than `cuts`, if these may turn
     std::optional<KeptTree> held{};      ///< what the ranks hold, on rank 0 if that may be kept
-    std::vector<int> preferred{};        ///< axes of the cuts, in preorder; empty: none
+    const Cuts* earlier = nullptr;       ///< whose axes are preferred; null: none
+    std::vector<Part> numbers{};         ///< of the ends of the cuts that turned
     std::vector<std::byte> message{};    ///< verdict and arrays, as sent
 };
 

@@ -155,4 +155,13 @@ bool is_worth_moving(const Report& kept, const Report& offered, const Options& o
            (fills && std::islessequal(offered.imbalance, kept.imbalance * (1 + rounding)));
 }
 
+bool keeps_after_all(const Decision& decision, const Options& options, const Balance& made) {
+    const Verdict& verdict = decision.verdict;
+    const Report& report = made.report;
+    if (options.refine == Refine::exact)
+        return are_as_exact(decision.part_weights, report.part_weights, made.cuts,
+                            verdict.balanced_heaviest(), options);
+    return !is_worth_moving(verdict.kept_imbalance, report.imbalance, options);
+}
+
 }  // namespace rrcb

@@ -38,6 +38,9 @@ bool is_worth_moving(double kept, double offered, const Options& options);
 /// size empty without a loss.
 bool is_worth_moving(const Report& kept, const Report& offered, const Options& options);
 
+/// Returns true if the parts made are not worth moving points out of the ranks' present parts.
+bool keeps_after_all(const Decision& decision, const Options& options, const Balance& made);
+
 /// Turns the cuts across other axes than those between the ranks, if that leaves far fewer points
 /// near them than near `held`; then the ranks' present parts are not kept. By counts, because an
 /// estimate depends on which ranks hold the points, and might turn the cuts in every call. Returns

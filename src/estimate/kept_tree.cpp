@@ -121,14 +121,14 @@ class Reader {
         Cut cut = plane(axis, first[axis]);
         cut.divides = 1;
         std::copy_n(first.begin(), estimate_.dimension, cut.at.begin());
-        const bool may_divide = by_number && options_.tree.dealt == 0 &&
+        const bool may_divide = by_number && estimate_.is_numbered_in_order() &&
                                 options_.coincident == Coincident::divide &&
                                 options_.refine != Refine::none;
         if (!may_divide) return std::nullopt;
         return cut;
     }
 
-    const PointSummary& extent_at(Part end) const { return extents_[part_at(estimate_, end)]; }
+    const PointSummary& extent_at(Part end) const { return extents_[estimate_.part_at(end)]; }
 
     /// Puts the ranks with the first points across an axis to the beginning of sorted ends.
     /// Coincident points are in the order of their ranks. Ranks without points stay on their side.
@@ -163,7 +163,7 @@ class Reader {
     /// Gives the points of a rank their part; returns false if the part must stay empty.
     bool settle(Part part, Part end) {
         const PointSummary& extent = extent_at(end);
-        kept_.parts[part_at(estimate_, end)] = part;
+        kept_.parts[estimate_.part_at(end)] = part;
         kept_.part_weights[part] = extent.weight;
         return extent.count == 0 || options_.part_sizes[part] > 0;
     }
@@ -207,7 +207,7 @@ std::vector<PointSummary> read_extents(std::span<const double> doubles, int dime
 
 bool is_in_order(const Cuts& cuts, std::span<const Part> parts) {
     for (std::size_t rank = 0; rank < parts.size(); ++rank)
-        if (part_at(cuts, parts[rank]) != static_cast<Part>(rank)) return false;
+        if (cuts.part_at(parts[rank]) != static_cast<Part>(rank)) return false;
     return true;
 }
 

@@ -125,10 +125,15 @@ contains
     integer, intent(out), optional :: error
     type(c_cuts) :: from
     type(rrcb_cut), pointer :: tree(:)
+    integer(c_int32_t), pointer :: numbers(:)
     call settle(c_get_cuts(self%handle, from), error)
     call c_f_pointer(from%tree, tree, [from%num_parts - 1])
-    cuts = rrcb_cuts(from%dimension, from%group_size, from%dealt, from%larger_below == 1, tree)
+    cuts = rrcb_cuts(from%dimension, from%group_size, from%dealt, from%larger_below == 1, tree, &
+                     debt=from%debt)
     cuts%tree%axis = cuts%tree%axis + 1
+    if (.not. c_associated(from%numbers)) return
+    call c_f_pointer(from%numbers, numbers, [from%num_parts])
+    cuts%numbers = numbers
   end subroutine
 
   !> Copies cuts of an earlier run into the balancer. Not collective.
@@ -137,13 +142,18 @@ contains
     type(rrcb_cuts), intent(in) :: cuts
     integer, intent(out), optional :: error
     type(rrcb_cut), allocatable, target :: tree(:)
+    integer(c_int32_t), allocatable, target :: numbers(:)
     type(c_cuts) :: given
     allocate (tree(0))
     if (allocated(cuts%tree)) tree = cuts%tree
     tree%axis = tree%axis - 1
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
-                   merge(1, 0, cuts%larger_below), cuts%dealt)
+                   merge(1, 0, cuts%larger_below), cuts%dealt, c_null_ptr, cuts%debt)
     if (size(tree) > 0) given%tree = c_loc(tree)
+    if (allocated(cuts%numbers)) then
+      numbers = cuts%numbers
+      if (size(numbers) == size(tree) + 1) given%numbers = c_loc(numbers)
+    end if
     call settle(c_set_cuts(self%handle, given), error)
   end subroutine
 

@@ -7,6 +7,8 @@ module rrcb_c_types
     integer(c_int) :: dimension = 0, num_parts = 1
     type(c_ptr) :: tree = c_null_ptr
     integer(c_int) :: group_size = 1, larger_below = 0, dealt = 0
+    type(c_ptr) :: numbers = c_null_ptr
+    real(c_double) :: debt = 0
   end type
 
   type, bind(c) :: c_plan

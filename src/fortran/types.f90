@@ -52,6 +52,9 @@ module rrcb_types
     integer :: dimension = 0, group_size = 1, dealt = 0
     logical :: larger_below = .false.
     type(rrcb_cut), allocatable :: tree(:)
+    !> Part of each end of the tree; not allocated: by the shape.
+    integer(c_int32_t), allocatable :: numbers(:)
+    real(c_double) :: debt = 0  !< for the next balance
   end type
 
   !> Report of the last balance.

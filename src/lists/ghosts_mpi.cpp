@@ -33,28 +33,27 @@ namespace {
 /// ranks_of_part().
 struct Holders {
     std::optional<std::span<const RankRange>> given;
-    TreeShape shape;
-    int num_parts;
+    const Cuts& cuts;
     int rank;  ///< this one
     int num_ranks;
 
     RankRange of_part(Part part) const {
-        return given ? (*given)[part] : ranks_of_part(part, num_parts, num_ranks);
+        return given ? (*given)[part] : ranks_of_part(part, cuts.num_parts, num_ranks);
     }
 
-    RankRange operator()(Part end) const { return of_part(shape.part_at(end, num_parts)); }
+    RankRange operator()(Part end) const { return of_part(cuts.part_at(end)); }
 
     /// Returns the ends of the parts on this rank.
     std::vector<Part> ends_here() const {
         std::vector<Part> ends;
-        for (Part end = 0; end < num_parts; ++end)
+        for (Part end = 0; end < cuts.num_parts; ++end)
             if ((*this)(end).contains(rank)) ends.push_back(end);
         return ends;
     }
 
     void check() const {
         if (!given) return;
-        require(given->size() == static_cast<std::size_t>(num_parts),
+        require(given->size() == static_cast<std::size_t>(cuts.num_parts),
                 "ranks_of_parts must have one entry for each part");
         check_ranks(*given, num_ranks);
     }
@@ -252,11 +251,11 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                  Participant& self) {
-    GhostRequest request{points,
-                         {options.radius, options.radii, options.needs},
-                         {options.ranks_of_parts, cuts.shape, cuts.num_parts,
-                          mpi::rank_of(self.comm), mpi::size_of(self.comm)},
-                         {}};
+    GhostRequest request{
+        points,
+        {options.radius, options.radii, options.needs},
+        {options.ranks_of_parts, cuts, mpi::rank_of(self.comm), mpi::size_of(self.comm)},
+        {}};
     if (points.count == 0 && std::isnan(options.radius)) request.radii.each.emplace();
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);

@@ -11,11 +11,6 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the rule for groups in place of parts; their origins are their earlier numbers.
-NumberRule rule_of_groups(const NumberRule& rule) {
-    return {(rule.num_parts - 1) / rule.shape.group_size + 1, rule.num_ranks, false};
-}
-
 /// The groups of a rank's points.
 struct GroupsHere {
     std::vector<Part> groups;   ///< of the parts of its points
@@ -43,7 +38,7 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
 
 GroupBuffers::GroupBuffers(const NumberRule& rule, int rank) : parts(rule, rank) {
     if (rule.shape.group_size == 1) return;
-    groups.emplace(rule_of_groups(rule), rank);
+    groups.emplace(rule.of_groups(), rank);
     numbers.resize(static_cast<std::size_t>(rule.num_parts));
 }
 
@@ -56,12 +51,7 @@ Remap find_numbers(std::span<const Part> parts, const PreviousParts& previous,
     self.attempt([&] { here = groups_here(parts, previous, rule, rank); });
     const std::vector<Part> numbers_of_groups =
         find_numbers(here.groups, here.origins, *buffers.groups, self).numbers;
-    const auto moved = [&](Part part) {
-        const Part end = rule.shape.end_of(part, rule.num_parts);
-        const int size = rule.shape.group_size;
-        return rule.shape.part_at(numbers_of_groups[end / size] * size + end % size,
-                                  rule.num_parts);
-    };
+    const auto moved = [&](Part part) { return rule.with_group(part, numbers_of_groups); };
     std::ranges::transform(parts, here.groups.begin(), moved);
     Remap remap = find_numbers(here.groups, previous, buffers.parts, self);
     // The search counts fewer: a rank may have numbers of two groups, of which a part can only get

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/butterfly_mpi.hpp"
-#include "lists/number_search.hpp"
+#include "cuts/number_search.hpp"
 
 #include <rrcb/remap.hpp>
 

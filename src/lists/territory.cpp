@@ -55,7 +55,7 @@ Territory::Territory(const Cuts& cuts, const NeighbourOptions& options, int rank
 }
 
 RankRange Territory::ranks_of_end(Part end) const {
-    const Part part = part_at(cuts_, end);
+    const Part part = cuts_.part_at(end);
     return has_ranks_ ? ranks_of_parts_[part] : ranks_of_part(part, cuts_.num_parts, num_ranks_);
 }
 

@@ -84,6 +84,8 @@ std::uint64_t bits_of(const Cuts& cuts) {
     add(cuts.shape.group_size, hash);
     add(cuts.shape.larger_below, hash);
     add(cuts.shape.dealt, hash);
+    add(cuts.debt, hash);
+    for (const Part part : cuts.numbers) add(part, hash);
     for (const Cut& cut : cuts.tree) {
         add(cut.axis, hash);
         for (const double x : cut.at) add(x, hash);

@@ -75,6 +75,16 @@ bool has_its_cuts(const Cuts& cuts) {
            cuts.shape.number_fits(cuts.num_parts) && std::ssize(cuts.tree) + 1 == cuts.num_parts;
 }
 
+/// Returns true if each part is at one end of the tree.
+bool has_legal_numbers(const Cuts& cuts) {
+    if (cuts.numbers.empty()) return std::isfinite(cuts.debt);
+    std::vector<bool> is_there(static_cast<std::size_t>(cuts.num_parts));
+    for (const Part part : cuts.numbers)
+        if (part >= 0 && part < cuts.num_parts) is_there[part] = true;
+    return cuts.numbers.size() == is_there.size() && std::ranges::count(is_there, false) == 0 &&
+           std::isfinite(cuts.debt);
+}
+
 bool has_legal_cuts(const Cuts& cuts) {
     return std::ranges::all_of(cuts.tree, [&](const Cut& cut) {
         return cut.axis >= 0 && cut.axis < cuts.dimension &&
@@ -176,6 +186,7 @@ void check_tree(const Cuts& cuts) {
     require(has_its_cuts(cuts),
             "the tree must hold one cut less than there are parts, in groups of 1 or more");
     require(has_legal_cuts(cuts), illegal_cut);
+    require(has_legal_numbers(cuts), illegal_numbers);
 }
 
 void check_positions(const Points& positions, const Cuts& cuts) {
@@ -228,6 +239,7 @@ void check_previous(const Cuts& previous, const Options& options, int dimension)
         "previous cuts must have the dimension and the shape of tree asked for; "
         "pass no cuts ({}; None; rrcb_clear_cuts)");
     require(has_legal_cuts(previous), illegal_cut);
+    require(has_legal_numbers(previous), illegal_numbers);
 }
 
 void check_options(const Options& options, int dimension) {

@@ -59,6 +59,10 @@ inline constexpr const char* illegal_cut =
     "a cut has an axis that the points lack, NaN in at, or a divides that is neither 0 nor 1; give "
     "the cuts of a balance unchanged";
 
+inline constexpr const char* illegal_numbers =
+    "the numbers of cuts must name each part once, and their debt be finite; give the cuts of a "
+    "balance unchanged";
+
 /// Throws Error if cuts are neither a tree nor a part of one.
 void check_tree(const Cuts& cuts);
 

@@ -65,13 +65,13 @@ Flags flags_of(const std::optional<TreeSearch>& search) {
 
 }  // namespace
 
-Settlement::Settlement(const Options& options, PointPasses& points, bool counts,
+Settlement::Settlement(const Options& options, PointPasses& points, bool counts, OpenMemory& memory,
                        const Participant& self)
     : options_(options),
       points_(points),
       is_spread_(is_spread(options, mpi::size_of(self.comm))),
       sums_((is_refined(options) || counts) && !is_spread_ ? options.part_sizes.size() : 0),
-      memory_(workspace_of(self.comm)),
+      memory_(memory),
       tree_(tree_of(options, points.dimension(), mpi::size_of(self.comm))),
       butterfly_(mpi::rank_of(self.comm), mpi::size_of(self.comm), TreeSearch::join,
                  is_spread_ ? Butterfly::Way::spread : Butterfly::Way::central) {}
@@ -187,7 +187,7 @@ void Settlement::search_once(Participant& self) {
             intervals = likely_intervals(tree_.rule, guide);
             if (!limits_) guide.brackets = intervals;
         }
-        open = open_points(points_, known ? made_.cuts : none, intervals, has_parts, memory_.open);
+        open = open_points(points_, known ? made_.cuts : none, intervals, has_parts, memory_);
         search.emplace(tree_, butterfly_.rank(), *open, known);
     });
     made_.rounds += run_rounds(search, self);
@@ -196,7 +196,7 @@ void Settlement::search_once(Participant& self) {
     std::vector<double> weights;
     self.attempt([&] {
         weights = open->settle();
-        if (!known) made_.cuts = search->own_cuts();
+        if (!known) made_.cuts = search->own_cuts(std::move(made_.cuts.numbers));
     });
     if (known) {
         std::ranges::copy(weights, sums_.here().begin());

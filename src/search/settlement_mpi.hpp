@@ -2,8 +2,8 @@
 
 #include "collective/butterfly_mpi.hpp"
 #include "cuts/cut_limits.hpp"
+#include "passes/open_points.hpp"
 #include "search/tree_search.hpp"
-#include "workspace_mpi.hpp"
 
 #include <rrcb/options.hpp>
 
@@ -73,9 +73,10 @@ struct SettledCuts {
 /// Buffers are made before the first message.
 class Settlement {
   public:
-    /// Borrows complete options and the points; `counts` if parts may be counted though no cut
-    /// moves. Not collective. Throws Error or std::bad_alloc.
-    Settlement(const Options& options, PointPasses& points, bool counts, const Participant& self);
+    /// Borrows complete options, the points and memory for them; `counts` if parts may be counted
+    /// though no cut moves. Not collective. Throws Error or std::bad_alloc.
+    Settlement(const Options& options, PointPasses& points, bool counts, OpenMemory& memory,
+               const Participant& self);
 
     /// Moves the cuts of `start` if the options ask for it, and gives each point its part; `counts`
     /// if the parts of other cuts are counted all the same. `here` is the box of this rank's
@@ -107,7 +108,7 @@ class Settlement {
     Box here_{};
     SettledCuts made_{};
     PartSums sums_;
-    Workspace& memory_;
+    OpenMemory& memory_;
     PartTree tree_;
     bool has_parts_ = false;           ///< the points have the parts of the cuts
     std::optional<CutLimits> limits_;  ///< empty if cuts are not limited

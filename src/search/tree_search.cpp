@@ -181,9 +181,10 @@ CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double wei
     return search;
 }
 
-Cuts TreeSearch::own_cuts() const {
+Cuts TreeSearch::own_cuts(std::vector<Part> numbers) const {
     const auto num_cuts = static_cast<std::size_t>(tree_.num_parts) - 1;
-    Cuts cuts{tree_.dimension, tree_.num_parts, std::vector<Cut>(num_cuts), tree_.shape};
+    Cuts cuts{tree_.dimension, tree_.num_parts, std::vector<Cut>(num_cuts), tree_.shape,
+              std::move(numbers)};
     for (const auto& [node, cut] : own_) cuts.tree[node] = cut;
     return cuts;
 }

@@ -103,8 +103,8 @@ class TreeSearch {
                      std::vector<double>& joined);
 
     /// Returns the tree after a spread search, in which cuts of other ranks are zeros. Throws
-    /// std::bad_alloc.
-    Cuts own_cuts() const;
+    /// std::bad_alloc. `numbers` of its parts, see Cuts.
+    Cuts own_cuts(std::vector<Part> numbers = {}) const;
 
     /// Returns the imbalance of the parts that this rank owns, in a spread search; 0 if these are
     /// empty.

@@ -167,6 +167,19 @@ program module_test
     call other%part_of([i + 0.5_c_double], part, error)
     call expect(part == 2*modulo(i, 2) + i/2, "part_of dealt parts")
   end do
+  cuts%numbers = [2_c_int32_t, 0_c_int32_t, 3_c_int32_t, 1_c_int32_t]
+  cuts%debt = 0.5
+  call other%set_cuts(cuts, error)
+  call expect(error == rrcb_ok, "set_cuts with numbers")
+  call other%get_cuts(cuts, error)
+  call expect(all(cuts%numbers == [2, 0, 3, 1]) .and. cuts%debt == 0.5, "numbers of cuts")
+  do i = 0, 3
+    call other%part_of([i + 0.5_c_double], part, error)
+    call expect(part == cuts%numbers(i + 1), "part_of numbered parts")
+  end do
+  cuts%numbers(1) = 3
+  call other%set_cuts(cuts, error)
+  call expect_text("the numbers of cuts must name each part once")
   call other%clear_cuts(error)
   call other%get_cuts(cuts, error)
   call expect(error == rrcb_invalid_argument, "clear_cuts")

@@ -124,6 +124,28 @@ TEST_F(CHandles, take_no_zeroed_points_cuts_or_ranks) {
                    "must name ranks of this communicator");
 }
 
+TEST_F(CHandles, take_and_show_the_numbers_and_the_debt_of_cuts) {
+    const std::array<rrcb_cut, 2> tree{rrcb_cut{0, 0, {1, 0, 0}}, rrcb_cut{0, 0, {2, 0, 0}}};
+    const std::array<std::int32_t, 3> numbers{2, 0, 1};
+    const rrcb_cuts cuts{1, 3, tree.data(), 1, 0, 0, numbers.data(), 0.25};
+    ASSERT_EQ(rrcb_set_cuts(balancer, &cuts), RRCB_OK) << rrcb_last_error();
+    rrcb_cuts shown;
+    ASSERT_EQ(rrcb_get_cuts(balancer, &shown), RRCB_OK);
+    EXPECT_TRUE(std::ranges::equal(std::span(shown.numbers, 3), numbers));
+    EXPECT_EQ(shown.debt, 0.25);
+    for (std::size_t end = 0; end < 3; ++end) {
+        const double position[3] = {static_cast<double>(end) + 0.5, 0, 0};
+        std::int32_t part = -1;
+        ASSERT_EQ(rrcb_part_of(balancer, position, &part), RRCB_OK);
+        EXPECT_EQ(part, numbers[end]);
+    }
+    for (const std::array<std::int32_t, 3>& wrong :
+         {std::array{0, 0, 1}, std::array{0, 1, 3}, std::array{-1, 0, 1}}) {
+        const rrcb_cuts given{1, 3, tree.data(), 1, 0, 0, wrong.data(), 0};
+        expect_refused(rrcb_set_cuts(balancer, &given), "name each part once");
+    }
+}
+
 TEST_F(CHandles, make_one_part_for_each_rank_if_asked_for_none) {
     for (const char* number : {"0", "AUTO"}) {
         ASSERT_EQ(rrcb_set(balancer, "num_parts", "7"), RRCB_OK);

@@ -34,7 +34,7 @@ class CNeighbours : public testing::Test {
             tree.push_back({static_cast<std::int32_t>(cut.axis),
                             cut.divides ? 1 : 0,
                             {cut.at[0], cut.at[1], cut.at[2]}});
-        const rrcb_cuts shown{2, cuts_.num_parts, tree.data(), 1, 0, 0};
+        const rrcb_cuts shown{2, cuts_.num_parts, tree.data(), 1, 0, 0, nullptr, 0};
         ASSERT_EQ(rrcb_set_cuts(balancer_, &shown), RRCB_OK) << rrcb_last_error();
         const double lower[3]{0, 0, 0};
         const double upper[3]{1, 1, 1};

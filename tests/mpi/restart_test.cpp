@@ -147,7 +147,9 @@ Bytes reversed(Bytes bytes) {
 }
 
 TEST(Restart, reads_cuts_on_any_ranks_and_in_either_byte_order) {
-    const Cuts cuts = cuts_of(8);
+    Cuts cuts = cuts_of(8);
+    cuts.numbers = {7, 0, 6, 1, 5, 2, 4, 3};
+    cuts.debt = 0.125;
     const std::vector<double> cloud = test::uniform_cloud(100, 2, 5);
     const Points points = interleaved_points(cloud, 2);
     std::vector<Part> expected(points.count);
@@ -158,6 +160,8 @@ TEST(Restart, reads_cuts_on_any_ranks_and_in_either_byte_order) {
         assign(loaded, points, parts);
         EXPECT_EQ(parts, expected);
         EXPECT_EQ(save(loaded), save(cuts));
+        EXPECT_EQ(loaded.numbers, cuts.numbers);
+        EXPECT_EQ(loaded.debt, cuts.debt);
         // 8 parts on these ranks, whose number is another.
         parts = assign_all(loaded, points, MPI_COMM_WORLD);
         EXPECT_EQ(parts, expected);

@@ -126,8 +126,8 @@ std::size_t follow(const Motion& motion, Balance& balance) {
 
 TEST(TurningAxes, follow_a_flow_and_move_few_points) {
     Balance balance;
-    // Three quarters of the points change parts once.
-    EXPECT_LT(follow(Flow{}, balance), 1.1 * num_points);
+    // Three quarters of the points would change parts if these were numbered as the ends.
+    EXPECT_LT(follow(Flow{}, balance), 0.9 * num_points);
     for (const Cut& cut : balance.cuts.tree) EXPECT_EQ(cut.axis, 0);
 }
 

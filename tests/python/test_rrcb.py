@@ -198,6 +198,15 @@ def test_keeps_uncounted_cuts_within_the_tolerance_only():
     assert RANKS == 1 or not np.array_equal(balance.cuts.tree, first.tree)
 
 
+def test_keeps_numbers_of_parts_in_cuts():
+    tree = np.array([(0, 0, (1, 0, 0)), (0, 0, (2, 0, 0))], dtype=rrcb.balance(
+        cloud(1), comm=comm, num_parts=3).cuts.tree.dtype)
+    cuts = rrcb.Cuts(1, 3, tree, numbers=np.array([2, 0, 1], dtype=">i4"), debt=0.5)
+    for read in (cuts, pickle.loads(pickle.dumps(cuts)), rrcb.Cuts.load(cuts.save())):
+        assert list(read.part_of(np.array([[0.5], [1.5], [2.5]]))) == [2, 0, 1]
+        assert read.save() == cuts.save()
+
+
 def test_reads_cuts_of_the_other_byte_order():
     cuts = rrcb.balance(cloud(2), comm=comm, num_parts=7).cuts
     dimension, num_parts, tree, *others = cuts.__getstate__()

@@ -1,5 +1,5 @@
 // The search for numbers of parts, compared with the definition of the greedy method.
-#include "lists/number_search.hpp"
+#include "cuts/number_search.hpp"
 
 #include "../support/clouds.hpp"
 #include "../support/common.hpp"

@@ -272,7 +272,8 @@ std::string values_of(const Option& option, const Range<Number>& range, const Op
     const std::string value = write_option(option, first);
     std::string text = value == "AUTO" ? "`AUTO`" : value;
     const std::string legal = legal_values(option);
-    text += ", " + legal.substr(legal.find_first_of("0123456789"));
+    const std::size_t above = legal.find("above");
+    text += ", " + legal.substr(above != legal.npos ? above : legal.find_first_of("0123456789"));
     if (range.most_in_3d != range.most) {
         std::ostringstream most;
         most << " (" << range.most_in_3d << " in 3-D)";

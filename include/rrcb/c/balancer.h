@@ -27,6 +27,8 @@ typedef struct rrcb_cuts {
     int group_size;       /**< of rrcb::TreeShape, 1 or more */
     int larger_below;     /**< 1: rrcb::TreeShape::larger_below */
     int dealt;            /**< of rrcb::TreeShape, 0 or more */
+    const int32_t* numbers; /**< part of each end of the tree, borrowed; NULL: by the shape */
+    double debt;            /**< for the next balance, as rrcb::Cuts::debt */
 } rrcb_cuts;
 
 /** Report of the last balance, as rrcb::Report; the same on every rank. */

@@ -13,7 +13,7 @@ void LastPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noex
 
 void LastPartition::prepare_look_ups() noexcept {
     if (tree_.num_nodes() > 0) return;
-    tree_.pack(cuts_, [this](Part end) { return numbering_.number_of(part_at(cuts_, end)); });
+    tree_.pack(cuts_, [this](Part end) { return numbering_.number_of(cuts_.part_at(end)); });
 }
 
 LastPartition LastPartition::copy() const {
@@ -33,7 +33,7 @@ TreeNode LastPartition::tree_node(int node) const {
         parent = node > middle ? -(middle + 1) : middle + 1;
     }
     const auto name = [this](const Descent& child) {
-        return child.is_part() ? -part_at(cuts_, child.first_part) : child.upper().first_part;
+        return child.is_part() ? -cuts_.part_at(child.first_part) : child.upper().first_part;
     };
     return {parent, name(at.lower()), name(at.upper())};
 }

@@ -1,4 +1,4 @@
-#include "lists/number_search.hpp"
+#include "cuts/number_search.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -22,6 +22,16 @@ int NumberRule::group_of(std::int32_t origin) const {
     for (Part number = numbers.first + 1; number < numbers.end; ++number)
         if (group_of_part(number) != group) return -1;
     return group;
+}
+
+NumberRule NumberRule::of_groups() const {
+    return {(num_parts - 1) / shape.group_size + 1, num_ranks, false};
+}
+
+Part NumberRule::with_group(Part part, std::span<const Part> numbers_of_groups) const {
+    const Part end = shape.end_of(part, num_parts);
+    const int size = shape.group_size;
+    return shape.part_at(numbers_of_groups[end / size] * size + end % size, num_parts);
 }
 
 namespace {

@@ -43,6 +43,11 @@ struct NumberRule {
     /// several.
     int group_of(std::int32_t origin) const;
     int group_of_part(Part part) const { return shape.end_of(part, num_parts) / shape.group_size; }
+
+    /// Returns the rule for groups in place of parts; their origins are their earlier numbers.
+    NumberRule of_groups() const;
+    /// Returns the number of a part if its group gets that of `numbers_of_groups`.
+    Part with_group(Part part, std::span<const Part> numbers_of_groups) const;
 };
 
 /// Returns the number of each part by the greedy method: the largest overlap of all gives its part

@@ -59,6 +59,8 @@ void expect_same_cuts(const rrcb_cuts& cuts, const Cuts& expected) {
     EXPECT_EQ(cuts.group_size, expected.shape.group_size);
     EXPECT_EQ(cuts.larger_below, expected.shape.larger_below ? 1 : 0);
     EXPECT_EQ(cuts.dealt, expected.shape.dealt);
+    EXPECT_EQ(cuts.numbers == nullptr, expected.numbers.empty());
+    EXPECT_EQ(cuts.debt, expected.debt);
 }
 
 /// Balances with settings in C and options in C++.
@@ -184,7 +186,7 @@ TEST_F(CInterface, keeps_uncounted_cuts_within_the_tolerance_only) {
 /// Parts 0 and 2 on the left, for two machines of two ranks, which are dealt in turns.
 TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
     const std::array<rrcb_cut, 3> tree{{{0, 0, {2}}, {0, 0, {1}}, {0, 0, {3}}}};
-    const rrcb_cuts given{1, 4, tree.data(), 2, 0, 1};
+    const rrcb_cuts given{1, 4, tree.data(), 2, 0, 1, nullptr, 0};
     ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK) << rrcb_last_error();
     rrcb_cuts cuts;
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
@@ -324,7 +326,7 @@ TEST_F(CInterface, options_that_differ_fail_on_all) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", is_last_rank() ? "1.1" : "1.2"), RRCB_OK);
     expect_refused(balance(Cloud(2)), "imbalance_tolerance");
-    rrcb_cuts cuts{2, 1, nullptr, 1, 0, 0};
+    rrcb_cuts cuts{2, 1, nullptr, 1, 0, 0, nullptr, 0};
     rrcb_balancer* none = nullptr;
     expect_refused(rrcb_create(MPI_COMM_NULL, &none), "COMM_NULL");
     EXPECT_EQ(none, nullptr);
@@ -344,14 +346,14 @@ TEST_F(CInterface, names_what_it_does_not_know) {
     expect_refused(rrcb_set(balancer, "refine", "twice"), "EXACT");
     EXPECT_EQ(rrcb_set(nullptr, "refine", "NONE"), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_last_error(), "balancer is null: it was not created, or is destroyed");
-    const rrcb_cuts no_tree{2, 3, nullptr, 1, 0, 0};
+    const rrcb_cuts no_tree{2, 3, nullptr, 1, 0, 0, nullptr, 0};
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_tree), RRCB_INVALID_ARGUMENT);
-    const rrcb_cuts no_parts{2, 0, nullptr, 1, 0, 0};
+    const rrcb_cuts no_parts{2, 0, nullptr, 1, 0, 0, nullptr, 0};
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_parts), RRCB_INVALID_ARGUMENT);
-    const rrcb_cuts no_group{2, 1, nullptr, 0, 0, 0};
+    const rrcb_cuts no_group{2, 1, nullptr, 0, 0, 0, nullptr, 0};
     expect_refused(rrcb_set_cuts(balancer, &no_group), "groups of 1 or more");
     for (const int dimension : {-1, 0, 4, 9}) {
-        const rrcb_cuts nowhere{dimension, 1, nullptr, 1, 0, 0};
+        const rrcb_cuts nowhere{dimension, 1, nullptr, 1, 0, 0, nullptr, 0};
         expect_refused(rrcb_set_cuts(balancer, &nowhere), "1, 2 or 3 dimensions");
     }
     rrcb_destroy(nullptr);
@@ -360,9 +362,9 @@ TEST_F(CInterface, names_what_it_does_not_know) {
 TEST_F(CInterface, refuses_numbers_that_a_flag_does_not_have) {
     for (const std::int32_t flag : {-1, 2, 55}) {
         const rrcb_cut cut{0, flag, {1}};
-        const rrcb_cuts divided{1, 2, &cut, 1, 0, 0};
+        const rrcb_cuts divided{1, 2, &cut, 1, 0, 0, nullptr, 0};
         expect_refused(rrcb_set_cuts(balancer, &divided), "divides that is neither 0 nor 1");
-        const rrcb_cuts large{1, 1, nullptr, 1, flag, 0};
+        const rrcb_cuts large{1, 1, nullptr, 1, flag, 0, nullptr, 0};
         expect_refused(rrcb_set_cuts(balancer, &large), "larger_below must be 0 or 1");
     }
 }
@@ -397,7 +399,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_remap(balancer, 1, &part, nullptr, nullptr, 1, &part, nullptr), "cuts yet");
     expect_missing(rrcb_ghosts_create(balancer, &points, &options, &ghosts), "cuts yet");
 
-    const rrcb_cuts given{2, 1, nullptr, 1, 0, 0};
+    const rrcb_cuts given{2, 1, nullptr, 1, 0, 0, nullptr, 0};
     ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK);
     EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     EXPECT_EQ(rrcb_assign(balancer, &points, &part), RRCB_OK);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -141,6 +142,72 @@ TEST(TurningAxes, follow_a_pour_to_better_axes_although_the_kept_ones_are_no_wor
     Balance balance;
     EXPECT_LT(follow(Pour{}, balance), 2 * num_points);
     for (const Cut& cut : balance.cuts.tree) EXPECT_NE(cut.axis, 2);
+}
+
+/// Returns how many points change parts at least, however the later parts are numbered.
+std::size_t least_moved(const std::vector<Part>& before, const std::vector<Part>& after) {
+    std::array<Part, 4> numbers{0, 1, 2, 3};
+    std::size_t least = before.size();
+    do {
+        std::size_t moved = 0;
+        for (std::size_t i = 0; i < before.size(); ++i)
+            moved += before[i] != numbers[static_cast<std::size_t>(after[i])] ? 1 : 0;
+        least = std::min(least, moved);
+    } while (std::ranges::next_permutation(numbers).found);
+    return least;
+}
+
+std::vector<int> axes_of(const Cuts& cuts) {
+    std::vector<int> axes;
+    for (const Cut& cut : cuts.tree) axes.push_back(cut.axis);
+    return axes;
+}
+
+/// The debt of the axes of cuts, from counted ghosts and counted moves.
+struct CountedDebt {
+    double debt = 0;  ///< in points
+    bool is_paid = false;
+
+    void add(const State& state, const Cuts& earlier) {
+        const std::vector<int> axes = axes_of(earlier);
+        const Cuts along = state.balance({}, AxisOrder::given(axes)).cuts;
+        const Cuts free = state.balance({}).cuts;
+        if (axes_of(free) == axes) return;
+        debt += Axes{}.steps / 10 * (state.num_ghosts(along) - state.num_ghosts(free));
+        const std::vector<Part> before = state.parts(earlier);
+        const auto moved = [&](const Cuts& cuts) {
+            return static_cast<double>(least_moved(before, state.parts(cuts)));
+        };
+        constexpr double half_a_part = num_points / 8.0;  // less is not compared
+        is_paid = 3 * debt > std::max(half_a_part, moved(free) - moved(along));
+    }
+};
+
+/// Returns the numbers of calls that make new cuts until the first turn, and until counts would
+/// have turned the cuts; 0: not until then.
+template <class Motion>
+std::pair<int, int> calls_until_a_turn(const Motion& motion) {
+    Balance balance = motion.at(0).balance({});
+    CountedDebt counted;
+    int paid = 0;
+    int calls = 0;
+    for (int step = 1; step <= 100; ++step) {
+        const State state = motion.at(step / 100.0);
+        const Cuts earlier = std::exchange(balance, state.balance(balance.cuts)).cuts;
+        if (std::ranges::equal(earlier.tree, balance.cuts.tree, {}, &Cut::at, &Cut::at)) continue;
+        ++calls;
+        counted.add(state, earlier);
+        if (paid == 0 && counted.is_paid) paid = calls;
+        if (axes_of(balance.cuts) != axes_of(earlier)) return {calls, paid};
+    }
+    return {0, paid};
+}
+
+TEST(TurningAxes, come_at_most_a_call_after_counts_have_paid) {
+    for (const auto& [turn, paid] : {calls_until_a_turn(Flow{}), calls_until_a_turn(Pour{})}) {
+        EXPECT_GT(turn, 0);
+        EXPECT_TRUE(paid == 0 || turn <= paid + 1) << turn << " " << paid;
+    }
 }
 
 TEST(TurningAxes, are_kept_by_points_at_rest_and_on_request) {

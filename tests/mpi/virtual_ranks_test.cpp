@@ -85,7 +85,8 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     make_buffers(decision, ranks.options, 2, false);
     decide(all, ranks.options, decision);
     const Verdict& verdict = decision.verdict;
-    Settlement settlement(ranks.options, passes, false, self);
+    OpenMemory memory;
+    Settlement settlement(ranks.options, passes, false, memory, self);
     const SettledCuts made =
         settlement.run({verdict.num_points, verdict.balanced_weight(), 1, true, verdict.box}, box,
                        false, {std::move(decision.cuts), std::move(decision.brackets)}, self);

@@ -218,7 +218,7 @@ TEST(Parameters, are_all_documented) {
         EXPECT_FALSE(valid->entry(entry).docString().empty()) << valid->name(entry);
         EXPECT_NE(printed.str().find(valid->name(entry)), std::string::npos);
     }
-    EXPECT_EQ(count, 17);
+    EXPECT_EQ(count, 18);
     EXPECT_NE(printed.str().find("points drawn per real point"), std::string::npos)
         << printed.str();
 }

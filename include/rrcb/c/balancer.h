@@ -21,12 +21,12 @@ typedef struct rrcb_cut {
 
 /** The tree of cuts, as rrcb::Cuts: num_parts - 1 of them in preorder. */
 typedef struct rrcb_cuts {
-    int dimension;        /**< of the points */
-    int num_parts;        /**< of the whole tree */
-    const rrcb_cut* tree; /**< num_parts - 1 cuts, borrowed */
-    int group_size;       /**< of rrcb::TreeShape, 1 or more */
-    int larger_below;     /**< 1: rrcb::TreeShape::larger_below */
-    int dealt;            /**< of rrcb::TreeShape, 0 or more */
+    int dimension;          /**< of the points */
+    int num_parts;          /**< of the whole tree */
+    const rrcb_cut* tree;   /**< num_parts - 1 cuts, borrowed */
+    int group_size;         /**< of rrcb::TreeShape, 1 or more */
+    int larger_below;       /**< 1: rrcb::TreeShape::larger_below */
+    int dealt;              /**< of rrcb::TreeShape, 0 or more */
     const int32_t* numbers; /**< part of each end of the tree, borrowed; NULL: by the shape */
     double debt;            /**< for the next balance, as rrcb::Cuts::debt */
 } rrcb_cuts;

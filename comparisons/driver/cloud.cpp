@@ -170,6 +170,46 @@ Vector cusps_point(const Cloud& cloud, GlobalCount index, CounterRandom& random)
     return x;
 }
 
+/// Two jets, of 2 and 1 m, that meet at right angles, and the sheet that they feed.
+Vector jets_point(const Cloud&, GlobalCount, CounterRandom& random) {
+    const double where = random.uniform();
+    const Vector across{normal(random), normal(random), normal(random)};
+    const double along = random.uniform(0, side);
+    if (where < 0.5) return {along, 30 + across[1], 40 + across[2]};
+    if (where < 0.8) return {80 + across[0] / 2, along, 40 + across[2] / 2};
+    return {80 + across[0] / 2, random.uniform(0, 30), random.uniform(20, 60)};
+}
+
+/// Filaments of 1 m between six nodes, at which a third of the points is.
+Vector web_point(const Cloud&, GlobalCount, CounterRandom& random) {
+    constexpr Vector nodes[] = {{10, 15, 60}, {55, 5, 20},  {90, 40, 85},
+                                {60, 60, 50}, {20, 85, 10}, {85, 95, 30}};
+    constexpr std::size_t edges[][2] = {{0, 1}, {0, 3}, {1, 2}, {1, 3}, {2, 3},
+                                        {2, 5}, {3, 4}, {3, 5}, {0, 4}};
+    const auto& [first, last] = edges[static_cast<std::size_t>(random.uniform(0, 9))];
+    const bool is_at_node = random.uniform() < 1.0 / 3;
+    const double t = is_at_node ? 0 : random.uniform();
+    const double width = is_at_node ? 2 * random.uniform() : 0.5;
+    Vector x;
+    for (std::size_t a = 0; a < x.size(); ++a)
+        x[a] = std::lerp(nodes[first][a], nodes[last][a], t) + width * normal(random);
+    return x;
+}
+
+/// Two discs of stars, one along axes 0 and 1, the smaller one across a diagonal.
+Vector discs_point(const Cloud&, GlobalCount, CounterRandom& random) {
+    const bool is_first = random.uniform() < 0.7;
+    const double scale = is_first ? 12 : 7;
+    const double radius = -scale * std::log(random.uniform(0.02, 1) * random.uniform(0.02, 1));
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    const double u = radius * std::cos(angle);
+    const double v = radius * std::sin(angle);
+    const double w = 0.7 * normal(random);
+    if (is_first) return {40 + u, 40 + v, 30 + w};
+    const double half = std::sqrt(0.5);
+    return {95 + half * (u - w), 80 + v, 70 + half * (u + w)};
+}
+
 GlobalCount lattice_side(const Cloud& cloud) {
     const auto full = [&](GlobalCount n) { return cloud.dimension == 2 ? n * n : n * n * n; };
     const double estimate = std::pow(static_cast<double>(cloud.num_points), 1.0 / cloud.dimension);
@@ -198,7 +238,8 @@ constexpr Generator generators[] = {
     {"lattice", lattice_point},   {"run_out", run_out_point}, {"polygon", polygon_point},
     {"shell", shell_point},       {"spiral", spiral_point},   {"slab", slab_point},
     {"wave", wave_point},         {"drops", drops_point},     {"pile", pile_point},
-    {"diagonal", diagonal_point}, {"cusps", cusps_point},
+    {"diagonal", diagonal_point}, {"cusps", cusps_point},     {"jets", jets_point},
+    {"web", web_point},           {"discs", discs_point},
 };
 
 }  // namespace

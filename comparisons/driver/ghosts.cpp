@@ -1,10 +1,15 @@
-// Ghosts of the parts of several methods, made by one process, as CSV on standard output.
+// Ghosts of the parts of several methods as CSV on standard output.
 //
-//   rrcb_ghosts [--quick]    clouds of 20,000 points, several seeds
+// On one process:
+//   rrcb_ghosts clouds [--quick]        clouds of 20,000 points, several seeds
+// On several:
+//   rrcb_ghosts meshes [--quick]        the clouds with support meshes of several sizes
+//   rrcb_ghosts calls DIMENSION PARTS   a call with each of these meshes, for Callgrind
 //
 // A point is a ghost within three times the radius of GhostCounter.
 #include "cloud.hpp"
 #include "failure.hpp"
+#include "ghost_study_mpi.hpp"
 #include "ghosts_mpi.hpp"
 #include "partitioner_mpi.hpp"
 #include "row.hpp"
@@ -28,21 +33,6 @@ using namespace comparisons;
 using rrcb::Part;
 
 constexpr const char* lammps_axes = "LAMMPS' axes";  ///< here alone
-
-void print(const Row& row) {
-    static bool is_first = true;
-    if (std::exchange(is_first, false)) std::cout << row.header() << '\n';
-    std::cout << row.text() << std::endl;
-}
-
-std::vector<Part> by_zoltan(const std::string& method, const Workload& workload, int num_parts) {
-    ZoltanParameters parameters = zoltan_parameters(read_method(method), Lists::parts);
-    parameters.emplace_back("NUM_GLOBAL_PARTS", std::to_string(num_parts));
-    parameters.emplace_back("IMBALANCE_TOL", "1.01");
-    ZoltanPartitioner zoltan(parameters, workload, MPI_COMM_SELF);
-    if (zoltan.partition() != ZOLTAN_OK) throw Failure("Zoltan failed");
-    return zoltan.parts();
-}
 
 /// A bisection of even halves across the axis whose smaller half is the widest, the rule of LAMMPS.
 class WidestHalves {
@@ -95,11 +85,7 @@ class WidestHalves {
 
 std::vector<Part> by(const std::string& method, const Workload& workload, int num_parts) {
     if (method == lammps_axes) return WidestHalves(workload.points(), num_parts).parts();
-    const Method read = read_method(method);
-    if (!read.options) return by_zoltan(method, workload, num_parts);
-    auto options = std::get<rrcb::Options>(*read.options);
-    options.num_parts = num_parts;
-    return rrcb::balance(workload.points(), options, {}, MPI_COMM_SELF).parts;
+    return make_parts(method, workload, num_parts, MPI_COMM_SELF).parts;
 }
 
 double imbalance_of(const std::vector<Part>& parts, int num_parts) {
@@ -111,7 +97,7 @@ double imbalance_of(const std::vector<Part>& parts, int num_parts) {
 void compare(const Cloud& cloud) {
     const Workload workload{
         cloud.name, "", cloud.dimension, cloud_points(cloud, 0, cloud.num_points), false, {}};
-    const double radius = 3 * GhostCounter(workload, {}, MPI_COMM_SELF).radius();
+    const double radius = ghost_reach * GhostCounter(workload, {}, MPI_COMM_SELF).radius();
     const GhostCounter counter(workload, {radius}, MPI_COMM_SELF);
     for (const int num_parts : {4, 16, 64})
         for (const char* method : {"zoltan-rcb", "zoltan-rib", "zoltan-hsfc", "rrcb-arrays",
@@ -127,16 +113,16 @@ void compare(const Cloud& cloud) {
                       .add("imbalance", imbalance_of(parts, num_parts))
                       .add("ghosts", static_cast<double>(ghosts.sum))
                       .add("ghosts_max", static_cast<double>(ghosts.most))
-                      .add("neighbours_max", ghosts.most_neighbours));
+                      .add("neighbours_max", ghosts.most_neighbours),
+                  MPI_COMM_SELF);
         }
 }
 
 void compare_clouds(bool quick) {
-    for (const char* name : {"uniform", "slab", "slope", "run_out", "polygon", "wave", "clusters",
-                             "shell", "spiral", "diagonal", "cusps", "drops", "pile"})
+    for (const char* name : ghost_clouds())
         for (const int dimension : {2, 3})
             for (std::uint64_t seed = 1; seed <= (quick ? 1 : 5); ++seed)
-                compare({name, quick ? 1000 : 20'000, dimension, seed});
+                compare({name, quick ? 1000 : ghost_points, dimension, seed});
 }
 
 }  // namespace
@@ -146,10 +132,18 @@ int main(int argc, char** argv) {
     float version = 0;
     Zoltan_Initialize(argc, argv, &version);
     int exit_code = 0;
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    const bool quick = !words.empty() && words.back() == "--quick";
     try {
-        if (argc > 2 || (argc == 2 && argv[1] != std::string_view("--quick")))
-            throw Failure("--quick is the only option");
-        compare_clouds(argc == 2);
+        if (!words.empty() && words[0] == "clouds") {
+            compare_clouds(quick);
+        } else if (!words.empty() && words[0] == "meshes") {
+            compare_meshes(quick, MPI_COMM_WORLD);
+        } else if (words.size() == 3 && words[0] == "calls") {
+            call_with_meshes(std::stoi(words[1]), std::stoi(words[2]), MPI_COMM_WORLD);
+        } else {
+            throw Failure("unknown words; see the source for those that it takes");
+        }
     } catch (const std::exception& error) {
         std::cerr << "rrcb_ghosts: " << error.what() << '\n';
         exit_code = 1;

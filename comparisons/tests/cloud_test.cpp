@@ -45,7 +45,7 @@ TEST(Cloud, numbers_the_lattice_along_the_first_axis) {
 TEST(Cloud, gives_a_point_by_its_number_alone) {
     for (const char* name :
          {"uniform", "slope", "clusters", "lattice", "run_out", "polygon", "shell", "spiral",
-          "slab", "wave", "drops", "pile", "diagonal", "cusps"}) {
+          "slab", "wave", "drops", "pile", "diagonal", "cusps", "jets", "web", "discs"}) {
         const Cloud cloud{name, 100, 3, 7};
         const std::vector<double> all = cloud_points(cloud, 0, 100);
         const std::vector<double> piece = cloud_points(cloud, 40, 60);

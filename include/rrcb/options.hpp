@@ -50,8 +50,8 @@ class AxisOrder {
     /// of the points, the preferred ones first.
     static AxisOrder among(std::vector<int> axes) { return {Kind::among, std::move(axes)}; }
 
-    /// Makes all cuts across the first of `axes`, then all across the next, ...; each axis of the
-    /// points is named once.
+    /// Makes all cuts across the first of `axes`, then all across the next; names each axis once.
+    /// Warning: it may leave 1.4 times the ghosts of fewest_ghosts().
     static AxisOrder grouped(std::vector<int> axes) { return {Kind::grouped, std::move(axes)}; }
 
     /// Makes cut k of Cuts::tree across axes[k]; one axis for each cut, num_parts - 1.

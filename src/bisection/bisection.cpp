@@ -60,7 +60,7 @@ void choose_fewest(const Profile& profile, std::span<const int> axes, double tar
     const auto num_patches = static_cast<double>(profile.domain().patches.size());
     const double enough = nearly - 1 / std::sqrt(num_patches);
     const bool plain = task.options.axes.plain;
-    const double reach = profile.mean_half_side();
+    const double reach = profile.reach();
     const Box& extent = profile.extent();
     const auto near = [&](const Cut& cut) {
         return profile.weight_near(cut.axis, cut.at[cut.axis], reach);

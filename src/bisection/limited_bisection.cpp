@@ -84,7 +84,7 @@ Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int 
     constexpr double bearable = 0.005;
     const double weight = profile.weight();
     const double bearable_error = bearable * std::min(share, 1 - share) * weight;
-    const double reach = counts_near ? profile.mean_half_side() : 0;
+    const double reach = counts_near ? profile.reach() : 0;
     Trial best{};
     double least = infinity;
     double fewest = infinity;

@@ -23,6 +23,10 @@ class Profile {
     const Box& extent() const { return extent_; }
     double mean_half_side() const { return mean_half_side_; }  ///< of the patches, by weight
 
+    /// Returns the distance from a cut within which weight counts when axes are compared. Half a
+    /// patch side blurs jets and filaments, which are thinner than that.
+    double reach() const { return mean_half_side_ / 2; }
+
     /// Returns the weight below a value, and within `reach` of one.
     double weight_below(int axis, double value) const;
     double weight_within(int axis, double value, double reach) const;

@@ -90,7 +90,7 @@ CallCounts Follower::go_on(const Workload& all) {
     start_counting_traffic();
     rrcb::Balance balance =
         rrcb::balance(mine.points(), options_, policy_.has_previous ? cuts_ : rrcb::Cuts{}, comm_);
-    cuts_ = std::move(balance.cuts);
+    const rrcb::Cuts old = std::exchange(cuts_, std::move(balance.cuts));
     if (policy_.renumbers && !parts_.empty()) renumber(balance.parts, here);
     const Traffic traffic = stop_counting_traffic();
     if (policy_.keeps_axes && parts_.empty()) {
@@ -100,8 +100,12 @@ CallCounts Follower::go_on(const Workload& all) {
     }
     const std::vector<rrcb::Part> before =
         std::exchange(parts_, gathered(balance.parts, here, count, comm_));
-    CallCounts counts{0, imbalance_of(parts_, options_.num_parts), balance.report.details.rounds,
-                      traffic.messages, traffic.bytes};
+    CallCounts counts{.imbalance = imbalance_of(parts_, options_.num_parts),
+                      .rounds = balance.report.details.rounds,
+                      .messages = traffic.messages,
+                      .bytes = traffic.bytes};
+    for (std::size_t k = 0; k < old.tree.size(); ++k)
+        counts.turned += old.tree[k].axis != cuts_.tree[k].axis;
     for (std::size_t i = 0; i < before.size(); ++i) counts.moved += before[i] != parts_[i];
     for (std::int64_t* number : {&counts.messages, &counts.bytes})
         MPI_Allreduce(MPI_IN_PLACE, number, 1, MPI_INT64_T, MPI_SUM, comm_);

@@ -28,6 +28,7 @@ std::vector<Policy> policies(const std::vector<std::string>& names = {});
 /// Counts of a call over all ranks.
 struct CallCounts {
     std::int64_t moved = 0;  ///< particles whose part is not that of the call before; first call: 0
+    std::int64_t turned = 0;  ///< cuts whose axis is not that of the call before; first call: 0
     double imbalance = 1;
     int rounds = 0;
     std::int64_t messages = 0;  ///< as of Traffic

@@ -27,18 +27,18 @@ RUN = ["flow", "dim", "parts", "policy"]
 FACTORS = (0.3, 1, 3, 10)  # H
 RADII = ("near", "wide")
 DRAWN = (1, 3)  # H of the picture
-MOST_RANKS = 16  # one part a rank up to there
+MOST_RANKS = 16  # a rank for each part up to there
 BASE = "fresh"
 QUICK = "rod,drops"
 COLOURS = ("#0072B2", "#CC79A7", "#000000", "#666666", "#56B4E9", "#D55E00", "#E69F00")
 
 
-def follow(program: Path, out: Path, parts: int, flows: str, policies: str) -> pd.DataFrame:
+def follow(program: Path, out: Path, ranks: int, parts: int, flows: str, policies: str) -> pd.DataFrame:
     """A row for each flow, policy and call."""
     file = out / f"calls_{parts}.csv"
-    print(f"rrcb_flows {parts} {flows}", file=sys.stderr, flush=True)
+    print(f"rrcb_flows {parts} {flows} on {ranks} ranks", file=sys.stderr, flush=True)
     with file.open("w") as rows:
-        on_ranks(min(parts, MOST_RANKS), program, str(parts), flows, policies, stdout=rows, check=True)
+        on_ranks(ranks, program, str(parts), flows, policies, stdout=rows, check=True)
     return read_all(file)
 
 
@@ -49,7 +49,7 @@ def ratio_name(factor: float, radius: str) -> str:
 def summary(calls: pd.DataFrame) -> pd.DataFrame:
     """A row for each run: sums over the calls, ghosts of a call on average, and the largest imbalance."""
     runs = calls.groupby(RUN, sort=False)
-    rows = runs[["moved", "rounds", "messages", "bytes"]].sum()
+    rows = runs[["moved", "turned", "rounds", "messages", "bytes"]].sum()
     rows.insert(0, "calls", runs.size())
     rows.insert(1, "points", runs["points"].first())
     for radius in RADII:
@@ -111,11 +111,11 @@ def traffic_table(rows: pd.DataFrame) -> list[list[str]]:
 
 def flow_table(rows: pd.DataFrame) -> list[list[str]]:
     """Counts of each run, for one look."""
-    lines = [["flow", "parts", "policy", "moved / points", "ghosts near", "ghosts wide", "imbalance", "ratio at H = 1",
-              "ratio at H = 3"]]  # fmt: skip
+    lines = [["flow", "parts", "policy", "moved / points", "cuts turned", "ghosts near", "ghosts wide", "imbalance",
+              *(f"ratio at H = {factor:g}" for factor in DRAWN)]]  # fmt: skip
     for _, row in rows.iterrows():
         lines.append([
-            row["flow"], str(row["parts"]), row["policy"], f"{row['moved'] / row['points']:.2f}",
+            row["flow"], str(row["parts"]), row["policy"], f"{row['moved'] / row['points']:.2f}", str(row["turned"]),
             f"{row['ghosts_near']:.0f}", f"{row['ghosts_wide']:.0f}", f"{row['imbalance']:.4f}",
             *(f"{row[ratio_name(factor, 'wide')]:.3f}" for factor in DRAWN),
         ])  # fmt: skip
@@ -149,6 +149,7 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help=f"the flows {QUICK} on 4 parts")
     parser.add_argument("--flows", help="names by commas; all")
     parser.add_argument("--parts", help="numbers by commas; 4,16")
+    parser.add_argument("--ranks", type=int, default=MOST_RANKS, help=f"most ranks; {MOST_RANKS}")
     parser.add_argument("--policies", default="all", help="names by commas; all")
     parser.add_argument("--others", type=Path, help="flows.csv of an earlier run, for policies that are not run")
     parser.add_argument("--history", action="store_true", help="print each call and the counts of each flow")
@@ -160,7 +161,10 @@ def main() -> None:
     program = (given.driver.parent if given.driver else PROGRAMS) / "rrcb_flows"
     flows = given.flows or (QUICK if given.quick else "all")
     numbers = given.parts or ("4" if given.quick else "4,16")
-    calls = pd.concat(follow(program, given.out, int(parts), flows, given.policies) for parts in numbers.split(","))
+    calls = pd.concat(
+        follow(program, given.out, min(parts, given.ranks), parts, flows, given.policies)
+        for parts in map(int, numbers.split(","))
+    )
     rows = summary(calls)
     rows = with_ratios(with_others(rows, given.others) if given.others else rows)
     rows.to_csv(given.out / "flows.csv", index=False)

@@ -102,18 +102,18 @@ static rrcb_points points_of(const rrcb_array* x, const double* weights) {
 }
 
 // Balances the particles by the rows of columns, and brings them to the ranks of their parts.
-static void divide(rrcb_balancer* balancer, const rrcb_cost_model* model, const double* columns,
+static void divide(rrcb_balancer* balancer, rrcb_cost_model* model, const double* columns,
                    rrcb_array* x) {
     int32_t* parts = malloc((x->count + 1) * sizeof *parts);
     double* weights = array_of(x->count);
-    rrcb_plan_lists plan;
+    rrcb_plan_lists plan = RRCB_PLAN_LISTS_INIT;
     check(rrcb_cost_model_weights(model, x->count, 2, columns, weights));
     const rrcb_points points = points_of(x, weights);
     check(rrcb_balance(balancer, &points, parts));
     check(rrcb_plan(balancer, x->count, parts));
     check(rrcb_get_plan(balancer, &plan));
     double* here = array_of(2 * plan.num_points_after);
-    const rrcb_column moved = {RRCB_DOUBLE, 2, x->values, here};
+    const rrcb_column moved = RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, x->values, here);
     check(rrcb_transfer(balancer, 1, &moved, NULL, NULL));
     free(parts);
     free(weights);
@@ -152,12 +152,16 @@ int main(int argc, char** argv) {
         check(rrcb_controller_create(comm, &controller));
         check(rrcb_cost_model_create(comm, controller, 2, &model));
     }
-    const rrcb_neighbour_options options = {.radius = radius, .travel = travel};
+    rrcb_neighbour_options options = RRCB_NEIGHBOUR_OPTIONS_INIT;
+    options.radius = radius;
+    options.travel = travel;
     rrcb_neighbours* neighbours = NULL;
     if (run.cuts.size > 0) check(rrcb_neighbours_create(balancer, &options, &neighbours));
     // The calls set the values, and make room for particles that arrive.
-    rrcb_array x = {RRCB_DOUBLE, 2, run.positions, run.count, run.count, NULL, NULL};
-    rrcb_array ghosts = {.type = RRCB_DOUBLE, .components = 2};
+    rrcb_array x = RRCB_ARRAY_INIT(RRCB_DOUBLE, 2);
+    rrcb_array ghosts = RRCB_ARRAY_INIT(RRCB_DOUBLE, 2);
+    x.values = run.positions;
+    x.count = x.capacity = run.count;
     double* columns = run.rows;
     for (; run.numbers[0] < num_steps; ++run.numbers[0]) {
         int due = 0;
@@ -166,7 +170,7 @@ int main(int argc, char** argv) {
             rrcb_neighbours_destroy(&neighbours);
             divide(balancer, model, columns, &x);
             check(rrcb_neighbours_create(balancer, &options, &neighbours));
-            rrcb_report report;
+            rrcb_report report = RRCB_REPORT_INIT;
             check(rrcb_get_report(balancer, &report));
             check(rrcb_controller_rebalanced(controller, &report, cost));
             ++run.numbers[1];

@@ -41,13 +41,13 @@ int main(int argc, char** argv) {
     check(rrcb_balance(balancer, &points, parts));
     check(rrcb_plan(balancer, count, parts));
 
-    rrcb_plan_lists plan;
+    rrcb_plan_lists plan = RRCB_PLAN_LISTS_INIT;
     check(rrcb_get_plan(balancer, &plan));
     double* here = malloc(2 * plan.num_points_after * sizeof *here);
-    const rrcb_column column = {RRCB_DOUBLE, 2, coordinates, here};
+    const rrcb_column column = RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, coordinates, here);
     check(rrcb_transfer(balancer, 1, &column, NULL, NULL));
 
-    rrcb_report report;
+    rrcb_report report = RRCB_REPORT_INIT;
     check(rrcb_get_report(balancer, &report));
     if (rank == 0) {
         printf("%lld points, imbalance %.4f\n", (long long)report.num_points, report.imbalance);

@@ -13,6 +13,7 @@ from ctypes import (
     c_int64,
     c_size_t,
     c_void_p,
+    sizeof,
 )
 from typing import Any
 
@@ -22,7 +23,16 @@ def members(**types: Any) -> list[tuple[str, Any]]:
     return list(types.items())
 
 
-class Points(Structure):
+class Sized(Structure):
+    """A structure that begins with its size, beyond which the library reads and writes nothing."""
+
+    _fields_ = members(size=c_size_t)
+
+    def __init__(self, *values: Any, **named: Any) -> None:
+        super().__init__(sizeof(self), *values, **named)
+
+
+class Points(Sized):
     """rrcb_points."""
 
     _fields_ = members(
@@ -31,7 +41,7 @@ class Points(Structure):
     )
 
 
-class Cuts(Structure):
+class Cuts(Sized):
     """rrcb_cuts."""
 
     _fields_ = members(
@@ -40,7 +50,7 @@ class Cuts(Structure):
     )
 
 
-class Report(Structure):
+class Report(Sized):
     """rrcb_report."""
 
     _fields_ = members(
@@ -51,13 +61,13 @@ class Report(Structure):
     )
 
 
-class Column(Structure):
+class Column(Sized):
     """rrcb_column."""
 
     _fields_ = members(type=c_int, components=c_size_t, from_=c_void_p, to=c_void_p)
 
 
-class Plan(Structure):
+class Plan(Sized):
     """rrcb_plan_lists."""
 
     _fields_ = members(
@@ -67,28 +77,28 @@ class Plan(Structure):
     )
 
 
-class GhostOptions(Structure):
+class GhostOptions(Sized):
     """rrcb_ghost_options."""
 
     _fields_ = members(
         radius=c_double, radii=c_void_p, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
-        num_parts=c_size_t, needs=c_int
+        num_parts=c_size_t, needs=c_int64
     )
 
 
-class NeighbourOptions(Structure):
+class NeighbourOptions(Sized):
     """rrcb_neighbour_options."""
 
     _fields_ = members(
         radius=c_double, travel=c_double, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
-        num_parts=c_size_t, needs=c_int
+        num_parts=c_size_t, needs=c_int64
     )
 
 
 Resize = CFUNCTYPE(c_void_p, c_void_p, c_size_t)
 
 
-class Array(Structure):
+class Array(Sized):
     """rrcb_array."""
 
     _fields_ = members(
@@ -97,7 +107,7 @@ class Array(Structure):
     )
 
 
-class SharedEntries(Structure):
+class SharedEntries(Sized):
     """rrcb_shared_entries."""
 
     _fields_ = members(
@@ -117,7 +127,7 @@ class RankRange(Structure):
     _fields_ = members(first_rank=c_int, count=c_int)
 
 
-class GhostPlan(Structure):
+class GhostPlan(Sized):
     """rrcb_ghost_plan."""
 
     _fields_ = members(

@@ -1,5 +1,6 @@
 #include "c/balancer.hpp"
 
+#include "c/sized.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
@@ -134,44 +135,35 @@ int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* siz
 
 int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
     return guarded(balancer, [&](const auto& own) {
-        require(report, "report");
+        rrcb::c::require_sized(report, "report");
         if (!own.report) rrcb::reject("the balancer has no report yet; call rrcb_balance");
         const rrcb::Report& from = *own.report;
         const rrcb::ReportDetails& details = from.details;
-        *report = {from.imbalance,
-                   from.within_tolerance ? 1 : 0,
-                   from.kept ? 1 : 0,
-                   details.num_points,
-                   details.total_weight,
-                   details.least_imbalance,
-                   details.estimated_imbalance,
-                   details.num_records,
-                   details.rounds,
-                   details.coincident_cuts,
-                   details.all_weights_zero ? 1 : 0,
-                   details.surplus_parts};
+        rrcb::c::copy_out(
+            {0, from.imbalance, from.within_tolerance ? 1 : 0, from.kept ? 1 : 0,
+             details.num_points, details.total_weight, details.least_imbalance,
+             details.estimated_imbalance, details.num_records, details.rounds,
+             details.coincident_cuts, details.all_weights_zero ? 1 : 0, details.surplus_parts},
+            report);
     });
 }
 
 int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
     return guarded(balancer, [&](const auto& own) {
-        require(cuts, "cuts");
+        rrcb::c::require_sized(cuts, "cuts");
         require_cuts(own);
-        *cuts = {own.cuts.dimension,
-                 own.cuts.num_parts,
-                 reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()),
-                 own.cuts.shape.group_size,
-                 own.cuts.shape.larger_below ? 1 : 0,
-                 own.cuts.shape.dealt,
-                 own.cuts.numbers.empty() ? nullptr : own.cuts.numbers.data(),
-                 own.cuts.debt};
+        rrcb::c::copy_out(
+            {0, own.cuts.dimension, own.cuts.num_parts,
+             reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()), own.cuts.shape.group_size,
+             own.cuts.shape.larger_below ? 1 : 0, own.cuts.shape.dealt,
+             own.cuts.numbers.empty() ? nullptr : own.cuts.numbers.data(), own.cuts.debt},
+            cuts);
     });
 }
 
 int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts) {
     return guarded(balancer, [&](auto& own) {
-        require(cuts, "cuts");
-        own.cuts = rrcb::c::copy_of(*cuts);
+        own.cuts = rrcb::c::copy_of(rrcb::c::copy_in(cuts, "cuts"));
         own.least_count = rrcb_balancer::no_count;
     });
 }
@@ -256,18 +248,14 @@ int rrcb_release_buffers(rrcb_balancer* balancer) {
 
 int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan_lists* plan) {
     return guarded(balancer, [&](const auto& own) {
-        require(plan, "plan");
+        rrcb::c::require_sized(plan, "plan");
         require_plan(own);
         const rrcb::Plan& from = *own.plan;
-        *plan = {from.num_points,
-                 rrcb::c::num_points_after(from),
-                 from.export_indices.size(),
-                 from.export_indices.data(),
-                 from.export_ranks.data(),
-                 from.export_parts.data(),
-                 from.import_indices.size(),
-                 from.import_ranks.data(),
-                 from.import_indices.data(),
-                 from.import_parts.data()};
+        rrcb::c::copy_out(
+            {0, from.num_points, rrcb::c::num_points_after(from), from.export_indices.size(),
+             from.export_indices.data(), from.export_ranks.data(), from.export_parts.data(),
+             from.import_indices.size(), from.import_ranks.data(), from.import_indices.data(),
+             from.import_parts.data()},
+            plan);
     });
 }

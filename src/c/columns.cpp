@@ -45,17 +45,15 @@ std::vector<detail::ByteColumn> columns_of(std::span<const rrcb_column> columns,
     return result;
 }
 
-std::span<const rrcb_column> given_columns(const rrcb_column* columns, std::size_t count) {
-    require_array(count, columns, "columns");
-    return {columns, count};
-}
-
 TransferLimits limits_of(const rrcb_transfer_limits* limits) {
-    return limits == nullptr ? TransferLimits{} : TransferLimits{limits->bytes};
+    static_assert(rrcb_transfer_limits RRCB_TRANSFER_LIMITS_INIT.bytes == TransferLimits{}.bytes);
+    if (limits == nullptr) return {};
+    return {copy_in(limits, "limits").bytes};
 }
 
 void store(const TransferReport& from, rrcb_transfer_report* report) {
-    if (report != nullptr) *report = {from.peak_bytes, from.bytes_sent, from.num_messages};
+    if (report != nullptr)
+        copy_out({0, from.peak_bytes, from.bytes_sent, from.num_messages}, report);
 }
 
 }  // namespace rrcb::c

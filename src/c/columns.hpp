@@ -1,6 +1,6 @@
 #pragma once
 
-#include "c/balancer.hpp"
+#include "c/sized.hpp"
 #include "collective/participant.hpp"
 #include "options/rejection.hpp"
 
@@ -14,7 +14,7 @@ namespace rrcb::c {
 /// Calls visit(value) with a value of the type, a byte for RRCB_BYTE. Throws Error for no
 /// rrcb_type.
 template <class Visit>
-void visit_type(rrcb_type type, Visit&& visit) {
+void visit_type(int32_t type, Visit&& visit) {
     switch (type) {
         case RRCB_BYTE:
             return visit(std::byte());
@@ -35,8 +35,10 @@ void visit_type(rrcb_type type, Visit&& visit) {
 std::vector<detail::ByteColumn> columns_of(std::span<const rrcb_column> columns,
                                            LocalIndex num_from, LocalIndex num_to);
 
-/// Returns a view of the columns of a call. Throws Error if they are null.
-std::span<const rrcb_column> given_columns(const rrcb_column* columns, std::size_t count);
+/// Returns the columns of a call. Throws Error if they are null.
+inline std::vector<rrcb_column> given_columns(const rrcb_column* columns, std::size_t count) {
+    return copy_all_in(columns, count, "columns");
+}
 
 /// Returns the limits of a call, the default if they are null.
 TransferLimits limits_of(const rrcb_transfer_limits* limits);
@@ -51,15 +53,24 @@ struct ColumnCall {
     const rrcb_transfer_limits* limits;
     rrcb_transfer_report* report;
 
+    /// Returns the limits. Throws Error if they, or the report, have no size.
+    TransferLimits checked_limits() const {
+        if (report != nullptr) require_sized(report, "report");
+        return limits_of(limits);
+    }
+
     /// Moves columns of `num_from` points to `num_to` along a plan, or from groups. Collective.
     template <class AnyPlan>
     void move_by(const AnyPlan& plan, LocalIndex num_from, LocalIndex num_to,
                  Participant& self) const {
         std::vector<detail::ByteColumn> moved;
-        self.attempt(
-            [&] { moved = columns_of(given_columns(columns, num_columns), num_from, num_to); });
+        TransferLimits within;
+        self.attempt([&] {
+            moved = columns_of(given_columns(columns, num_columns), num_from, num_to);
+            within = checked_limits();
+        });
         TransferReport made;
-        move(plan, moved, limits_of(limits), &made, self);
+        move(plan, moved, within, &made, self);
         store(made, report);
     }
 };

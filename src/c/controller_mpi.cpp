@@ -1,5 +1,6 @@
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
+#include "c/sized.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/controller.hpp>
@@ -134,12 +135,13 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
     return guarded(controller, [&](auto& own) {
         rrcb::Report known;
         if (report != nullptr) {
-            if (!(report->least_imbalance >= 1))
+            const rrcb_report given = rrcb::c::copy_in(report, "report");
+            if (!(given.least_imbalance >= 1))
                 rrcb::reject("report is of no balance; fill it by rrcb_get_report");
-            known.details.least_imbalance = report->least_imbalance;
-            known.details.num_points = report->num_points;
-            known.details.total_weight = report->total_weight;
-            known.details.all_weights_zero = report->all_weights_zero != 0;
+            known.details.least_imbalance = given.least_imbalance;
+            known.details.num_points = given.num_points;
+            known.details.total_weight = given.total_weight;
+            known.details.all_weights_zero = given.all_weights_zero != 0;
         }
         own.controller->rebalanced(known, cost);
     });

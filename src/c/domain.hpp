@@ -11,9 +11,11 @@
 
 namespace rrcb::c {
 
-/// Reads the periodic box and the ranks of the parts; `options` borrow `ranks`.
+/// Reads the periodic box and the ranks of the parts of the balancer's cuts; `options` borrow
+/// `ranks`.
 template <class Given, class Options>
-void read_domain(const Given& from, Options& options, std::vector<RankRange>& ranks) {
+void read_domain(const Given& from, Options& options, std::vector<RankRange>& ranks,
+                 const rrcb_balancer& own) {
     if (from.lower != nullptr || from.upper != nullptr) {
         require(from.lower, "lower");
         require(from.upper, "upper");
@@ -23,6 +25,7 @@ void read_domain(const Given& from, Options& options, std::vector<RankRange>& ra
     }
     require_array(from.num_parts, from.ranks_of_parts, "ranks_of_parts");
     if (from.ranks_of_parts == nullptr) return;
+    require_parts(own, from.num_parts);
     for (const rrcb_rank_range& given : view(from.ranks_of_parts, from.num_parts))
         ranks.push_back({given.first_rank, given.count});
     options.ranks_of_parts = ranks;
@@ -37,7 +40,8 @@ inline const rrcb_rank_count* counts_at(const std::vector<RankCount>& counts) {
 
 /// Returns a view of the lists of ghosts.
 inline rrcb_ghost_plan view_of(const GhostPlan& from) {
-    return {from.num_points,
+    return {0,
+            from.num_points,
             total(from.receive),
             from.send.size(),
             counts_at(from.send),

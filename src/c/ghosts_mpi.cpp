@@ -39,13 +39,13 @@ struct KeptOptions {
     GhostOptions options{};
     std::vector<RankRange> ranks{};
 
-    void read(const rrcb_ghost_options* from, LocalIndex num_points) {
-        require(from, "options");
-        check_radii(*from, num_points);
-        options.radius = from->radius;
-        options.needs = static_cast<Needs>(from->needs);
-        if (from->radii != nullptr) options.radii = view(from->radii, num_points);
-        read_domain(*from, options, ranks);
+    void read(const rrcb_ghost_options* from, LocalIndex num_points, const rrcb_balancer& own) {
+        const rrcb_ghost_options given = copy_in(from, "options");
+        check_radii(given, num_points);
+        options.radius = given.radius;
+        options.needs = static_cast<Needs>(given.needs);
+        if (given.radii != nullptr) options.radii = view(given.radii, num_points);
+        read_domain(given, options, ranks, own);
     }
 };
 
@@ -57,8 +57,7 @@ void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
     self.attempt([&] {
         require_cuts(own);
         points = points_of(given);
-        kept.read(given_options, points.count);
-        if (given_options->ranks_of_parts != nullptr) require_parts(own, given_options->num_parts);
+        kept.read(given_options, points.count, own);
     });
     made->comm = own.comm;
     made->plan = rrcb::ghosts(own.cuts, points, kept.options, self);
@@ -152,8 +151,8 @@ void rrcb_ghosts_destroy(rrcb_ghosts** ghosts) {
 
 int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {
     return guarded(ghosts, [&](const auto& own) {
-        rrcb::c::require(plan, "plan");
-        *plan = rrcb::c::view_of(own.plan);
+        rrcb::c::require_sized(plan, "plan");
+        rrcb::c::copy_out(rrcb::c::view_of(own.plan), plan);
     });
 }
 
@@ -178,10 +177,15 @@ int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
                            const rrcb_column* columns, const rrcb_transfer_limits* limits,
                            rrcb_transfer_report* report) {
     return guarded_together(CallName::accumulate, ghosts, [&](const auto& own, Participant& self) {
-        std::span<const rrcb_column> given;
-        self.attempt([&] { given = rrcb::c::given_columns(columns, num_columns); });
+        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+        std::vector<rrcb_column> given;
+        rrcb::TransferLimits within;
+        self.attempt([&] {
+            given = rrcb::c::given_columns(columns, num_columns);
+            within = call.checked_limits();
+        });
         rrcb::TransferReport made;
-        rrcb::c::accumulate(own, given, rrcb::c::limits_of(limits), made, self);
+        rrcb::c::accumulate(own, given, within, made, self);
         rrcb::c::store(made, report);
     });
 }

@@ -63,10 +63,11 @@ void rrcb_groups_destroy(rrcb_groups** groups) {
 
 int rrcb_groups_points(const rrcb_groups* groups, rrcb_points* points) {
     return guarded(groups, [&](const auto& own) {
-        rrcb::c::require(points, "points");
+        rrcb::c::require_sized(points, "points");
         const rrcb::Groups& from = own.groups;
-        *points = rrcb_interleaved_points(RRCB_DOUBLE, from.dimension, from.weights.size(),
-                                          from.coordinates.data(), from.weights.data());
+        rrcb::c::copy_out(rrcb_interleaved_points(RRCB_DOUBLE, from.dimension, from.weights.size(),
+                                                  from.coordinates.data(), from.weights.data()),
+                          points);
     });
 }
 

@@ -27,14 +27,14 @@ struct KeptNeighbourOptions {
     NeighbourOptions options{};
     std::vector<RankRange> ranks{};
 
-    void read(const rrcb_neighbour_options* from) {
-        require(from, "options");
-        if (from->radius == 0 && from->travel == 0)
+    void read(const rrcb_neighbour_options* from, const rrcb_balancer& own) {
+        const rrcb_neighbour_options given = copy_in(from, "options");
+        if (given.radius == 0 && given.travel == 0)
             reject("radius and travel are both 0; give one of them");
-        options.radius = from->radius;
-        options.travel = from->travel;
-        options.needs = static_cast<Needs>(from->needs);
-        read_domain(*from, options, ranks);
+        options.radius = given.radius;
+        options.travel = given.travel;
+        options.needs = static_cast<Needs>(given.needs);
+        read_domain(given, options, ranks, own);
     }
 };
 
@@ -43,8 +43,7 @@ std::unique_ptr<rrcb_neighbours> make(const rrcb_balancer& own, const rrcb_neigh
     KeptNeighbourOptions kept;
     const auto check = [&] {
         require_cuts(own);
-        kept.read(given);
-        if (given->ranks_of_parts != nullptr) require_parts(own, given->num_parts);
+        kept.read(given, own);
     };
     std::unique_ptr<rrcb_neighbours> made;
     {
@@ -67,6 +66,23 @@ int with_neighbours(CallName call, rrcb_neighbours* handle, Read&& read, Body&& 
     });
 }
 
+/// An array of the caller, and a copy of it.
+struct HeldArray {
+    rrcb_array now;
+    rrcb_array* place;
+};
+
+/// Returns the arrays of a call.
+std::vector<HeldArray> held_arrays(rrcb_array* arrays, std::size_t count, const char* name) {
+    std::vector<HeldArray> held;
+    auto* place = reinterpret_cast<std::byte*>(arrays);
+    for (const rrcb_array& array : copy_all_in(arrays, count, name)) {
+        held.push_back({array, reinterpret_cast<rrcb_array*>(place)});
+        place += array.size;
+    }
+    return held;
+}
+
 std::size_t bytes_of_point(const rrcb_array& array) {
     std::size_t bytes = 0;
     visit_type(array.type, [&]<class T>(T) { bytes = array.components * sizeof(T); });
@@ -75,7 +91,7 @@ std::size_t bytes_of_point(const rrcb_array& array) {
 
 /// Makes room in an array for another number of values.
 std::byte* resize(void* given, std::size_t num_values) {
-    rrcb_array& array = *static_cast<rrcb_array*>(given);
+    auto& [array, place] = *static_cast<HeldArray*>(given);
     const std::size_t count = num_values / array.components;
     void* moved = array.values;
     if (array.resize != nullptr) {
@@ -88,6 +104,7 @@ std::byte* resize(void* given, std::size_t num_values) {
     if (moved == nullptr && count > 0) throw std::bad_alloc();
     array.values = moved;
     array.count = count;
+    copy_out(array, place);
     return static_cast<std::byte*>(moved);
 }
 
@@ -104,12 +121,15 @@ void require_array(const rrcb_array& array, std::size_t k) {
 }
 
 /// Returns columns of `num_points` at the addresses `from`, or their own, with arrays as results.
-std::vector<detail::ByteColumn> arrays_in(std::span<rrcb_array> arrays, const void* const* from,
+std::vector<detail::ByteColumn> arrays_in(std::span<HeldArray> arrays, const void* const* from,
                                           LocalIndex num_points) {
     std::vector<detail::ByteColumn> columns;
-    for (rrcb_array& array : arrays) {
+    for (HeldArray& held : arrays) {
+        const rrcb_array& array = held.now;
         require_array(array, columns.size());
-        const auto is_same = [&](const rrcb_array& other) { return other.values == array.values; };
+        const auto is_same = [&](const HeldArray& other) {
+            return other.now.values == array.values;
+        };
         if (array.values != nullptr && array.count + array.capacity > 0 &&
             std::ranges::any_of(arrays.first(columns.size()), is_same))
             reject("array " + std::to_string(columns.size()) +
@@ -119,7 +139,7 @@ std::vector<detail::ByteColumn> arrays_in(std::span<rrcb_array> arrays, const vo
         visit_type(array.type, [&]<class T>(T) {
             columns.push_back({static_cast<const std::byte*>(values),
                                (from == nullptr ? array.count : num_points) * array.components,
-                               detail::kind_of<T>, sizeof(T), array.components, &array, resize});
+                               detail::kind_of<T>, sizeof(T), array.components, &held, resize});
         });
     }
     return columns;
@@ -128,7 +148,7 @@ std::vector<detail::ByteColumn> arrays_in(std::span<rrcb_array> arrays, const vo
 /// Returns columns of ghosts, and of points to which they are added.
 std::vector<detail::SumColumn> sums_of(const rrcb_column* given, std::size_t num_columns,
                                        LocalIndex num_ghosts, LocalIndex num_points) {
-    const std::span<const rrcb_column> columns = given_columns(given, num_columns);
+    const std::vector<rrcb_column> columns = given_columns(given, num_columns);
     std::vector<detail::SumColumn> sums;
     for (const detail::ByteColumn& ghosts : columns_of(columns, num_ghosts, num_points)) {
         detail::SumColumn& sum = sums.emplace_back(detail::SumColumn{ghosts, ghosts, nullptr});
@@ -144,14 +164,14 @@ std::vector<detail::SumColumn> sums_of(const rrcb_column* given, std::size_t num
     return sums;
 }
 
-SharedEntries entries_of(const rrcb_shared_entries* given) {
-    require(given, "shared");
-    c::require_array(given->num_ranks, given->ranks, "ranks");
-    c::require_array(given->num_indices, given->indices, "indices");
+SharedEntries entries_of(const rrcb_shared_entries* from) {
+    const rrcb_shared_entries given = copy_in(from, "shared");
+    c::require_array(given.num_ranks, given.ranks, "ranks");
+    c::require_array(given.num_indices, given.indices, "indices");
     SharedEntries shared;
-    for (const rrcb_rank_count& one : view(given->ranks, given->num_ranks))
+    for (const rrcb_rank_count& one : view(given.ranks, given.num_ranks))
         shared.ranks.push_back({one.rank, one.count});
-    const std::span<const LocalIndex> indices = view(given->indices, given->num_indices);
+    const std::span<const LocalIndex> indices = view(given.indices, given.num_indices);
     shared.indices.assign(indices.begin(), indices.end());
     return shared;
 }
@@ -182,11 +202,12 @@ void rrcb_neighbours_destroy(rrcb_neighbours** neighbours) {
 int rrcb_neighbours_migrate(rrcb_neighbours* neighbours, const rrcb_points* positions,
                             size_t num_columns, rrcb_array* columns) {
     rrcb::Points points;
+    std::vector<rrcb::c::HeldArray> held;
     std::vector<rrcb::detail::ByteColumn> moved;
     const auto read = [&](const rrcb_neighbours&) {
         points = rrcb::c::points_of(positions);
-        rrcb::c::require_array(num_columns, columns, "columns");
-        moved = rrcb::c::arrays_in({columns, num_columns}, nullptr, 0);
+        held = rrcb::c::held_arrays(columns, num_columns, "columns");
+        moved = rrcb::c::arrays_in(held, nullptr, 0);
     };
     return with_neighbours(CallName::migrate, neighbours, read,
                            [&](Neighbours& all) { Access::migrate(all, points, moved); });
@@ -206,11 +227,12 @@ int rrcb_neighbours_find_ghosts(rrcb_neighbours* neighbours, const rrcb_points* 
 
 int rrcb_neighbours_fetch(rrcb_neighbours* neighbours, size_t num_columns,
                           const void* const* columns, rrcb_array* ghosts) {
+    std::vector<rrcb::c::HeldArray> held;
     std::vector<rrcb::detail::ByteColumn> fetched;
     const auto read = [&](const rrcb_neighbours& own) {
         rrcb::c::require_array(num_columns, columns, "columns");
-        rrcb::c::require_array(num_columns, ghosts, "ghosts");
-        fetched = rrcb::c::arrays_in({ghosts, num_columns}, columns, own.all->ghosts().num_points);
+        held = rrcb::c::held_arrays(ghosts, num_columns, "ghosts");
+        fetched = rrcb::c::arrays_in(held, columns, own.all->ghosts().num_points);
     };
     return with_neighbours(CallName::fetch_of_neighbours, neighbours, read,
                            [&](Neighbours& all) { Access::fetch(all, fetched); });
@@ -242,8 +264,8 @@ int rrcb_neighbours_sum(rrcb_neighbours* neighbours, const rrcb_shared_entries* 
 
 int rrcb_neighbours_ghosts(const rrcb_neighbours* neighbours, rrcb_ghost_plan* plan) {
     return guarded(neighbours, [&](const auto& own) {
-        rrcb::c::require(plan, "plan");
-        *plan = rrcb::c::view_of(own.all->ghosts());
+        rrcb::c::require_sized(plan, "plan");
+        rrcb::c::copy_out(rrcb::c::view_of(own.all->ghosts()), plan);
     });
 }
 

@@ -78,6 +78,7 @@ int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts, cons
             rrcb::c::require_parts(own, num_parts);
             require_array(count, parts, "parts");
             rrcb::c::require(numbers, "numbers");
+            if (kept != nullptr) rrcb::c::require_sized(kept, "kept");
             ranks = rrcb::c::ranks_of_parts(ranks_of_parts, own.cuts.num_parts,
                                             rrcb::mpi::size_of(self.comm));
         });
@@ -87,6 +88,8 @@ int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts, cons
             rrcb::remap(rrcb::c::view(parts, count), earlier, ranks, own.cuts.shape, self);
         std::ranges::copy(made.numbers, numbers);
         if (kept != nullptr)
-            *kept = {made.identity ? 1 : 0, made.num_points, made.kept_before, made.kept_after};
+            rrcb::c::copy_out(
+                {0, made.identity ? 1 : 0, made.num_points, made.kept_before, made.kept_after},
+                kept);
     });
 }

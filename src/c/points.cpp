@@ -1,4 +1,4 @@
-#include "c/balancer.hpp"
+#include "c/sized.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/points.hpp>
@@ -7,15 +7,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
-#include <type_traits>
 
 namespace rrcb::c {
 
 namespace {
 
-std::size_t bytes_of(rrcb_type type) {
+std::size_t bytes_of(int32_t type) {
     return type == RRCB_FLOAT ? sizeof(float) : sizeof(double);
 }
 
@@ -27,10 +25,7 @@ enum FortranFault { wrong_weights = 11, wrong_axis = 12, wrong_shape = 13, wrong
 void check_fortran(const rrcb_points& from) {
     const std::string count = std::to_string(from.count);
     const std::string extent = std::to_string(from.stride);
-    // Such a number is no value of the enumeration, which must not be read as one.
-    std::underlying_type_t<rrcb_type> type{};
-    std::memcpy(&type, &from.type, sizeof type);
-    switch (type) {
+    switch (from.type) {
         case wrong_weights:
             reject("weights has " + extent + " entries for " + count +
                    " points; give one for each, or no weights");
@@ -60,51 +55,31 @@ void set_axes(const rrcb_points& from, Points& points, std::array<std::span<cons
 
 }  // namespace
 
-Points points_of(const rrcb_points* from) {
-    require(from, "points");
-    check_fortran(*from);
+Points points_of(const rrcb_points* given) {
+    const rrcb_points from = copy_in(given, "points");
+    check_fortran(from);
     Points points;
-    points.dimension = from->dimension;
-    points.count = from->count;
+    points.dimension = from.dimension;
+    points.count = from.count;
     if (points.count == 0 || points.dimension < 1 || points.dimension > max_dimension)
         return points;
-    const std::size_t bytes = bytes_of(from->type);
-    if (from->type != RRCB_DOUBLE && from->type != RRCB_FLOAT)
+    const std::size_t bytes = bytes_of(from.type);
+    if (from.type != RRCB_DOUBLE && from.type != RRCB_FLOAT)
         reject("coordinates must have the type RRCB_DOUBLE or RRCB_FLOAT; set it to theirs");
-    if (points.count > PTRDIFF_MAX / std::max(from->stride, bytes))
+    if (points.count > PTRDIFF_MAX / std::max(from.stride, bytes))
         reject("count and stride exceed the memory; count is the number of points of this rank");
-    if (from->stride < bytes || from->stride % bytes != 0)
+    if (from.stride < bytes || from.stride % bytes != 0)
         reject("the stride must be in bytes, a multiple of the size of a coordinate");
-    points.stride = from->stride / bytes;
-    if (from->type == RRCB_FLOAT)
-        set_axes(*from, points, points.float_axes);
+    points.stride = from.stride / bytes;
+    if (from.type == RRCB_FLOAT)
+        set_axes(from, points, points.float_axes);
     else
-        set_axes(*from, points, points.axes);
-    points.weights = view(from->weights, points.count);
+        set_axes(from, points, points.axes);
+    points.weights = view(from.weights, points.count);
     return points;
 }
 
 }  // namespace rrcb::c
-
-rrcb_points rrcb_interleaved_points(rrcb_type type, int dimension, size_t count,
-                                    const void* coordinates, const double* weights) {
-    rrcb_points points{dimension, type, count, 0, {}, weights};
-    const std::size_t bytes = rrcb::c::bytes_of(type);
-    points.stride = static_cast<std::size_t>(std::max(dimension, 0)) * bytes;
-    if (coordinates == nullptr) return points;
-    for (int axis = 0; axis < std::min(dimension, rrcb::max_dimension); ++axis)
-        points.axes[axis] = static_cast<const std::byte*>(coordinates) + axis * bytes;
-    return points;
-}
-
-rrcb_points rrcb_column_points(rrcb_type type, int dimension, size_t count,
-                               const void* const* columns, const double* weights) {
-    rrcb_points points{dimension, type, count, rrcb::c::bytes_of(type), {}, weights};
-    if (columns == nullptr) return points;
-    for (int axis = 0; axis < std::min(dimension, rrcb::max_dimension); ++axis)
-        points.axes[axis] = columns[axis];
-    return points;
-}
 
 int rrcb_bounding_box(const rrcb_points* points, double* lower, double* upper) {
     return rrcb::c::guarded([&] {

@@ -147,8 +147,8 @@ contains
     allocate (tree(0))
     if (allocated(cuts%tree)) tree = cuts%tree
     tree%axis = tree%axis - 1
-    given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
-                   merge(1, 0, cuts%larger_below), cuts%dealt, c_null_ptr, cuts%debt)
+    given = c_cuts(dimension=cuts%dimension, num_parts=size(tree) + 1, group_size=cuts%group_size, &
+                   larger_below=merge(1, 0, cuts%larger_below), dealt=cuts%dealt, debt=cuts%debt)
     if (size(tree) > 0) given%tree = c_loc(tree)
     if (allocated(cuts%numbers)) then
       numbers = cuts%numbers
@@ -289,7 +289,7 @@ contains
     integer(c_int) :: code
     code = c_get_plan(self%handle, plan)
     call settle(c_transfer(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, plan%num_points, plan%num_points_after), limit, report), error)
+      columns_in_c(columns, plan%num_points, plan%num_points_after), limits_of(limit), report), error)
   end subroutine
 
   !> Numbers the parts of the cuts so that many points stay. Collective.

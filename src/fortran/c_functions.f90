@@ -41,7 +41,7 @@ module rrcb_c_functions
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
       type(c_column), intent(in) :: columns(*)
-      integer(c_size_t), intent(in), optional :: limits
+      type(c_limits), intent(in) :: limits
       type(rrcb_transfer_report), intent(inout), optional :: report
     end function
     integer(c_int) function measure(num_parts, part_weights, part_sizes, result) bind(c)

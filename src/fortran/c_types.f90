@@ -1,9 +1,11 @@
-!> Structures of the library in C, only for the other modules.
+!> Structures of the library in C, only for the other modules. `size` is that of the structure, beyond
+!> which the library reads and writes nothing.
 module rrcb_c_types
   use, intrinsic :: iso_c_binding
   implicit none
 
   type, bind(c) :: c_cuts
+    integer(c_size_t) :: size = 56
     integer(c_int) :: dimension = 0, num_parts = 1
     type(c_ptr) :: tree = c_null_ptr
     integer(c_int) :: group_size = 1, larger_below = 0, dealt = 0
@@ -12,6 +14,7 @@ module rrcb_c_types
   end type
 
   type, bind(c) :: c_plan
+    integer(c_size_t) :: size = 88
     integer(c_size_t) :: num_points = 0, num_points_after = 0, num_exports = 0
     type(c_ptr) :: export_indices = c_null_ptr, export_ranks = c_null_ptr, &
       export_parts = c_null_ptr
@@ -21,14 +24,16 @@ module rrcb_c_types
   end type
 
   type, bind(c) :: c_ghost_options
+    integer(c_size_t) :: size = 64
     real(c_double) :: radius = -1                           !< not given
     type(c_ptr) :: radii = c_null_ptr
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
     integer(c_size_t) :: num_parts = 0
-    integer(c_int) :: needs = 0
+    integer(c_int64_t) :: needs = 0
   end type
 
   type, bind(c) :: c_ghost_plan
+    integer(c_size_t) :: size = 80
     integer(c_size_t) :: num_points = 0, num_ghosts = 0, num_send_ranks = 0
     type(c_ptr) :: send = c_null_ptr
     integer(c_size_t) :: num_sent = 0
@@ -38,13 +43,15 @@ module rrcb_c_types
   end type
 
   type, bind(c) :: c_neighbour_options
+    integer(c_size_t) :: size = 64
     real(c_double) :: radius = 0, travel = 0
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
     integer(c_size_t) :: num_parts = 0
-    integer(c_int) :: needs = 0
+    integer(c_int64_t) :: needs = 0
   end type
 
   type, bind(c) :: c_array
+    integer(c_size_t) :: size = 64
     integer(c_int) :: type = 0
     integer(c_size_t) :: components = 0
     type(c_ptr) :: values = c_null_ptr
@@ -54,6 +61,7 @@ module rrcb_c_types
   end type
 
   type, bind(c) :: c_shared_entries
+    integer(c_size_t) :: size = 40
     integer(c_size_t) :: num_ranks = 0
     type(c_ptr) :: ranks = c_null_ptr
     integer(c_size_t) :: num_indices = 0
@@ -64,5 +72,18 @@ module rrcb_c_types
     integer(c_int) :: rank = 0
     integer(c_size_t) :: count = 0
   end type
+
+  type, bind(c) :: c_limits
+    integer(c_size_t) :: size = 16, bytes = 64*2**20
+  end type
+
+contains
+
+  !> Returns limits of so many bytes, by default those of the library.
+  pure function limits_of(bytes) result(limits)
+    integer(c_size_t), intent(in), optional :: bytes
+    type(c_limits) :: limits
+    if (present(bytes)) limits%bytes = bytes
+  end function
 
 end module rrcb_c_types

@@ -117,7 +117,7 @@ contains
     integer(c_int) :: code
     code = c_ghosts_get_plan(self%handle, plan)
     call settle(c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, plan%num_points, plan%num_ghosts), limit, report), error)
+      columns_in_c(columns, plan%num_points, plan%num_ghosts), limits_of(limit), report), error)
   end subroutine
 
   !> Fetches rows that the ranks of the ghosts send back: `from` has an entry for each ghost, `to` gets
@@ -135,7 +135,7 @@ contains
     integer(c_int) :: code
     code = c_ghosts_get_plan(self%handle, plan)
     call settle(c_ghosts_reply(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, plan%num_ghosts, plan%num_sent), limit, report), error)
+      columns_in_c(columns, plan%num_ghosts, plan%num_sent), limits_of(limit), report), error)
   end subroutine
 
   !> Adds columns of the ghosts, `from`, to those of their points, `to`. Collective.
@@ -152,7 +152,7 @@ contains
     integer(c_int) :: code
     code = c_ghosts_get_plan(self%handle, plan)
     call settle(c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, plan%num_ghosts, plan%num_points), limit, report), error)
+      columns_in_c(columns, plan%num_ghosts, plan%num_points), limits_of(limit), report), error)
   end subroutine
 
   !> Moves fetched positions to those of the images: positions(dimension, ghosts). Not collective.

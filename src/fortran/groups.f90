@@ -92,7 +92,7 @@ contains
     integer(c_int) :: code
     code = c_groups_points(self%handle, groups)
     call settle(c_groups_fetch(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, groups%count, self%num_points), limit, report), error)
+      columns_in_c(columns, groups%count, self%num_points), limits_of(limit), report), error)
   end subroutine
 
   !> Adds up values over the points of each group. Collective.

@@ -1,5 +1,5 @@
 !> Types of the procedures' arguments. Points and columns are views of contiguous arrays, which
-!> have the attribute `target` and are not copied.
+!> have the attribute `target` and are not copied. `size` is that of the type in bytes: leave it.
 module rrcb_types
   use, intrinsic :: iso_c_binding
   implicit none
@@ -19,6 +19,7 @@ module rrcb_types
   !> If your points are derived types, set axes(a) to c_loc(points(1)%x(a)), and `type` to
   !> rrcb_float if x is real(4).
   type, public, bind(c) :: rrcb_points
+    integer(c_size_t) :: size = 64
     integer(c_int) :: dimension = 0, type = rrcb_double
     integer(c_size_t) :: count = 0, stride = 0
     type(c_ptr) :: axes(3) = c_null_ptr, weights = c_null_ptr
@@ -36,6 +37,7 @@ module rrcb_types
 
   !> A column as C has it.
   type, public, bind(c) :: c_column
+    integer(c_size_t) :: size = 40
     integer(c_int) :: type = type_byte
     integer(c_size_t) :: components = 1
     type(c_ptr) :: from = c_null_ptr, to = c_null_ptr
@@ -59,6 +61,7 @@ module rrcb_types
 
   !> Report of the last balance.
   type, public, bind(c) :: rrcb_report
+    integer(c_size_t) :: size = 80
     real(c_double) :: imbalance = 1
     integer(c_int) :: within_tolerance = 0, kept = 0
     integer(c_int64_t) :: num_points = 0
@@ -90,11 +93,12 @@ module rrcb_types
 
   !> Memory and messages of a call on this rank.
   type, public, bind(c) :: rrcb_transfer_report
-    integer(c_size_t) :: peak_bytes = 0, bytes_sent = 0, num_messages = 0
+    integer(c_size_t) :: size = 32, peak_bytes = 0, bytes_sent = 0, num_messages = 0
   end type
 
   !> Points that stay under the new numbers of parts, and under the old ones.
   type, public, bind(c) :: rrcb_kept
+    integer(c_size_t) :: size = 40
     integer(c_int) :: identity = 1
     integer(c_int64_t) :: num_points = 0, kept_before = 0, kept_after = 0
   end type

@@ -110,6 +110,8 @@ program module_test
   call other%assign(rrcb_interleaved_points(x), again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "assign")
   again = -1
+  call expect(all([points%size, report%size, messages%size, kept%size] == &
+    [c_sizeof(points), c_sizeof(report), c_sizeof(messages), c_sizeof(kept)]), "sizes of types")
   points = rrcb_points(dimension=1, count=num_points, stride=storage_size(particles)/8)
   if (num_points > 0) points%axes(1) = c_loc(particles(1)%x)
   call other%assign(points, again, error)

@@ -19,6 +19,14 @@ inline void expect_refused(int code, const std::string& text) {
     EXPECT_NE(std::string(rrcb_last_error()).find(text), std::string::npos) << rrcb_last_error();
 }
 
+/// Returns a tree of cuts in C.
+inline rrcb_cuts cuts_of(int dimension, int num_parts, const rrcb_cut* tree, int group_size = 1,
+                         int larger_below = 0, int dealt = 0, const std::int32_t* numbers = nullptr,
+                         double debt = 0) {
+    return {sizeof(rrcb_cuts), dimension, num_parts, tree, group_size,
+            larger_below,      dealt,     numbers,   debt};
+}
+
 /// Whether a list in C has these entries.
 bool equal(const auto* from, std::size_t count, const auto& list) {
     return std::equal(from, from + count, list.begin(), list.end());

@@ -32,7 +32,7 @@ class CGhosts : public testing::Test {
 
     /// Lets points stay where they are.
     void forget_points() {
-        rrcb_cuts shown;
+        rrcb_cuts shown = RRCB_CUTS_INIT;
         ASSERT_EQ(rrcb_get_cuts(balancer, &shown), RRCB_OK);
         ASSERT_EQ(rrcb_set_cuts(balancer, &shown), RRCB_OK);
         cuts.points = 0;
@@ -50,7 +50,7 @@ class CGhosts : public testing::Test {
     /// Fails unless ghosts are those of C++, of which values come and return alike.
     void expect_same(const GhostOptions& options) {
         const GhostPlan expected = rrcb::ghosts(cuts, points(), options, MPI_COMM_WORLD);
-        rrcb_ghost_plan plan;
+        rrcb_ghost_plan plan = RRCB_GHOST_PLAN_INIT;
         ASSERT_EQ(rrcb_ghosts_get_plan(ghosts, &plan), RRCB_OK);
         EXPECT_EQ(plan.num_points, expected.num_points);
         EXPECT_TRUE(equal(plan.send_indices, plan.num_sent, expected.send_indices));
@@ -68,8 +68,9 @@ class CGhosts : public testing::Test {
 
         std::vector<double> near(3 * plan.num_ghosts);
         std::vector<double> masses(plan.num_ghosts);
-        const std::array fetched{rrcb_column{RRCB_DOUBLE, 3, coordinates.data(), near.data()},
-                                 rrcb_column{RRCB_DOUBLE, 1, weights.data(), masses.data()}};
+        const std::array fetched{
+            rrcb_column RRCB_COLUMN_INIT(RRCB_DOUBLE, 3, coordinates.data(), near.data()),
+            rrcb_column RRCB_COLUMN_INIT(RRCB_DOUBLE, 1, weights.data(), masses.data())};
         ASSERT_EQ(rrcb_ghosts_fetch(ghosts, 2, fetched.data(), nullptr, nullptr), RRCB_OK);
         auto [near_in_cpp, masses_in_cpp] =
             fetch(expected, columns(column(coordinates, 3), weights), MPI_COMM_WORLD);
@@ -93,8 +94,9 @@ class CGhosts : public testing::Test {
         std::vector<double> sums = coordinates;
         std::vector<std::int32_t> numbers(weights.size(), rank());
         const std::vector<std::int32_t> ones(masses.size(), 1);
-        const std::array added{rrcb_column{RRCB_DOUBLE, 3, near.data(), sums.data()},
-                               rrcb_column{RRCB_INT32, 1, ones.data(), numbers.data()}};
+        const std::array added{
+            rrcb_column RRCB_COLUMN_INIT(RRCB_DOUBLE, 3, near.data(), sums.data()),
+            rrcb_column RRCB_COLUMN_INIT(RRCB_INT32, 1, ones.data(), numbers.data())};
         ASSERT_EQ(rrcb_ghosts_accumulate(ghosts, 2, added.data(), nullptr, nullptr), RRCB_OK);
         const std::vector<std::int32_t> start(weights.size(), rank());
         const auto [sums_in_cpp, numbers_in_cpp] =
@@ -103,7 +105,7 @@ class CGhosts : public testing::Test {
         EXPECT_EQ(sums, sums_in_cpp);
         EXPECT_EQ(numbers, numbers_in_cpp);
         std::vector<double> replies(3 * expected.send_indices.size());
-        const rrcb_column sent{RRCB_DOUBLE, 3, near.data(), replies.data()};
+        const rrcb_column sent = RRCB_COLUMN_INIT(RRCB_DOUBLE, 3, near.data(), replies.data());
         ASSERT_EQ(rrcb_ghosts_reply(ghosts, 1, &sent, nullptr, nullptr), RRCB_OK);
         EXPECT_EQ(replies, reply(expected, column(near, 3), MPI_COMM_WORLD));
     }
@@ -113,13 +115,13 @@ class CGhosts : public testing::Test {
     std::vector<double> coordinates;
     std::vector<double> weights;
     std::vector<std::int32_t> parts;
-    rrcb_points in_c{};
+    rrcb_points in_c = RRCB_POINTS_INIT;
     Cuts cuts;
 };
 
 TEST_F(CGhosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
-    rrcb_ghost_options options{};
+    rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     options.radius = 0.1;
     const auto refused = [&] {
         expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts),
@@ -132,7 +134,7 @@ TEST_F(CGhosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
 }
 
 TEST_F(CGhosts, are_those_of_a_call_in_cpp) {
-    rrcb_ghost_options options{};
+    rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     options.radius = 0.1;
     find(options);
     expect_same({.radius = 0.1});
@@ -151,7 +153,7 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
         ranks.push_back({num_ranks() - 1 - part, 1});
         ranks_in_c.push_back({num_ranks() - 1 - part, 1});
     }
-    rrcb_ghost_options options{};
+    rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     options.radii = radii.data();
     options.ranks_of_parts = ranks_in_c.data();
     options.num_parts = ranks_in_c.size();
@@ -171,7 +173,7 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
 
 TEST_F(CGhosts, from_before_a_transfer_are_refused) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
-    rrcb_ghost_options options{};
+    rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     options.radius = 0.1;
     find(options);
     const std::vector<std::int32_t> to_next(weights.size(), (rank() + 1) % num_ranks());
@@ -182,7 +184,7 @@ TEST_F(CGhosts, from_before_a_transfer_are_refused) {
 }
 
 TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
-    rrcb_ghost_options options{};
+    rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     options.radius = 0.1;
     const rrcb_ghost_options* none_there = is_last_rank() ? nullptr : &options;
     expect_refused(rrcb_ghosts_create(balancer, &in_c, none_there, &ghosts), "options is null");
@@ -206,10 +208,10 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     expect_refused(rrcb_ghosts_create(balancer, &shifted, &options, &ghosts), "must be in bytes");
     find(options);
     double value = 0;
-    rrcb_column column{RRCB_DOUBLE, 0, &value, &value};
+    rrcb_column column = RRCB_COLUMN_INIT(RRCB_DOUBLE, 0, &value, &value);
     expect_refused(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr),
                    "must be 1 or more");
-    column = {is_last_rank() ? RRCB_BYTE : RRCB_DOUBLE, 1, &value, &value};
+    column = RRCB_COLUMN_INIT(is_last_rank() ? RRCB_BYTE : RRCB_DOUBLE, 1, &value, &value);
     expect_refused(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr),
                    "give a type of numbers");
     const rrcb_column* no_columns = is_last_rank() ? nullptr : &column;
@@ -218,7 +220,8 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
                    "columns is null");
     expect_refused(rrcb_ghosts_fetch(nullptr, 0, nullptr, nullptr, nullptr), "ghosts is null");
     if (num_ranks() > 1) {
-        const rrcb_transfer_limits limits{is_last_rank() ? std::size_t{1} << 20 : 1 << 21};
+        rrcb_transfer_limits limits = RRCB_TRANSFER_LIMITS_INIT;
+        limits.bytes = is_last_rank() ? std::size_t{1} << 20 : 1 << 21;
         expect_refused(rrcb_ghosts_fetch(ghosts, 0, nullptr, &limits, nullptr), "TransferLimits");
     }
 }
@@ -332,7 +335,7 @@ TEST_F(CGhosts, groups_are_those_of_cpp) {
                                      first ? RRCB_FIRST_POINT : RRCB_CENTRE, &groups),
                   RRCB_OK)
             << rrcb_last_error();
-        rrcb_points shown;
+        rrcb_points shown = RRCB_POINTS_INIT;
         ASSERT_EQ(rrcb_groups_points(groups, &shown), RRCB_OK);
         const std::size_t count = shown.count;
         ASSERT_EQ(count, expected.weights.size());
@@ -344,7 +347,8 @@ TEST_F(CGhosts, groups_are_those_of_cpp) {
         for (std::size_t g = 0; g < count; ++g)
             numbers[g] = 1000 * rank() + static_cast<std::int32_t>(g);
         std::vector<std::int32_t> of_points(parts.size());
-        const rrcb_column column{RRCB_INT32, 1, numbers.data(), of_points.data()};
+        const rrcb_column column =
+            RRCB_COLUMN_INIT(RRCB_INT32, 1, numbers.data(), of_points.data());
         ASSERT_EQ(rrcb_groups_fetch(groups, 1, &column, nullptr, nullptr), RRCB_OK);
         EXPECT_EQ(of_points, fetch(expected, numbers, MPI_COMM_WORLD));
         std::vector<double> added(3 * count);
@@ -373,7 +377,7 @@ TEST_F(CGhosts, part_numbers_are_those_of_cpp) {
                                    : remap(parts, ranks, MPI_COMM_WORLD, cuts.shape);
         std::vector<std::int32_t> numbers(ranks.size());
         const std::int32_t* earlier = previous.empty() ? nullptr : previous.data();
-        rrcb_kept kept;
+        rrcb_kept kept = RRCB_KEPT_INIT;
         ASSERT_EQ(rrcb_remap(balancer, parts.size(), parts.data(), by_previous ? earlier : nullptr,
                              nullptr, numbers.size(), numbers.data(), &kept),
                   RRCB_OK)

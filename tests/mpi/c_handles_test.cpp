@@ -4,6 +4,7 @@
 namespace rrcb {
 namespace {
 
+using test::cuts_of;
 using test::expect_refused;
 
 /// Two points on each rank, balanced, with ghosts.
@@ -12,14 +13,14 @@ class CHandles : public testing::Test {
     void SetUp() override {
         ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
         ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
-        rrcb_cuts shown;
+        rrcb_cuts shown = RRCB_CUTS_INIT;
         ASSERT_EQ(rrcb_get_cuts(balancer, &shown), RRCB_OK);
         ASSERT_EQ(rrcb_set_cuts(balancer, &shown), RRCB_OK);
         ASSERT_EQ(rrcb_controller_create(MPI_COMM_WORLD, &controller), RRCB_OK);
         ASSERT_EQ(rrcb_cost_model_create(MPI_COMM_WORLD, controller, 1, &model), RRCB_OK);
         ASSERT_EQ(rrcb_groups_create(balancer, &points, keys.data(), RRCB_CENTRE, &groups),
                   RRCB_OK);
-        rrcb_ghost_options options{};
+        rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
         options.radius = 0.1;
         ASSERT_EQ(rrcb_ghosts_create(balancer, &points, &options, &ghosts), RRCB_OK)
             << rrcb_last_error();
@@ -50,8 +51,8 @@ TEST_F(CHandles, are_null_after_they_are_destroyed_once_or_twice) {
     destroy();
     EXPECT_TRUE(!balancer && !controller && !model && !groups && !ghosts);
     int due = 0;
-    rrcb_points shown;
-    rrcb_ghost_plan plan;
+    rrcb_points shown = RRCB_POINTS_INIT;
+    rrcb_ghost_plan plan = RRCB_GHOST_PLAN_INIT;
     const std::string gone = " is null: it was not created, or is destroyed";
     expect_refused(rrcb_balance(balancer, &points, parts.data()), "balancer" + gone);
     expect_refused(rrcb_controller_due(controller, &due), "controller" + gone);
@@ -70,7 +71,7 @@ TEST_F(CHandles, in_use_are_refused_as_room_for_new_ones) {
     expect_refused(rrcb_create(MPI_COMM_WORLD, room), "balancer" + in_use);
     EXPECT_EQ(fresh, nullptr);
     EXPECT_EQ(balancer, before);
-    rrcb_ghost_options options{};
+    rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     options.radius = 0.1;
     expect_refused(rrcb_controller_create(MPI_COMM_WORLD, &controller), "controller" + in_use);
     expect_refused(rrcb_cost_model_create(MPI_COMM_WORLD, nullptr, 1, &model), "model" + in_use);
@@ -81,41 +82,43 @@ TEST_F(CHandles, in_use_are_refused_as_room_for_new_ones) {
 
 TEST_F(CHandles, take_no_zeroed_options) {
     rrcb_ghosts* more = nullptr;
-    const rrcb_ghost_options no_radius{};
+    const rrcb_ghost_options no_radius = RRCB_GHOST_OPTIONS_INIT;
     expect_refused(rrcb_ghosts_create(balancer, &points, &no_radius, &more),
                    "radius is 0, and radii is null; give one of them");
     const std::array<double, 2> none{};
-    rrcb_ghost_options radii_of_0{};
+    rrcb_ghost_options radii_of_0 = RRCB_GHOST_OPTIONS_INIT;
     radii_of_0.radii = none.data();
     EXPECT_EQ(rrcb_ghosts_create(balancer, &points, &radii_of_0, &more), RRCB_OK);
     rrcb_ghosts_destroy(&more);
-    rrcb_ghost_options no_ranks{};
+    rrcb_ghost_options no_ranks = RRCB_GHOST_OPTIONS_INIT;
     no_ranks.radius = 0.1;
     no_ranks.num_parts = static_cast<std::size_t>(num_ranks());
     expect_refused(rrcb_ghosts_create(balancer, &points, &no_ranks, &more),
                    "ranks_of_parts is null");
-    const rrcb_column no_type{{}, 2, coordinates.data(), coordinates.data()};
+    const rrcb_column no_type = RRCB_COLUMN_INIT(0, 2, coordinates.data(), coordinates.data());
     expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_type, nullptr, nullptr),
                    "must be an rrcb_type");
     std::array<double, 4> room{};
-    const rrcb_column no_components{RRCB_DOUBLE, 0, coordinates.data(), room.data()};
+    const rrcb_column no_components =
+        RRCB_COLUMN_INIT(RRCB_DOUBLE, 0, coordinates.data(), room.data());
     expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_components, nullptr, nullptr),
                    "must be 1 or more");
-    const rrcb_transfer_limits no_bytes{};
-    const rrcb_column doubles{RRCB_DOUBLE, 2, coordinates.data(), room.data()};
+    rrcb_transfer_limits no_bytes = RRCB_TRANSFER_LIMITS_INIT;
+    no_bytes.bytes = 0;
+    const rrcb_column doubles = RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, coordinates.data(), room.data());
     expect_refused(rrcb_groups_fetch(groups, 1, &doubles, &no_bytes, nullptr),
                    "TransferLimits::bytes must hold two");
-    const rrcb_report no_report{};
+    const rrcb_report no_report = RRCB_REPORT_INIT;
     expect_refused(rrcb_controller_rebalanced(controller, &no_report, 1), "rrcb_get_report");
 }
 
 TEST_F(CHandles, take_no_zeroed_points_cuts_or_ranks) {
-    const rrcb_points nowhere{};
+    const rrcb_points nowhere = RRCB_POINTS_INIT;
     expect_refused(rrcb_balance(balancer, &nowhere, parts.data()), "1, 2 or 3 dimensions");
     rrcb_points untyped = points;
     untyped.type = {};
     expect_refused(rrcb_balance(balancer, &untyped, parts.data()), "RRCB_DOUBLE or RRCB_FLOAT");
-    const rrcb_cuts no_cuts{};
+    const rrcb_cuts no_cuts = RRCB_CUTS_INIT;
     expect_refused(rrcb_set_cuts(balancer, &no_cuts), "1, 2 or 3 dimensions");
     const std::vector<rrcb_rank_range> no_ranks(static_cast<std::size_t>(num_ranks()));
     std::vector<std::int32_t> numbers(no_ranks.size());
@@ -127,9 +130,9 @@ TEST_F(CHandles, take_no_zeroed_points_cuts_or_ranks) {
 TEST_F(CHandles, take_and_show_the_numbers_and_the_debt_of_cuts) {
     const std::array<rrcb_cut, 2> tree{rrcb_cut{0, 0, {1, 0, 0}}, rrcb_cut{0, 0, {2, 0, 0}}};
     const std::array<std::int32_t, 3> numbers{2, 0, 1};
-    const rrcb_cuts cuts{1, 3, tree.data(), 1, 0, 0, numbers.data(), 0.25};
+    const rrcb_cuts cuts = cuts_of(1, 3, tree.data(), 1, 0, 0, numbers.data(), 0.25);
     ASSERT_EQ(rrcb_set_cuts(balancer, &cuts), RRCB_OK) << rrcb_last_error();
-    rrcb_cuts shown;
+    rrcb_cuts shown = RRCB_CUTS_INIT;
     ASSERT_EQ(rrcb_get_cuts(balancer, &shown), RRCB_OK);
     EXPECT_TRUE(std::ranges::equal(std::span(shown.numbers, 3), numbers));
     EXPECT_EQ(shown.debt, 0.25);
@@ -141,7 +144,7 @@ TEST_F(CHandles, take_and_show_the_numbers_and_the_debt_of_cuts) {
     }
     for (const std::array<std::int32_t, 3>& wrong :
          {std::array{0, 0, 1}, std::array{0, 1, 3}, std::array{-1, 0, 1}}) {
-        const rrcb_cuts given{1, 3, tree.data(), 1, 0, 0, wrong.data(), 0};
+        const rrcb_cuts given = cuts_of(1, 3, tree.data(), 1, 0, 0, wrong.data(), 0);
         expect_refused(rrcb_set_cuts(balancer, &given), "name each part once");
     }
 }
@@ -151,7 +154,7 @@ TEST_F(CHandles, make_one_part_for_each_rank_if_asked_for_none) {
         ASSERT_EQ(rrcb_set(balancer, "num_parts", "7"), RRCB_OK);
         ASSERT_EQ(rrcb_set(balancer, "num_parts", number), RRCB_OK) << rrcb_last_error();
         ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
-        rrcb_cuts cuts;
+        rrcb_cuts cuts = RRCB_CUTS_INIT;
         ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
         EXPECT_EQ(cuts.num_parts, num_ranks());
     }

@@ -4,6 +4,7 @@
 namespace rrcb {
 namespace {
 
+using test::cuts_of;
 using test::equal;
 using test::expect_refused;
 
@@ -75,10 +76,10 @@ void CInterface::expect_as_in_cpp(
     ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
     const Balance expected = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
     EXPECT_EQ(parts, expected.parts);
-    rrcb_cuts cuts;
+    rrcb_cuts cuts = RRCB_CUTS_INIT;
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     expect_same_cuts(cuts, expected.cuts);
-    rrcb_report report;
+    rrcb_report report = RRCB_REPORT_INIT;
     ASSERT_EQ(rrcb_get_report(balancer, &report), RRCB_OK);
     EXPECT_EQ(report.num_points, expected.report.details.num_points);
     EXPECT_EQ(report.total_weight, expected.report.details.total_weight);
@@ -113,7 +114,7 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
     const Cloud cloud(2);
     ASSERT_EQ(balance(cloud), RRCB_OK);
     const std::vector<std::int32_t> first = parts;
-    rrcb_cuts cuts;
+    rrcb_cuts cuts = RRCB_CUTS_INIT;
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
 
     const rrcb_points points = cloud.in_c();
@@ -151,7 +152,7 @@ TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
     for (double& x : cloud.coordinates) x *= 1.01;
 
     const rrcb_points points = cloud.in_c();
-    rrcb_cuts cuts;
+    rrcb_cuts cuts = RRCB_CUTS_INIT;
     ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     expect_same_cuts(cuts, first);
@@ -186,9 +187,9 @@ TEST_F(CInterface, keeps_uncounted_cuts_within_the_tolerance_only) {
 /// Parts 0 and 2 on the left, for two machines of two ranks, which are dealt in turns.
 TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
     const std::array<rrcb_cut, 3> tree{{{0, 0, {2}}, {0, 0, {1}}, {0, 0, {3}}}};
-    const rrcb_cuts given{1, 4, tree.data(), 2, 0, 1, nullptr, 0};
+    const rrcb_cuts given = cuts_of(1, 4, tree.data(), 2, 0, 1);
     ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK) << rrcb_last_error();
-    rrcb_cuts cuts;
+    rrcb_cuts cuts = RRCB_CUTS_INIT;
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     EXPECT_EQ(cuts.group_size, 2);
     EXPECT_EQ(cuts.dealt, 1);
@@ -206,7 +207,7 @@ TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     const Cloud cloud(3);
     ASSERT_EQ(balance(cloud), RRCB_OK);
     ASSERT_EQ(rrcb_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
-    rrcb_plan_lists shown;
+    rrcb_plan_lists shown = RRCB_PLAN_LISTS_INIT;
     ASSERT_EQ(rrcb_get_plan(balancer, &shown), RRCB_OK);
 
     const Plan expected = plan(parts, num_ranks(), MPI_COMM_WORLD);
@@ -220,10 +221,12 @@ TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
 
     std::vector<double> here(3 * shown.num_points_after);
     std::vector<std::int32_t> parts_here(shown.num_points_after);
-    const std::array moved{rrcb_column{RRCB_DOUBLE, 3, cloud.coordinates.data(), here.data()},
-                           rrcb_column{RRCB_INT32, 1, parts.data(), parts_here.data()}};
-    const rrcb_transfer_limits limits{1 << 12};
-    rrcb_transfer_report report;
+    const std::array moved{
+        rrcb_column RRCB_COLUMN_INIT(RRCB_DOUBLE, 3, cloud.coordinates.data(), here.data()),
+        rrcb_column RRCB_COLUMN_INIT(RRCB_INT32, 1, parts.data(), parts_here.data())};
+    rrcb_transfer_limits limits = RRCB_TRANSFER_LIMITS_INIT;
+    limits.bytes = 1 << 12;
+    rrcb_transfer_report report = RRCB_TRANSFER_REPORT_INIT;
     ASSERT_EQ(rrcb_transfer(balancer, 2, moved.data(), &limits, &report), RRCB_OK);
     EXPECT_EQ(here, transfer(expected, column(cloud.coordinates, 3), MPI_COMM_WORLD));
     EXPECT_EQ(parts_here, transfer(expected, parts, MPI_COMM_WORLD));
@@ -302,22 +305,23 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
     ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
     ASSERT_EQ(rrcb_plan(balancer, x.size(), parts.data()), RRCB_OK);
     std::vector<double> here(x.size());
-    const rrcb_column right{RRCB_DOUBLE, 1, x.data(), here.data()};
+    const rrcb_column right = RRCB_COLUMN_INIT(RRCB_DOUBLE, 1, x.data(), here.data());
     const auto move = [&](const rrcb_column& there) {
         return rrcb_transfer(balancer, 1, is_last_rank() ? &there : &right, nullptr, nullptr);
     };
-    expect_refused(move({RRCB_DOUBLE, 1, nullptr, here.data()}),
+    expect_refused(move(RRCB_COLUMN_INIT(RRCB_DOUBLE, 1, nullptr, here.data())),
                    "from of column 0 (the first is 0) is null");
     const std::string fix = "must hold 2 for each of " + std::to_string(x.size()) + " points";
-    expect_refused(move({RRCB_DOUBLE, 2, x.data(), nullptr}), fix);
-    expect_refused(move({static_cast<rrcb_type>(7), 1, x.data(), here.data()}), "rrcb_type");
-    expect_refused(move({RRCB_DOUBLE, 0, x.data(), here.data()}),
+    expect_refused(move(RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, x.data(), nullptr)), fix);
+    expect_refused(move(RRCB_COLUMN_INIT(static_cast<rrcb_type>(7), 1, x.data(), here.data())),
+                   "rrcb_type");
+    expect_refused(move(RRCB_COLUMN_INIT(RRCB_DOUBLE, 0, x.data(), here.data())),
                    "components of a column must be 1 or more");
     expect_refused(rrcb_transfer(balancer, 1, is_last_rank() ? nullptr : &right, nullptr, nullptr),
                    "columns is null");
     if (num_ranks() > 1) {
-        expect_refused(move({RRCB_FLOAT, 1, x.data(), here.data()}), "4 bytes");
-        expect_refused(move({RRCB_INT64, 1, x.data(), here.data()}), "whole");
+        expect_refused(move(RRCB_COLUMN_INIT(RRCB_FLOAT, 1, x.data(), here.data())), "4 bytes");
+        expect_refused(move(RRCB_COLUMN_INIT(RRCB_INT64, 1, x.data(), here.data())), "whole");
     }
     ASSERT_EQ(move(right), RRCB_OK);
 }
@@ -326,7 +330,7 @@ TEST_F(CInterface, options_that_differ_fail_on_all) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", is_last_rank() ? "1.1" : "1.2"), RRCB_OK);
     expect_refused(balance(Cloud(2)), "imbalance_tolerance");
-    rrcb_cuts cuts{2, 1, nullptr, 1, 0, 0, nullptr, 0};
+    rrcb_cuts cuts = cuts_of(2, 1, nullptr);
     rrcb_balancer* none = nullptr;
     expect_refused(rrcb_create(MPI_COMM_NULL, &none), "COMM_NULL");
     EXPECT_EQ(none, nullptr);
@@ -346,14 +350,14 @@ TEST_F(CInterface, names_what_it_does_not_know) {
     expect_refused(rrcb_set(balancer, "refine", "twice"), "EXACT");
     EXPECT_EQ(rrcb_set(nullptr, "refine", "NONE"), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_last_error(), "balancer is null: it was not created, or is destroyed");
-    const rrcb_cuts no_tree{2, 3, nullptr, 1, 0, 0, nullptr, 0};
+    const rrcb_cuts no_tree = cuts_of(2, 3, nullptr);
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_tree), RRCB_INVALID_ARGUMENT);
-    const rrcb_cuts no_parts{2, 0, nullptr, 1, 0, 0, nullptr, 0};
+    const rrcb_cuts no_parts = cuts_of(2, 0, nullptr);
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_parts), RRCB_INVALID_ARGUMENT);
-    const rrcb_cuts no_group{2, 1, nullptr, 0, 0, 0, nullptr, 0};
+    const rrcb_cuts no_group = cuts_of(2, 1, nullptr, 0, 0, 0);
     expect_refused(rrcb_set_cuts(balancer, &no_group), "groups of 1 or more");
     for (const int dimension : {-1, 0, 4, 9}) {
-        const rrcb_cuts nowhere{dimension, 1, nullptr, 1, 0, 0, nullptr, 0};
+        const rrcb_cuts nowhere = cuts_of(dimension, 1, nullptr);
         expect_refused(rrcb_set_cuts(balancer, &nowhere), "1, 2 or 3 dimensions");
     }
     rrcb_destroy(nullptr);
@@ -362,9 +366,9 @@ TEST_F(CInterface, names_what_it_does_not_know) {
 TEST_F(CInterface, refuses_numbers_that_a_flag_does_not_have) {
     for (const std::int32_t flag : {-1, 2, 55}) {
         const rrcb_cut cut{0, flag, {1}};
-        const rrcb_cuts divided{1, 2, &cut, 1, 0, 0, nullptr, 0};
+        const rrcb_cuts divided = cuts_of(1, 2, &cut);
         expect_refused(rrcb_set_cuts(balancer, &divided), "divides that is neither 0 nor 1");
-        const rrcb_cuts large{1, 1, nullptr, 1, flag, 0, nullptr, 0};
+        const rrcb_cuts large = cuts_of(1, 1, nullptr, 1, flag, 0);
         expect_refused(rrcb_set_cuts(balancer, &large), "larger_below must be 0 or 1");
     }
 }
@@ -373,16 +377,16 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     const auto expect_missing = [](int code, const std::string& what) {
         expect_refused(code, "the balancer has no " + what);
     };
-    rrcb_report report;
-    rrcb_cuts cuts;
-    rrcb_plan_lists plan;
+    rrcb_report report = RRCB_REPORT_INIT;
+    rrcb_cuts cuts = RRCB_CUTS_INIT;
+    rrcb_plan_lists plan = RRCB_PLAN_LISTS_INIT;
     Box box;
     std::int32_t part = 0;
     double x[] = {0.5, 0.5};
     double y[2];
     const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 2, 1, x, nullptr);
-    const rrcb_column column{RRCB_DOUBLE, 1, x, y};
-    const rrcb_ghost_options options{};
+    const rrcb_column column = RRCB_COLUMN_INIT(RRCB_DOUBLE, 1, x, y);
+    const rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     rrcb_ghosts* ghosts = nullptr;
     std::size_t count = 0;
     expect_missing(rrcb_get_report(balancer, &report), "report yet");
@@ -399,7 +403,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_remap(balancer, 1, &part, nullptr, nullptr, 1, &part, nullptr), "cuts yet");
     expect_missing(rrcb_ghosts_create(balancer, &points, &options, &ghosts), "cuts yet");
 
-    const rrcb_cuts given{2, 1, nullptr, 1, 0, 0, nullptr, 0};
+    const rrcb_cuts given = cuts_of(2, 1, nullptr);
     ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK);
     EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     EXPECT_EQ(rrcb_assign(balancer, &points, &part), RRCB_OK);
@@ -482,7 +486,7 @@ TEST_F(CInterface, saves_and_loads_cuts) {
     EXPECT_EQ(rrcb_load_cuts(other, bytes, size - 1), RRCB_INVALID_ARGUMENT);
     EXPECT_EQ(rrcb_load_cuts(other, nullptr, size), RRCB_INVALID_ARGUMENT);
     ASSERT_EQ(rrcb_load_cuts(other, bytes, size), RRCB_OK) << rrcb_last_error();
-    rrcb_cuts cuts;
+    rrcb_cuts cuts = RRCB_CUTS_INIT;
     ASSERT_EQ(rrcb_get_cuts(other, &cuts), RRCB_OK);
     expect_same_cuts(cuts, load<Cuts>({static_cast<const std::byte*>(bytes), size}));
     EXPECT_EQ(rrcb_save_cuts(balancer, nullptr, &size), RRCB_INVALID_ARGUMENT);

@@ -1,10 +1,6 @@
 // The exchanges with neighbours in C beside those in C++, which are the reference.
 #include "../support/clouds.hpp"
-#include "../support/common.hpp"
-#include "../support/ranks.hpp"
-
-#include <rrcb/rrcb.h>
-#include <rrcb/rrcb.hpp>
+#include "c_calls.hpp"
 
 #include <cstdlib>
 
@@ -34,11 +30,15 @@ class CNeighbours : public testing::Test {
             tree.push_back({static_cast<std::int32_t>(cut.axis),
                             cut.divides ? 1 : 0,
                             {cut.at[0], cut.at[1], cut.at[2]}});
-        const rrcb_cuts shown{2, cuts_.num_parts, tree.data(), 1, 0, 0, nullptr, 0};
+        const rrcb_cuts shown = test::cuts_of(2, cuts_.num_parts, tree.data());
         ASSERT_EQ(rrcb_set_cuts(balancer_, &shown), RRCB_OK) << rrcb_last_error();
         const double lower[3]{0, 0, 0};
         const double upper[3]{1, 1, 1};
-        const rrcb_neighbour_options options{radius, travel, lower, upper, nullptr, 0, 0};
+        rrcb_neighbour_options options = RRCB_NEIGHBOUR_OPTIONS_INIT;
+        options.radius = radius;
+        options.travel = travel;
+        options.lower = lower;
+        options.upper = upper;
         ASSERT_EQ(rrcb_neighbours_create(balancer_, &options, &neighbours_), RRCB_OK)
             << rrcb_last_error();
         own_.emplace(
@@ -46,22 +46,18 @@ class CNeighbours : public testing::Test {
             NeighbourOptions{.radius = radius, .travel = travel, .periodic = Box{{}, {1, 1, 1}}},
             MPI_COMM_WORLD);
         // Memory of malloc(), without room for more points, and a vector.
-        columns_[0] = {RRCB_DOUBLE, 2,           std::malloc(x_.size() * sizeof(double) + 1),
-                       ids_.size(), ids_.size(), nullptr,
-                       nullptr};
+        columns_[0].values = std::malloc(x_.size() * sizeof(double) + 1);
+        columns_[0].count = columns_[0].capacity = ids_.size();
         std::copy(x_.begin(), x_.end(), static_cast<double*>(columns_[0].values));
         ids_in_c_ = ids_;
-        columns_[1] = {RRCB_INT64,
-                       1,
-                       ids_in_c_.data(),
-                       ids_.size(),
-                       0,
-                       [](void* owner, std::size_t count) -> void* {
-                           auto& ids = *static_cast<std::vector<std::int64_t>*>(owner);
-                           ids.resize(count);
-                           return ids.data();
-                       },
-                       &ids_in_c_};
+        columns_[1].values = ids_in_c_.data();
+        columns_[1].count = ids_.size();
+        columns_[1].owner = &ids_in_c_;
+        columns_[1].resize = [](void* owner, std::size_t count) -> void* {
+            auto& ids = *static_cast<std::vector<std::int64_t>*>(owner);
+            ids.resize(count);
+            return ids.data();
+        };
     }
     void TearDown() override {
         rrcb_neighbours_destroy(&neighbours_);
@@ -114,9 +110,8 @@ class CNeighbours : public testing::Test {
     std::optional<Neighbours> own_;
     rrcb_balancer* balancer_ = nullptr;
     rrcb_neighbours* neighbours_ = nullptr;
-    rrcb_array columns_[2]{};
-    rrcb_array ghosts_[2]{{RRCB_DOUBLE, 2, nullptr, 0, 0, nullptr, nullptr},
-                          {RRCB_INT64, 1, nullptr, 0, 0, nullptr, nullptr}};
+    rrcb_array columns_[2]{RRCB_ARRAY_INIT(RRCB_DOUBLE, 2), RRCB_ARRAY_INIT(RRCB_INT64, 1)};
+    rrcb_array ghosts_[2]{RRCB_ARRAY_INIT(RRCB_DOUBLE, 2), RRCB_ARRAY_INIT(RRCB_INT64, 1)};
 };
 
 TEST_F(CNeighbours, give_the_points_ghosts_and_sums_of_cpp) {
@@ -136,7 +131,7 @@ TEST_F(CNeighbours, give_the_points_ghosts_and_sums_of_cpp) {
         own_->fetch(ghosts_of(ghost_x, ghost_ids), column(x_, 2), ids_);
         ASSERT_EQ(find(), RRCB_OK) << rrcb_last_error();
         ASSERT_EQ(fetch(), RRCB_OK) << rrcb_last_error();
-        rrcb_ghost_plan lists;
+        rrcb_ghost_plan lists = RRCB_GHOST_PLAN_INIT;
         ASSERT_EQ(rrcb_neighbours_ghosts(neighbours_, &lists), RRCB_OK);
         EXPECT_EQ(lists.num_ghosts, ghost_ids.size());
         EXPECT_TRUE(std::equal(lists.send_indices, lists.send_indices + lists.num_sent,
@@ -155,7 +150,8 @@ TEST_F(CNeighbours, give_the_points_ghosts_and_sums_of_cpp) {
         std::vector<double> sums(x_);
         std::vector<double> sums_in_c(x_);
         own_->accumulate(column(ghost_x, 2), column(sums, 2));
-        const rrcb_column added{RRCB_DOUBLE, 2, ghosts_[0].values, sums_in_c.data()};
+        const rrcb_column added =
+            RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, ghosts_[0].values, sums_in_c.data());
         ASSERT_EQ(rrcb_neighbours_accumulate(neighbours_, 1, &added), RRCB_OK) << rrcb_last_error();
         EXPECT_EQ(sums_in_c, sums);
     }
@@ -175,11 +171,14 @@ TEST_F(CNeighbours, add_shared_entries) {
         shared.ranks.push_back({other, 1});
         shared.indices.push_back(1);
     }
-    const rrcb_shared_entries given{count, shares.data(), count, shared.indices.data()};
+    rrcb_shared_entries given = RRCB_SHARED_ENTRIES_INIT;
+    given.num_ranks = given.num_indices = count;
+    given.ranks = shares.data();
+    given.indices = shared.indices.data();
     std::vector<float> values{1, 0.1F * static_cast<float>(rank() + 1), 3};
     std::vector<float> expected = values;
     own_->sum(shared, expected);
-    const rrcb_column summed{RRCB_FLOAT, 1, nullptr, values.data()};
+    const rrcb_column summed = RRCB_COLUMN_INIT(RRCB_FLOAT, 1, nullptr, values.data());
     ASSERT_EQ(rrcb_neighbours_sum(neighbours_, &given, 3, 1, &summed), RRCB_OK)
         << rrcb_last_error();
     EXPECT_EQ(values, expected);
@@ -206,15 +205,15 @@ TEST_F(CNeighbours, refuse_no_type_and_bytes_to_add) {
     ASSERT_EQ(find(), RRCB_OK);
     ASSERT_EQ(fetch(), RRCB_OK) << rrcb_last_error();
     std::vector<double> sums(x_);
-    const rrcb_column added{rank() == 0 ? RRCB_BYTE : RRCB_DOUBLE, 2, ghosts_[0].values,
-                            sums.data()};
+    const rrcb_column added =
+        RRCB_COLUMN_INIT(rank() == 0 ? RRCB_BYTE : RRCB_DOUBLE, 2, ghosts_[0].values, sums.data());
     expect_error([&] { return rrcb_neighbours_accumulate(neighbours_, 1, &added); },
                  "RRCB_BYTE cannot be added");
 }
 
 TEST_F(CNeighbours, refuse_null_and_zeroed_arguments) {
     rrcb_neighbours* made = nullptr;
-    const rrcb_neighbour_options none{};
+    const rrcb_neighbour_options none = RRCB_NEIGHBOUR_OPTIONS_INIT;
     EXPECT_EQ(rrcb_neighbours_create(balancer_, &none, &made), RRCB_INVALID_ARGUMENT);
     EXPECT_NE(std::string(rrcb_last_error()).find("radius and travel are both 0"),
               std::string::npos);

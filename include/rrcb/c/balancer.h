@@ -12,7 +12,7 @@ extern "C" {
 /** Communicator, options, cuts and plan. */
 typedef struct rrcb_balancer rrcb_balancer;
 
-/** One cut, as rrcb::Cut. */
+/** One cut, as rrcb::Cut. Never changes, as arrays contain it. */
 typedef struct rrcb_cut {
     int32_t axis;    /**< that the cut is across */
     int32_t divides; /**< 1: some of the points exactly at it are below */
@@ -21,6 +21,7 @@ typedef struct rrcb_cut {
 
 /** The tree of cuts, as rrcb::Cuts: num_parts - 1 of them in preorder. */
 typedef struct rrcb_cuts {
+    size_t size;            /**< of this struct, set by RRCB_CUTS_INIT */
     int dimension;          /**< of the points */
     int num_parts;          /**< of the whole tree */
     const rrcb_cut* tree;   /**< num_parts - 1 cuts, borrowed */
@@ -31,8 +32,13 @@ typedef struct rrcb_cuts {
     double debt;            /**< for the next balance, as rrcb::Cuts::debt */
 } rrcb_cuts;
 
+/** Cuts of no dimension, of which the library accepts none. */
+#define RRCB_CUTS_INIT \
+    { sizeof(rrcb_cuts), 0, 0, NULL, 1, 0, 0, NULL, 0 }
+
 /** Report of the last balance, as rrcb::Report; the same on every rank. */
 typedef struct rrcb_report {
+    size_t size;            /**< of this struct, set by RRCB_REPORT_INIT */
     double imbalance;       /**< heaviest part / mean part; NaN if not counted, 1 without points */
     int within_tolerance;   /**< 1: `imbalance` is within the tolerance */
     int kept;               /**< 1: nothing moves, the points of rank r are part r */
@@ -46,6 +52,10 @@ typedef struct rrcb_report {
     int all_weights_zero;       /**< 1: balanced by count instead */
     int surplus_parts;          /**< parts that stay empty: more than points */
 } rrcb_report;
+
+/** A report of no balance. */
+#define RRCB_REPORT_INIT \
+    { sizeof(rrcb_report), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 
 /** Makes a balancer with the default options and no cuts. Collective.
  *

@@ -19,6 +19,7 @@ typedef enum rrcb_needs {
 
 /** Distances at which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
+    size_t size;         /**< of this struct, set by RRCB_GHOST_OPTIONS_INIT */
     double radius;       /**< cut-off of all points, in the unit of the coordinates; 0: not given */
     const double* radii; /**< one for each point instead, 0 or more; null on every rank that has
                               points: none */
@@ -27,11 +28,16 @@ typedef struct rrcb_ghost_options {
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
                                               as by rrcb_ranks_of_part */
     size_t num_parts;                      /**< length of `ranks_of_parts`, 0 if that is null */
-    int needs;                             /**< an rrcb_needs */
+    int64_t needs;                         /**< an rrcb_needs */
 } rrcb_ghost_options;
+
+/** No radius yet, no periodic box, the needs of senders. */
+#define RRCB_GHOST_OPTIONS_INIT \
+    { sizeof(rrcb_ghost_options), 0, NULL, NULL, NULL, NULL, 0, RRCB_NEEDS_SENDER }
 
 /** Lists of points sent and received as ghosts, as rrcb::GhostPlan; indices count from 0. */
 typedef struct rrcb_ghost_plan {
+    size_t size;                    /**< of this struct, set by RRCB_GHOST_PLAN_INIT */
     size_t num_points;              /**< that this rank holds */
     size_t num_ghosts;              /**< that it gets */
     size_t num_send_ranks;          /**< length of `send` */
@@ -43,6 +49,10 @@ typedef struct rrcb_ghost_plan {
     const int32_t* shifts;          /**< three for each ghost: periods along each axis; null without
                                          a periodic box */
 } rrcb_ghost_plan;
+
+/** Lists without points. */
+#define RRCB_GHOST_PLAN_INIT \
+    { sizeof(rrcb_ghost_plan), 0, 0, 0, NULL, 0, NULL, 0, NULL, NULL }
 
 /** Finds the points that other ranks need, as rrcb::ghosts. Collective.
  *

@@ -18,19 +18,25 @@ typedef struct rrcb_neighbours rrcb_neighbours;
 /** Distances within which ranks are neighbours, one of them above 0, and the ranks of the parts; as
  * rrcb::NeighbourOptions. The same on every rank. */
 typedef struct rrcb_neighbour_options {
+    size_t size;   /**< of this struct, set by RRCB_NEIGHBOUR_OPTIONS_INIT */
     double radius; /**< cut-off of ghosts, in the unit of the coordinates; the greatest of radii */
     double travel; /**< that a point may move between two calls of rrcb_neighbours_migrate */
     const double* lower;                   /**< of the periodic box, of length 3; null: none */
     const double* upper;                   /**< of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< as in rrcb_ghost_options */
     size_t num_parts;                      /**< length of `ranks_of_parts`, 0 if that is null */
-    int needs;                             /**< an rrcb_needs */
+    int64_t needs;                         /**< an rrcb_needs */
 } rrcb_neighbour_options;
+
+/** No distances yet, no periodic box, the needs of senders. */
+#define RRCB_NEIGHBOUR_OPTIONS_INIT \
+    { sizeof(rrcb_neighbour_options), 0, 0, NULL, NULL, NULL, 0, RRCB_NEEDS_SENDER }
 
 /** An array that calls make longer or shorter, as a std::vector. If it has no room for the points
  * that arrive, the call makes room: no point is lost unless there is no memory. */
 typedef struct rrcb_array {
-    rrcb_type type;    /**< of the values, the same on every rank */
+    size_t size;       /**< of this struct, set by RRCB_ARRAY_INIT; of all in an array the same */
+    int32_t type;      /**< of the values, an rrcb_type, the same on every rank */
     size_t components; /**< values of a point; its bytes for RRCB_BYTE */
     void* values;      /**< of malloc() or null; the call moves it by realloc(), you free() it */
     size_t count;      /**< points that it holds; set by the call */
@@ -42,13 +48,22 @@ typedef struct rrcb_array {
     void* owner; /**< of the array, for `resize` */
 } rrcb_array;
 
+/** An array without values of a type. */
+#define RRCB_ARRAY_INIT(type, components) \
+    { sizeof(rrcb_array), (int32_t)(type), components, NULL, 0, 0, NULL, NULL }
+
 /** Entries that ranks have in common, as rrcb::SharedEntries. */
 typedef struct rrcb_shared_entries {
+    size_t size;                  /**< of this struct, set by RRCB_SHARED_ENTRIES_INIT */
     size_t num_ranks;             /**< length of `ranks` */
     const rrcb_rank_count* ranks; /**< number shared with each neighbour, by ascending rank */
     size_t num_indices;           /**< length of `indices` */
     const size_t* indices;        /**< of the entries for the first rank, then for the next */
 } rrcb_shared_entries;
+
+/** No entries. */
+#define RRCB_SHARED_ENTRIES_INIT \
+    { sizeof(rrcb_shared_entries), 0, NULL, 0, NULL }
 
 /** Finds the neighbours by the cuts of a balancer. Collective.
  *

@@ -10,6 +10,11 @@
 extern "C" {
 #endif
 
+/* Structs that may get more members begin with their size in bytes. Initialise each by the macro of
+ * its name, such as rrcb_points by RRCB_POINTS_INIT: the library reads and writes no byte beyond.
+ * New members come at the end; 0 means that they are not given. A struct without a size never
+ * changes. */
+
 /** Type of a value; 0 is none. */
 typedef enum rrcb_type {
     RRCB_INT32 = 1,  /**< int32_t */
@@ -19,18 +24,22 @@ typedef enum rrcb_type {
     RRCB_BYTE = 5    /**< of a value of any other type: such values are moved, not added */
 } rrcb_type;
 
-/** Borrowed view of one rank's points, as rrcb::Points. Zero is a view of no points of no
- * dimension.
+/** Borrowed view of one rank's points, as rrcb::Points.
  *
  *  Coordinate a of point i is at axes[a] + i * stride bytes. */
 typedef struct rrcb_points {
+    size_t size;           /**< of this struct, set by RRCB_POINTS_INIT */
     int dimension;         /**< 1 to 3, on every rank the same */
-    rrcb_type type;        /**< of the coordinates, RRCB_DOUBLE or RRCB_FLOAT */
+    int32_t type;          /**< of the coordinates, RRCB_DOUBLE or RRCB_FLOAT */
     size_t count;          /**< points of this rank */
     size_t stride;         /**< from a point to the next, in bytes */
     const void* axes[3];   /**< first coordinate on each axis */
     const double* weights; /**< one per point; null on every rank that has points: all weigh 1 */
 } rrcb_points;
+
+/** A view of no points of no dimension. */
+#define RRCB_POINTS_INIT \
+    { sizeof(rrcb_points), 0, 0, 0, 0, {NULL, NULL, NULL}, NULL }
 
 /** Returns a view of points stored one after another. Not collective.
  *
@@ -39,8 +48,19 @@ typedef struct rrcb_points {
  * @param count       points of this rank
  * @param coordinates dimension * count
  * @param weights     one for each point; null: all weigh 1 */
-RRCB_API rrcb_points rrcb_interleaved_points(rrcb_type type, int dimension, size_t count,
-                                             const void* coordinates, const double* weights);
+static inline rrcb_points rrcb_interleaved_points(rrcb_type type, int dimension, size_t count,
+                                                  const void* coordinates, const double* weights) {
+    const size_t bytes = type == RRCB_FLOAT ? sizeof(float) : sizeof(double);
+    rrcb_points points = RRCB_POINTS_INIT;
+    points.dimension = dimension;
+    points.type = (int32_t)type;
+    points.count = count;
+    points.stride = dimension > 0 ? (size_t)dimension * bytes : 0;
+    points.weights = weights;
+    for (size_t axis = 0; axis < 3 && (int)axis < dimension && coordinates != NULL; ++axis)
+        points.axes[axis] = (const char*)coordinates + axis * bytes;
+    return points;
+}
 
 /** Returns a view of one array per axis. Not collective.
  *
@@ -49,8 +69,14 @@ RRCB_API rrcb_points rrcb_interleaved_points(rrcb_type type, int dimension, size
  * @param count     points of this rank
  * @param columns   `dimension` arrays of length `count`
  * @param weights   one for each point; null: all weigh 1 */
-RRCB_API rrcb_points rrcb_column_points(rrcb_type type, int dimension, size_t count,
-                                        const void* const* columns, const double* weights);
+static inline rrcb_points rrcb_column_points(rrcb_type type, int dimension, size_t count,
+                                             const void* const* columns, const double* weights) {
+    rrcb_points points = rrcb_interleaved_points(type, 1, count, NULL, weights);
+    points.dimension = dimension;
+    for (int axis = 0; axis < 3 && axis < dimension && columns != NULL; ++axis)
+        points.axes[axis] = columns[axis];
+    return points;
+}
 
 /** Writes the smallest box that holds all points, as rrcb::bounding_box. Not collective.
  *

@@ -85,9 +85,16 @@ std::vector<Part> greedy_numbers(const NumberRule& rule, std::span<const Overlap
     for (Part part = 0; part < rule.num_parts; ++part)
         if (numbers[part] == no_part && origins[part] != no_origin)
             give_next(part, next[origins[part]]);
-    Part next_of_all = 0;
-    for (Part part = 0; part < rule.num_parts; ++part)
-        if (numbers[part] == no_part) give_next(part, next_of_all);
+    // Ends of the tree, whose numbers ascend within a group.
+    const int size = rule.shape.group_size > 1 ? rule.shape.group_size : rule.num_parts;
+    std::vector<Part> next_end;
+    for (Part end = 0; end < rule.num_parts; end += size) next_end.push_back(end);
+    for (Part part = 0; part < rule.num_parts; ++part) {
+        if (numbers[part] != no_part) continue;
+        Part& end = next_end[rule.shape.end_of(part, rule.num_parts) / size];
+        while (is_used[rule.shape.part_at(end, rule.num_parts)]) ++end;
+        give(part, rule.shape.part_at(end, rule.num_parts));
+    }
     return numbers;
 }
 

@@ -56,8 +56,8 @@ struct NumberRule {
 /// This keeps at least half of the most points. Of equal overlaps that of a part with its present
 /// number comes first, then the lowest part, then the lowest origin. The parts of an origin keep
 /// their number if it is one of the origin's, and get the others in ascending order; parts left
-/// over get the unused numbers likewise. `overlaps` are one of each part and origin. Throws
-/// std::bad_alloc.
+/// over get the unused numbers of their group likewise. `overlaps` are one of each part and origin.
+/// Throws std::bad_alloc.
 std::vector<Part> greedy_numbers(const NumberRule& rule, std::span<const Overlap> overlaps);
 
 }  // namespace rrcb

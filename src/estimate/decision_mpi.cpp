@@ -71,14 +71,16 @@ std::array<std::span<std::byte>, 6> arrays_of(Decision& decision) {
     const Verdict& verdict = decision.verdict;
     if (verdict.answer == Answer::totals) return {};
     if (verdict.answer == Answer::weights) return {bytes(decision.part_weights)};
+    const auto numbers =
+        verdict.has_numbers != 0 ? bytes(decision.numbers) : std::span<std::byte>();
     if (verdict.answer == Answer::kept)
-        return {bytes(decision.cuts.tree), bytes(decision.part_weights), bytes(decision.parts)};
+        return {bytes(decision.cuts.tree), bytes(decision.part_weights), bytes(decision.parts),
+                numbers};
     std::array arrays{bytes(decision.cuts.tree),       bytes(decision.brackets),
                       bytes(decision.part_weights),    bytes(decision.turned.cuts.tree),
-                      bytes(decision.turned.brackets), bytes(decision.numbers)};
+                      bytes(decision.turned.brackets), numbers};
     if (!(verdict.kept_imbalance < not_kept)) arrays[2] = {};
     if (verdict.may_turn == 0) arrays[3] = arrays[4] = {};
-    if (verdict.has_numbers == 0) arrays[5] = {};
     return arrays;
 }
 

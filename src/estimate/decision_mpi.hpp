@@ -59,7 +59,7 @@ struct Verdict : Totals {
 ///          their weights, and perhaps cuts across other axes; numbers of the parts after a turn
 /// weights: of the parts of `cuts`, which all ranks have
 /// totals:  none
-/// kept:    the cuts, weights and parts of the ranks' points
+/// kept:    the cuts, weights and parts of the ranks' points; numbers as above, if not sent yet
 struct Decision {
     Verdict verdict;
     Cuts cuts{};                         ///< to assign by, or to start from

@@ -105,6 +105,22 @@ TEST(NumberSearch, takes_any_numbers_of_parts_on_the_ranks) {
     }
 }
 
+TEST(NumberSearch, gives_parts_left_over_the_numbers_of_their_group) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        std::mt19937_64 engine(seed);
+        NumberRule rule{12, 1, false};
+        rule.shape = {seed % 2 == 0 ? 3 : 4, false, seed % 4 == 1 ? 2 : 0};
+        Overlaps overlaps = random_overlaps(rule, 3, seed);
+        std::erase_if(overlaps,
+                      [&](const Overlap& o) { return !rule.is_in_group(o.part, o.origin); });
+        const Numbers numbers = greedy_numbers(rule, overlaps);
+        SCOPED_TRACE(seed);
+        for (Part part = 0; part < rule.num_parts; ++part)
+            EXPECT_EQ(rule.group_of_part(numbers[static_cast<std::size_t>(part)]),
+                      rule.group_of_part(part));
+    }
+}
+
 TEST(NumberSearch, ends_soon_if_one_rank_has_all_numbers) {
     // Work in the square of the parts does not end within the time-out.
     constexpr int num_parts = 1 << 17;

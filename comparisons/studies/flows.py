@@ -60,7 +60,7 @@ def summary(calls: pd.DataFrame) -> pd.DataFrame:
 
 def with_others(rows: pd.DataFrame, file: Path) -> pd.DataFrame:
     """Adds the runs of the same flows and parts by other policies that are in a flows.csv."""
-    others = read_all(file)[list(rows)]
+    others = read_all(file).reindex(columns=list(rows))
     are_same = others.set_index(RUN[:3]).index.isin(rows.set_index(RUN[:3]).index)
     return pd.concat([rows, others[are_same & ~others["policy"].isin(rows["policy"])]], ignore_index=True)
 

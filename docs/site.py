@@ -13,7 +13,7 @@ import reference
 
 ROOT = Path(__file__).resolve().parents[1]
 MENU = {
-    "Start": ["docs/install", "docs/first_program", "docs/python", "docs/zoltan"],
+    "Start": ["docs/install", "docs/first_program", "docs/tutorial", "docs/python", "docs/zoltan"],
     "Guide": ["docs/loop", "docs/queries", "docs/rebalancing", "docs/weights", "docs/choosing",
               "docs/errors", "docs/hard_cases", "docs/teuchos",
               "SUPPORT"],

@@ -194,6 +194,17 @@ if(Python3_FOUND)
   endif()
 endif()
 
+# The folders of examples as projects of their own, those that this build has.
+if(RRCB_EXAMPLES AND Python3_FOUND)
+  get_property(folders DIRECTORY ${PROJECT_SOURCE_DIR}/examples PROPERTY SUBDIRECTORIES)
+  list(TRANSFORM folders REPLACE ".*/" "")
+  add_test(NAME install.examples
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/examples.py
+                   ${PROJECT_SOURCE_DIR} ${prefix} ${CMAKE_CURRENT_BINARY_DIR}/own_examples
+                   ${CMAKE_GENERATOR} ${folders})
+  rrcb_set_tests_properties(install.examples PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 300)
+endif()
+
 set_tests_properties(install.clean PROPERTIES FIXTURES_SETUP clean_prefix)
 set_tests_properties(install.install PROPERTIES FIXTURES_REQUIRED clean_prefix FIXTURES_SETUP
                                                 installed)

@@ -17,11 +17,14 @@ set(compiled "")
 foreach(program IN ITEMS examples/quick_start/main.cpp examples/loop/main.cpp
                         examples/loop/first.cpp
                         examples/neighbours/main.cpp
+                        examples/tutorial/step1.cpp examples/tutorial/step2.cpp
+                        examples/tutorial/step3.cpp examples/tutorial/step4.cpp
+                        examples/tutorial/step5.cpp
                         tests/mpi/groups_test.cpp)
   read_flat(${ROOT}/${program} source)
   string(APPEND compiled "${source}")
 endforeach()
-foreach(document IN ITEMS README.md docs/loop.md docs/queries.md)
+foreach(document IN ITEMS README.md docs/loop.md docs/queries.md docs/tutorial.md)
   read_flat(${ROOT}/${document} text)
   string(REGEX MATCHALL "```cpp\n[^`]+```" blocks "${text}")
   list(LENGTH blocks num_blocks)

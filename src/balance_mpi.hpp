@@ -20,7 +20,7 @@ Ranks ranks_of(Participant& self);
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self, std::vector<Part> memory = {});
 
-/// Does the same with passes, in which the parts stay.
+/// Balances points behind passes, which keep the parts.
 Balance balance(PointPasses& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self);
 

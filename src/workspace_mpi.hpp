@@ -16,8 +16,8 @@ struct Workspace {
     std::vector<Part> result{};  ///< of calls from C, which get a copy: 4 bytes a point
 };
 
-/// Returns the workspace kept with a duplicate of the library's, made at the first call and freed
-/// with it. Not collective. Throws Error or std::bad_alloc.
+/// Returns the workspace of a duplicated communicator. It is made at the first call, and freed
+/// with the communicator. Not collective. Throws Error or std::bad_alloc.
 Workspace& workspace_of(MPI_Comm duplicate);
 
 }  // namespace rrcb

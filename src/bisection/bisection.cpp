@@ -28,7 +28,7 @@ struct Task {
     bool with_brackets;
     std::span<const int> preferred;  ///< axes of the cuts, or none
     double* near_weight;             ///< near all cuts; null if not asked for
-    double reach = 0;                ///< within which weight is near
+    double reach = 0;                ///< greatest distance of weight that is near a cut
     double light = 0;                ///< weight of points too few to show the weight near a cut
     bool shows_near = false;         ///< the domain is more than a few places
     Bisection result{};

@@ -27,15 +27,16 @@ class Profile {
     /// patch side blurs jets and filaments, which are thinner than that.
     double reach() const { return mean_half_side_ / 2; }
 
-    /// Returns the weight below a value, and within `reach` of one.
+    /// Returns the weight below a value.
     double weight_below(int axis, double value) const;
+    /// Returns the weight at most `reach` away from a value.
     double weight_within(int axis, double value, double reach) const;
 
-    /// Estimates the ghosts a cut costs, by the weight near it; all weight if all of it is on
-    /// one side.
+    /// Estimates the ghosts that a cut costs: the weight at most `reach` away from it, or the
+    /// weight of all patches if all of it is on one side of the cut.
     ///
-    /// If `reach` is 0, as of patches without sides, the domain is taken as an even box: the weight
-    /// over its extent. Then the longest axis costs the least.
+    /// `reach` is 0 if the patches are points. Then the weight is assumed to be spread evenly over
+    /// the extent of the domain, so that a cut across the longest axis costs the least.
     double weight_near(int axis, double value, double reach) const;
 
     /// Range in which the cumulative weight passes a target.

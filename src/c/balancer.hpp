@@ -47,7 +47,8 @@ struct Origin {
     std::chrono::seconds patience{1};
 };
 
-/// Most ranks of a collective call are late at its end only if the machine is busy.
+/// Longest such wait in a collective call: other ranks reach its end late only if the machine is
+/// busy.
 inline constexpr std::chrono::seconds patience_together{60};
 
 /// Keeps the text of the failure for this thread; returns its code.

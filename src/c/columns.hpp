@@ -30,8 +30,8 @@ void visit_type(int32_t type, Visit&& visit) {
     reject("the type of a column must be an rrcb_type, such as RRCB_DOUBLE");
 }
 
-/// Returns columns as the library moves them, from `num_from` points to `num_to`. Throws Error for
-/// unknown types, and if `from` or `to` of a column is null.
+/// Converts columns of C to those of the library. Each is moved from an array of `num_from` points
+/// to one of `num_to`. Throws Error for unknown types, and if `from` or `to` of a column is null.
 std::vector<detail::ByteColumn> columns_of(std::span<const rrcb_column> columns,
                                            LocalIndex num_from, LocalIndex num_to);
 

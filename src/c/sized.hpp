@@ -52,7 +52,8 @@ std::vector<Struct> copy_all_in(const Struct* given, std::size_t count, const ch
     return copies;
 }
 
-/// Writes a struct of which require_sized() accepted the place; its size stays.
+/// Writes a struct of which require_sized() accepted the place; its member for the size is not
+/// changed.
 template <class Struct>
 void copy_out(const std::type_identity_t<Struct>& made, Struct* place) {
     const std::size_t size = std::min(place->size, sizeof made);

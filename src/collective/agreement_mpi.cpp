@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t most_shared = 12;
 
-/// Returns the order in which failures are reported: first those that no other one caused.
+/// Returns a number that is smaller for a failure to be reported first: failures that no other
+/// failure can have caused come first, then lower ranks.
 std::uint64_t order_of(const Participant& self) {
     const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
     if (!self.failed()) return 2 * num_ranks;

@@ -61,7 +61,7 @@ class Butterfly {
     struct Link {
         int rank;
         bool sends;     ///< to that rank
-        bool receives;  ///< from that rank
+        bool receives;  ///< from the same rank
     };
     struct Links {
         std::array<Link, 2> links;

@@ -38,7 +38,7 @@ class ButterflyMessages {
 
     std::array<double, 8192> piece_;                     ///< the latest piece
     std::vector<double> arrived_;                        ///< the message of the latest piece
-    std::array<double, Butterfly::head_length> head_{};  ///< of `arrived_`
+    std::array<double, Butterfly::head_length> head_{};  ///< of the message in `arrived_`
 };
 
 }  // namespace rrcb

@@ -61,7 +61,7 @@ class Exchange {
                 read(source, place);
     }
 
-    /// Returns the memory, for another exchange; this one is over.
+    /// Hands the memory to another exchange. This exchange must not be used any more.
     ExchangeBuffers take_memory() { return std::move(buffers_); }
 
   private:

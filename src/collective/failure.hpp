@@ -20,7 +20,7 @@ struct Failure {
     bool failed = false;
     ErrorCode code = ErrorCode::internal;
     std::array<char, 512> text{};  ///< cut short if it is longer; ends with a 0
-    bool may_follow = false;       ///< from that of another rank, see compare()
+    bool may_follow = false;       ///< another rank's failure may have caused it, see compare()
 };
 
 inline Failure failure_of(ErrorCode code, std::string_view text) {

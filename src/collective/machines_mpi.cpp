@@ -22,7 +22,7 @@ const Machines* find(MPI_Comm comm) {
 /// The machine of this rank.
 struct MachineHere {
     int num_ranks = 1;
-    std::array<int, 2> lowest{};  ///< ranks on it; the same twice if there is one only
+    std::array<int, 2> lowest{};  ///< the two lowest ranks on it; twice the same if it has only one
 };
 
 /// Collective.

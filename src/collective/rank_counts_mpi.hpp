@@ -18,8 +18,8 @@ void add_counts(std::span<const RankCount> to, Butterfly& butterfly);
 /// std::bad_alloc.
 std::vector<RankCount> counts_in(const Butterfly& butterfly);
 
-/// Returns how many items this rank receives from each other, ascending, if it sends `to`, by
-/// ascending rank. Joins `flags`, of which the first is 0, to those of all ranks.
+/// Returns how many items this rank receives from each other rank. `to` are the numbers that it
+/// sends. Both lists are by ascending rank. Joins `flags`, whose first is 0, to those of all ranks.
 ///
 /// Collective: one pass of a butterfly. Throws on every rank the failure of one before the call. A
 /// rank that fails in it may leave out counts that it has or passes on, until the next agreement.

@@ -12,7 +12,8 @@ namespace rrcb::mpi {
 
 namespace {
 
-/// The memory of the notice is that of the log, which stays.
+/// Sends the notice of a failure without waiting for it. Its memory belongs to the log, which
+/// outlives the message.
 void send_notice(CallLog& log, int to, int tag) {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Isend(&log.notice, sizeof log.notice, MPI_BYTE, to, tag, log.comm, &request);

@@ -69,7 +69,7 @@ class Stream {
     struct Lane {
         std::vector<Piece> pieces;
         std::vector<std::byte> buffer;
-        std::vector<MPI_Request> requests;  ///< as many as are under way at most
+        std::vector<MPI_Request> requests;  ///< at most as many as are sent at the same time
         std::size_t num_begun = 0;
         std::size_t num_ended = 0;
 

@@ -17,7 +17,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<CallRecord> &&
               std::is_trivially_copyable_v<CallDifference>);
 
-/// Sends a message that may never be received; its memory must stay.
+/// Sends a message that may never be received. Its memory must not be freed.
 template <class Message>
 void leave(const Message& message, int to, Tag tag, MPI_Comm comm) {
     MPI_Request request = MPI_REQUEST_NULL;

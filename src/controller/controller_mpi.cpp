@@ -14,7 +14,7 @@ namespace rrcb {
 
 namespace {
 
-/// Joins messages, each a record with its sums.
+/// Adds the messages of two ranks. A message is a StepRecord, followed by the sums of a cost model.
 void join_messages(void* in, void* inout, int* count, MPI_Datatype* type) {
     int bytes = 0;
     MPI_Type_size(*type, &bytes);

@@ -135,7 +135,7 @@ struct Controller::State {
     double num_rebalances_ = 0;
 
     double num_heeded_ = 0;    ///< rebalances known to the latest decision, on all ranks
-    RebalanceRule rule_;       ///< fed on the root only, as are those below
+    RebalanceRule rule_;       ///< gets steps on the root only, as the members below
     double num_followed_ = 0;  ///< rebalances known to the rule
     bool root_asks_ = false;
     int num_to_skip_ = 0;  ///< steps until the ranks can act on a decision

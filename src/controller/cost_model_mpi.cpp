@@ -60,7 +60,7 @@ struct CostModel::State {
     Controller::State& reducer;
     CostRule rule;
     std::optional<Controller> own{};  ///< if the caller gave none
-    int num_ranks_before = 0;         ///< that the costs were saved on, if on others; 0: none
+    int num_ranks_before = 0;  ///< on which loaded costs were saved, if another number; 0: not so
 
     /// Makes a model, from a saved one if `saved` is not null. Collective.
     static std::unique_ptr<State> make(Controller& controller, CallName call, int num_columns,

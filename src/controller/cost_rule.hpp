@@ -62,16 +62,16 @@ class CostRule {
     std::vector<double> sums_;
 
     CostVector seen_;     ///< sums of squared columns of all ranks, with forgetting
-    CostVector known_;    ///< those that the costs rest on
-    CostVector columns_;  ///< of the last step, as are the next three
-    double seconds_ = 0;
-    double learned_ = 0;  ///< predicted seconds
+    CostVector known_;    ///< such sums when the costs were last fitted
+    CostVector columns_;  ///< of the last step
+    double seconds_ = 0;  ///< of the last step
+    double learned_ = 0;  ///< seconds predicted for the last step
     double kept_seconds_ = 0;
     double scatter_ = -1;        ///< rms error of a share, outliers cut off; negative: unknown
     double mean_ = 0;            ///< seconds of a rank in the step before
-    double learned_square_ = 0;  ///< errors of the step before, to be contributed
+    double learned_square_ = 0;  ///< squared errors of the step before, to be contributed
     double counted_square_ = 0;
-    double between_square_ = 0;  ///< of learned and counted prediction
+    double between_square_ = 0;  ///< squared difference of both predictions
 
     NormalEquations all_;  ///< of all ranks; fed only on rank 0, as is the next
     CostGuard guard_;

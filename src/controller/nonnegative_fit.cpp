@@ -64,7 +64,7 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
 }
 
 CostVector fitted_costs(const NormalEquations& sums) {
-    // Too little to change the costs of columns that are separable in noise.
+    // So small that it changes no cost, unless noise hides the difference of two columns.
     constexpr double draw = 1e-6;
     const CostVector lengths = sums.squares.diagonal().cwiseMax(0).cwiseSqrt();
     CostVector scales = lengths;

@@ -56,7 +56,7 @@ class RebalanceRule {
     LatestSteps latest_;
     Cycle cycle_;
     Cycle earlier_;                  ///< average of the cycles before this one
-    bool knows_rebalances_ = false;  ///< the cycle shows the excess left by one
+    bool knows_rebalances_ = false;  ///< the cycle shows the excess that a rebalance leaves
     double busiest_ = 0;             ///< most work of 4 steps in this cycle, after the first
     double slow_start_ = 0;  ///< work of the first steps of the last cycle, see slow_start()
     std::array<double, 3> costs_{};  ///< the last three, cyclic

@@ -28,7 +28,7 @@ void descend_top(const PackedTree::Top& top, const Columns& columns, LocalIndex 
     }
 }
 
-/// 1 for points of a block on a plane breaking ties by position.
+/// Is 1 for each point of a block that is on a plane at which its other coordinates decide.
 using TiedPoints = std::array<std::int32_t, block_length>;
 
 /// Moves each point of a block down one level; if `marks`, marks those on a plane.

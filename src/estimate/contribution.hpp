@@ -29,8 +29,8 @@ struct Summary : Totals {
     std::int32_t failing_rank = no_rank;     ///< lowest failed rank
     std::int32_t differing_rank = no_rank;   ///< one with another request than ...
     std::int32_t reference_rank = no_rank;   ///< ... this one
-    std::int32_t weighted_rank = no_rank;    ///< one whose points have weights
-    std::int32_t unweighted_rank = no_rank;  ///< one whose points have none
+    std::int32_t weighted_rank = no_rank;    ///< a rank whose points have weights
+    std::int32_t unweighted_rank = no_rank;  ///< a rank whose points have no weights
     std::uint64_t difference = 0;            ///< see name_of_request
     Request request{};                       ///< of the first rank
     std::int64_t num_doubles = 0;

@@ -55,11 +55,13 @@ struct Verdict : Totals {
 
 /// Decision of rank 0: a verdict, and the arrays of its answer.
 ///
-/// cuts:    the cuts, with brackets if they may move; if the ranks' present parts may be kept,
-///          their weights, and perhaps cuts across other axes; numbers of the parts after a turn
-/// weights: of the parts of `cuts`, which all ranks have
-/// totals:  none
-/// kept:    the cuts, weights and parts of the ranks' points; numbers as above, if not sent yet
+/// The verdict determines which arrays are filled:
+/// cuts:    the cuts, with brackets if they may move. If the parts that the ranks hold may be kept,
+///          their weights, and perhaps cuts across other axes. After a turn, numbers of the parts
+/// weights: the weights of the parts of `cuts`, which all ranks have
+/// totals:  no array
+/// kept:    the cuts, and the weights and parts of the ranks' points. Numbers as above, if they
+///          were not sent before
 struct Decision {
     Verdict verdict;
     Cuts cuts{};                         ///< to assign by, or to start from
@@ -67,10 +69,10 @@ struct Decision {
     std::vector<double> part_weights{};  ///< counted, or of the ranks' present parts
     std::vector<Part> parts{};           ///< of each rank's points
     Bisection turned{};                  ///< cuts across other axes than `cuts`, if these may turn
-    std::optional<KeptTree> held{};      ///< what the ranks hold, on rank 0 if that may be kept
-    const Cuts* earlier = nullptr;       ///< whose axes are preferred; null: none
-    std::vector<Part> numbers{};         ///< of the ends of the cuts that turned
-    std::vector<std::byte> message{};    ///< verdict and arrays, as sent
+    std::optional<KeptTree> held{};  ///< the present parts, only on rank 0 and if they may be kept
+    const Cuts* earlier = nullptr;   ///< whose axes are preferred; null: none
+    std::vector<Part> numbers{};     ///< of the ends of the cuts that turned
+    std::vector<std::byte> message{};  ///< verdict and arrays, as sent
 };
 
 /// Throws Error if the ranks differ or one has failed.

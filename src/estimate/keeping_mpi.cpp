@@ -19,8 +19,9 @@ namespace rrcb {
 
 namespace {
 
-/// Returns how near a position is to the cuts above it: 1 for each that it is on, falling off to 0
-/// at `reach`. Of even layers of points the sum depends little on where between two a cut is.
+/// Returns how near a position is to the cuts above it in the tree. A cut adds 1 if the position is
+/// on it, less with the distance, and 0 beyond `reach`. If points form even layers, the sum over
+/// all points changes little while a cut moves between two layers.
 double nearness(const Cuts& cuts, const Vector& position, double reach) {
     double sum = 0;
     for (Descent at = root_of(cuts); !at.is_part();) {

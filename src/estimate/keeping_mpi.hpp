@@ -41,10 +41,10 @@ bool is_worth_moving(const Report& kept, const Report& offered, const Options& o
 /// Returns true if the parts made are not worth moving points out of the ranks' present parts.
 bool keeps_after_all(const Decision& decision, const Options& options, const Balance& made);
 
-/// Turns the cuts across other axes than those between the ranks, if that leaves far fewer points
-/// near them than near `held`; then the ranks' present parts are not kept. By counts, because an
-/// estimate depends on which ranks hold the points, and might turn the cuts in every call. Returns
-/// whether it does. Collective: a reduction.
+/// Replaces the cuts by those across other axes, if far fewer points are near them than near the
+/// cuts between the ranks, `held`. The parts that the ranks hold are then not kept. Points are
+/// counted for this, because an estimate depends on which ranks hold the points, and might turn the
+/// cuts in every call. Returns whether the cuts turn. Collective: a reduction.
 bool turns(Decision& decision, const Cuts& held, PointPasses& points, Participant& self);
 
 }  // namespace rrcb

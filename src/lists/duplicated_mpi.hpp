@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-// As the public functions, with a communicator that is a duplicate already. An earlier failure on
-// one rank is thrown on all. Collective.
+// The public functions of these names call these, which get a duplicated communicator. If one rank
+// has failed before the call, all ranks throw its error. Collective.
 
 namespace rrcb {
 

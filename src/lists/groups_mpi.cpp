@@ -271,7 +271,7 @@ class LocalKeys {
         while (parents_[key] != key) key = parents_[key] = parents_[parents_[key]];
         return key;
     }
-    /// The lesser key is on top, so its label is the least.
+    /// Joins two sets of keys. The top of the new set is its least key, which is its label.
     void join(std::size_t a, std::size_t b) {
         a = top_of(a);
         b = top_of(b);

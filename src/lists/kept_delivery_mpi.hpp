@@ -28,7 +28,7 @@ class detail::KeptExchange {
                                    std::span<const ByteColumn> columns,
                                    const TransferLimits& limits, MPI_Comm user);
 
-    /// Notes a collective call with columns that is over on all ranks.
+    /// Records that a collective call with such columns has ended on all ranks.
     void note(CallName call, std::span<const ByteColumn> columns, const TransferLimits& limits);
 
   private:
@@ -38,7 +38,7 @@ class detail::KeptExchange {
     std::uint64_t lists_;                    ///< hash of the plan's counts
     std::array<std::uint64_t, 8> proven_{};  ///< hashes of the latest calls
     std::size_t num_proven_ = 0;
-    std::uint64_t num_transfers_ = 0;  ///< when they were made
+    std::uint64_t num_transfers_ = 0;  ///< transfers of the ranks before these calls
 };
 
 /// Moves columns as deliver(), without collective calls, by an exchange whose call has begun.

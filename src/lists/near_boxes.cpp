@@ -79,7 +79,7 @@ class NearList {
     }
 
     bool add_end(Part end, const Box& box) {
-        // Whoever holds such a part needs nothing.
+        // A rank needs no ghosts for a part that no position belongs to.
         if (is_region_empty(cuts_, end, box)) return true;
         const RankRange ranks = request_.ranks_of(end);
         const bool is_home = ranks.first_rank == request_.rank && ranks.count == 1;

@@ -132,13 +132,13 @@ struct Neighbours::State {
     double radius;
     Needs needs;
     std::unique_ptr<NeighbourExchange> exchange{};
-    std::vector<std::size_t> by_rank{};  ///< neighbours and this rank
+    std::vector<std::size_t> by_rank{};  ///< indices of neighbours and this rank, by rank
 
     Migration migration{};
 
     GhostPlan ghosts{};
     Stage stage = Stage::none;
-    std::uint64_t num_found = 0;      ///< how often ghosts were found
+    std::uint64_t num_found = 0;      ///< number of times that ghosts were found
     std::vector<Shift> shifts{};      ///< of ghosts.send_indices, in a periodic box
     LocalIndex num_ghosts = 0;        ///< of the latest fetch()
     std::vector<Range> send{};        ///< of ghosts.send_indices: for each neighbour, and this rank

@@ -44,7 +44,7 @@ void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Pla
     require_parts(num_parts);
     const int rank = mpi::rank_of(comm);
     const int num_ranks = mpi::size_of(comm);
-    // Most points stay.
+    // Most points keep their rank.
     const auto [first, end] = parts_on(rank, num_parts, num_ranks);
     const auto num_here = static_cast<std::uint32_t>(end - first);
     // Consecutive points mostly have one part, and destination_of() divides.

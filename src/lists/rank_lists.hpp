@@ -16,7 +16,7 @@ class RankLists {
         for (const int rank : ranks) lists_.push_back({rank});
     }
 
-    /// Empties the lists; their memory stays.
+    /// Empties the lists, and keeps their memory.
     void clear() {
         for (List& list : lists_) {
             list.points.clear();

@@ -61,7 +61,7 @@ struct RemapBuffers {
     Butterfly told;
     ButterflyMessages messages;
     std::vector<Part> numbers;          ///< of all parts
-    std::vector<GlobalCount> decision;  ///< of rank 0
+    std::vector<GlobalCount> decision;  ///< numbers and sums that rank 0 sends
 };
 
 /// Renumbers as the public functions do, from checked arguments.

@@ -19,10 +19,10 @@ namespace {
 /// Point of the sample, which every rank gets.
 struct Sample {
     Vector x{};
-    double radius = std::numeric_limits<double>::quiet_NaN();  ///< within which it needs others
+    double radius = std::numeric_limits<double>::quiet_NaN();  ///< of the points that it needs
 };
 
-/// Point near one of the sample, on its way to the rank of that one.
+/// Point near a point of the sample, to be sent to the rank of the latter.
 struct Neighbour {
     std::uint64_t sample;  ///< number on its rank
     std::uint64_t index;

@@ -32,8 +32,7 @@ struct Total {
 struct HistogramLayout {
     int num_bins = 64;
     bool is_weighted = true;
-    std::array<AxisLimits, max_dimension> limits{};  ///< of the grids on whose lines bins have
-                                                     ///< their edges
+    std::array<AxisLimits, max_dimension> limits{};  ///< grids; their lines are edges of bins
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
     static constexpr std::size_t num_extents = std::size_t{2} * max_dimension;

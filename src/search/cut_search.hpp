@@ -101,8 +101,8 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
 bool decide_among(CutSearch& search, const CutTarget& target, std::span<const double> records,
                   int dimension);
 
-/// Moves a cut to the middle of its Gap; `num_axes` of them may break ties. With points on one side
-/// only it moves next to these.
+/// Moves a cut to the middle of the gap around it. Positions along `num_axes` axes may
+/// break ties. If there are points on one side only, the cut is moved next to them.
 void centre(Cut& cut, int num_axes, std::span<const double> gap);
 
 /// Moves a cut at a position, which breaks ties along all axes, behind it.

@@ -107,7 +107,8 @@ void Settlement::refine(Participant& self) {
     TargetRule& rule = tree_.rule;
     start(self);
     const bool are_accepted = accepts_cuts(self);
-    // A search likely to miss the tolerance, and be repeated exactly, is exact at once.
+    // If the tolerance is likely to be missed, the search would be repeated with exact cuts.
+    // Exact cuts are then searched at once.
     const bool may_miss = !is_spread_ && !limits_ && !rule.is_attainable();
     rule.is_exact = rule.is_exact || (may_miss && !are_accepted);
     const bool is_searched = rule.is_exact || !are_accepted;
@@ -231,7 +232,8 @@ int Settlement::run_rounds(std::optional<TreeSearch>& search, Participant& self)
 
 /// Searches all cuts, and keeps the new ones if they are better. Collective.
 void Settlement::search_for_better(Participant& self) {
-    // Look-ups may not find the parts again.
+    // If the new cuts are worse, the parts before are restored. Look-ups by the cuts before would
+    // not find them if coincident points were divided, or if many ranks made the cuts.
     const bool keeps_parts = is_spread_ || tree_.divides_coincident;
     Cuts cuts_before;
     std::vector<double> sums_before;

@@ -56,10 +56,10 @@ struct AllPoints {
     double enough = std::numeric_limits<double>::infinity();
 };
 
-/// Cuts on their way to their places, and what the report tells of their parts.
+/// Cuts while they are refined, and the numbers of the report about their parts.
 struct SettledCuts {
     Cuts cuts{};
-    std::vector<Bracket> brackets{};     ///< in which the search for the cuts of rank 0 begins
+    std::vector<Bracket> brackets{};     ///< intervals with which rank 0 begins its search
     std::vector<double> part_weights{};  ///< over all ranks, if counted; of this rank's
                                          ///< points if many ranks make the parts
     double imbalance = std::numeric_limits<double>::quiet_NaN();  ///< NaN if not counted

@@ -62,7 +62,8 @@ void TreeSearch::count_points(const Node& node, std::span<double> histogram) con
     round_weights(search.quantum, layout_, sums_in(histogram));
 }
 
-/// Appends this rank's points of a lot or a part.
+/// Appends the weight of this rank's points in a lot or a part. A lot are coincident points that
+/// a cut divides.
 void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
     const bool is_part = node.at.is_part();
     LotRecord record{1.0 * rank_, is_part ? PointsInLot{open_.weight_at(node.at)}
@@ -293,8 +294,8 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     nodes_.push_back(std::move(node));
 }
 
-/// Chooses the points in the slot that the owner chose. A slot beyond the interval of the cut has
-/// points that are not open yet.
+/// Keeps only the points in the slot that the owner of the node chose. If the slot is beyond the
+/// interval of the cut, its points are not open yet.
 void TreeSearch::keep_chosen(const CutSearch& before, Node& node) {
     const int slot = node.search.chosen;
     const bool is_first = slot == 0;

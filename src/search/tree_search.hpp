@@ -31,7 +31,7 @@ inline Key key_of(const Descent& at) {
 struct PartTree {
     int dimension = 0;
     int num_parts = 1;
-    int num_owners = 1;  ///< ranks that own nodes: rank 0 if there is a guide, else all
+    int num_owners = 1;  ///< ranks that own nodes: 1 if rank 0 owns all of them
     TreeShape shape{};
     double weight = 0;                ///< of all points
     Box box{};                        ///< of all points; with limits the region of their cuts
@@ -48,7 +48,7 @@ struct PartTree {
 /// Cuts to start from; the same on every rank, except the box.
 struct Guide {
     Cuts& cuts;                         ///< the search moves them, but keeps their axes
-    std::span<const Bracket> brackets;  ///< in which they are looked for first
+    std::span<const Bracket> brackets;  ///< intervals in which the cuts are looked for first
     CutLimits* limits;                  ///< null if cuts are not limited
     std::span<const double> sums;       ///< of the parts by the cuts, if they were counted
     bool is_counted;                    ///< the sums belong to the cuts

@@ -33,7 +33,7 @@ struct IdWidths {
     std::size_t local;
 };
 
-/// The usual widths, for loops over ids.
+/// Widths of ids of one word, which most programs have: a compiler makes faster loops for them.
 struct SingleWords {
     static constexpr std::size_t global = 1;
     static constexpr std::size_t local = 1;
@@ -69,7 +69,7 @@ struct Objects {
     int* initial_parts = nullptr;  ///< null without such a callback
     int* moving = nullptr;         ///< room for the indices of moving objects; null without lists
     Points points;
-    List room;  ///< holds the ids if they are returned without another agreement of the ranks
+    List room;  ///< memory for the ids that are returned, if the ranks need not agree once more
 };
 
 /// Collects objects by the registered callbacks, with at most one weight each. Not collective.

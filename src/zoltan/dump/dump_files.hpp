@@ -40,7 +40,7 @@ struct DumpInput {
     const char* function;
     const Points& points;
     const int* initial_parts;  ///< one per point, null without a callback for them
-    int code;                  ///< as far as it is known when the dump is written
+    int code;                  ///< code of the call, if it is known when the dump is written
     const char* message;       ///< of an error; empty: none
 };
 

@@ -16,7 +16,7 @@ struct PartMap {
     int num_ranks = 0;
     bool one_each = true;             ///< part p is on rank p and on no other
     bool is_even = true;              ///< as in ranks_of_part()
-    std::vector<RankRange> listed{};  ///< of each part; empty if it is even, of many parts
+    std::vector<RankRange> listed{};  ///< of each part; empty: even, and many parts
 
     bool has_one_rank_per_part() const { return !is_even || num_parts >= num_ranks; }
 

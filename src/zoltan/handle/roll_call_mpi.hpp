@@ -27,7 +27,7 @@ class RollCall {
     ///
     /// Then the lowest rank with the plug-in prints which ranks have none, and all ranks with it
     /// raise MPI_ERR_OTHER on the communicator: by default that ends the program. The collective
-    /// call is left pending, and its buffers must stay.
+    /// call is left pending, and its buffers must not be freed.
     bool complete(MPI_Request request, Participant& self);
 
   private:

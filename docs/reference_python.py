@@ -81,7 +81,7 @@ def entry(name, node, lines):
 def page(root):
     package = Path(root) / "python" / "rrcb"
     names, found = exported(package)
-    parts = ["# Python", "The package is `rrcb`. Without `comm` calls are over `MPI.COMM_WORLD`, and "
+    parts = ["# Functions of the Python package", "The package is `rrcb`. Without `comm` calls are over `MPI.COMM_WORLD`, and "
              "collective over `comm` if they say so."]
     for name in sorted(names, key=str.lower):
         parts += entry(name, *found[name])

@@ -110,7 +110,7 @@ class Distribution(Plan):
         numbers = np.empty(self.cuts.num_parts, dtype=np.int32)
 
         def local() -> Array | None:
-            self.cuts.give(own)
+            self.cuts._give(own)
             return None if previous is None else parts_in(previous, len(self.parts))
 
         before = prepare(self.comm, local)
@@ -202,7 +202,7 @@ def balance(
             sizes = np.ascontiguousarray(numbers_in(part_sizes, "part_sizes").ravel())
             c.call("set_part_sizes", own, sizes.size, sizes)
         if previous is not None:
-            cuts_from(previous).give(own)
+            cuts_from(previous)._give(own)
         return points, np.empty(points.count, dtype=np.int32)
 
     def collective(points: Any = None, parts: Any = None) -> Balance:
@@ -223,7 +223,7 @@ def plan(parts: Any, num_parts: int | None = None, comm: MPI.Comm | None = None)
 
     def local() -> Array:
         number = chosen.size if num_parts is None else num_parts
-        Cuts(1, number, np.zeros(max(number, 1) - 1, dtype=CUT)).give(own)
+        Cuts(1, number, np.zeros(max(number, 1) - 1, dtype=CUT))._give(own)
         return parts_in(parts).copy()
 
     made = Plan(chosen, own, prepare(chosen, local, lambda _: f"num_parts = {num_parts}"))
@@ -251,7 +251,7 @@ def assign_all(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) 
 
     def local() -> tuple[Points, Array]:
         points = Points(x)
-        cuts_from(cuts).give(own)
+        cuts_from(cuts)._give(own)
         return points, np.empty(points.count, dtype=np.int32)
 
     def collective(points: Any = None, parts: Any = None) -> Distribution:

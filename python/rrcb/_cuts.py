@@ -115,11 +115,11 @@ class Cuts:
     def _handle(self) -> c.OwnedHandle:
         if self._own is None:
             own = c.OwnedHandle("create_fortran", "destroy", communicator(MPI.COMM_SELF).py2f())
-            self.give(own)
+            self._give(own)
             self._own = own
         return self._own
 
-    def give(self, balancer: c.Handle) -> None:
+    def _give(self, balancer: c.Handle) -> None:
         """Copies the cuts to a balancer."""
         tree = self.tree.ctypes.data if len(self.tree) else None
         numbers = None if self._numbers is None else self._numbers.ctypes.data

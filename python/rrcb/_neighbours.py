@@ -50,7 +50,7 @@ class Neighbours:
 
         def local() -> c.NeighbourOptions:
             given = cuts_from(cuts)
-            given.give(balancer)
+            given._give(balancer)
             if needs not in NEEDS:
                 raise c.Error(f"needs must be one of {', '.join(NEEDS)}, not {needs!r}")
             options = c.NeighbourOptions(

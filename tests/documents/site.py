@@ -2,9 +2,9 @@
 """site.py FOLDER: checks a site in HTML that docs/build has made.
 
 Fails unless each link, picture and script of each page leads to a file of the site, and its mark to a
-mark there; headings follow each other in order; every function, enumeration and type of the interface
-has a heading; and the index of the search has words of the text. Links to other sites are only
-counted.
+mark there; headings follow each other in order; no two pages have the same title; every function,
+enumeration and type of the interface has a heading; and the index of the search has words of the
+text. Links to other sites are only counted.
 """
 import re
 import sys
@@ -50,6 +50,12 @@ class Page(HTMLParser):
 def misplaced_headings(page):
     levels = [level for level, _ in page.headings]
     return levels[:1] != [1] or any(b > a + 1 for a, b in zip(levels, levels[1:]))
+
+
+def repeated_titles(pages):
+    """Titles that two pages have: the menu and the search would show the same text twice."""
+    titles = sorted(page.headings[0][1].strip("¶#") for page in pages.values() if page.headings)
+    yield from (f"two pages are titled {a}" for a, b in zip(titles, titles[1:]) if a == b)
 
 
 def interface():
@@ -121,8 +127,9 @@ def main():
     problems += [f"{path.name}: headings are out of order" for path in pages
                  if path.name not in ("genindex.html", "search.html")
                  and misplaced_headings(pages[path])]
-    problems += [*missing_names(pages, folder), *missing_words(folder), *raw_comments(pages, folder),
-                 *missing_python(pages, folder)]
+    without_copy = {path: page for path, page in pages.items() if path.name != "index.html"}
+    problems += [*repeated_titles(without_copy), *missing_names(pages, folder), *missing_words(folder),
+                 *raw_comments(pages, folder), *missing_python(pages, folder)]
     print("\n".join(problems) or f"{len(pages)} pages, {len(inside)} links within the site, "
           f"{len(found) - len(inside)} to others")
     return 1 if problems or not inside else 0

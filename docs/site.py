@@ -24,7 +24,7 @@ MENU = {
                "docs/design/many_ranks", "docs/design/rebalancing", "docs/performance",
                "docs/machines", "docs/hosts", "docs/design/testing",
                "docs/design/xsdk", "CONTRIBUTING", "SECURITY"],
-    "Examples": ["examples/lammps/README", "examples/mpm/README",
+    "Examples": ["examples/README", "examples/lammps/README", "examples/mpm/README",
                  "examples/mpm/docs/method", "examples/mpm/docs/energy",
                  "examples/mpm/docs/scene_files", "examples/mpm/docs/parallel"],
 }

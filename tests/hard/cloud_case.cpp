@@ -66,6 +66,7 @@ int moved_again(Program& program, const Cloud& cloud, std::span<const rrcb::Part
 
 const char* name_of(int code) {
     if (code == ZOLTAN_OK) return "";
+    if (code == ZOLTAN_MEMERR) return "MEMERR, ";
     return code == ZOLTAN_WARN ? "WARN, " : "FATAL, ";
 }
 

@@ -147,7 +147,8 @@ void prepare(const Given& given, Options& options, Contribution& mine, Decision&
     add_records(points, summary.box, given.ranks.number, options, mine);
 }
 
-/// Moves the cuts by counts of all ranks, or only gives the points their parts. Collective.
+/// Refines the cuts by counts of all ranks, or only gives the points their parts by the cuts as
+/// they are. Collective.
 SettledCuts settle(const Given& given, const Options& options, const Box& here, Decision& decision,
                    const Report& report, Settlement& settlement, SettledCuts&& made,
                    Participant& self) {

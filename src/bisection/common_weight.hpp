@@ -7,7 +7,7 @@
 
 namespace rrcb {
 
-/// Weight of a domain that is in an end of one tree and in a part of other cuts.
+/// Weight that an end of one tree and a part of other cuts have in common.
 struct CommonWeight {
     Part end;
     Part part;

@@ -17,7 +17,7 @@ namespace rrcb {
 
 namespace {
 
-/// An axis for a cut to cross, and its places.
+/// An axis that a cut may cross, and the allowed places of the cut along it.
 struct Way {
     int axis;
     Places places;

@@ -24,7 +24,7 @@ double sum_of(const Row& row) {
     return (row[0] + row[1]) + (row[2] + row[3]);
 }
 
-/// Rows of the numbers of four patches along an axis.
+/// Numbers of four patches along an axis, stored row by row so that they are computed together.
 struct Patches {
     Row lower, inverse, weight, slope, bow;
 };

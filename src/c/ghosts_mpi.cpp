@@ -80,7 +80,7 @@ VerifyOptions options_of(const rrcb_verify_options* from, LocalIndex num_points)
 }
 
 const rrcb_fault* faults_at(const std::vector<Fault>& faults) {
-    // Both are an id, a rank and an id.
+    // Both structs consist of an id, a rank and an id.
     static_assert(sizeof(rrcb_fault) == sizeof(Fault) &&
                   offsetof(rrcb_fault, needed_by) == offsetof(Fault, needed_by));
     return reinterpret_cast<const rrcb_fault*>(faults.data());

@@ -76,7 +76,7 @@ void Butterfly::hand_over(int step) {
     held_.for_each([&](const Record& record) {
         if (!stays_here(record)) append_to_message(record);
     });
-    // Mostly empty if points are near the ranks of their parts.
+    // The message is mostly empty if points are near the ranks of their parts.
     if (!message_.empty()) held_.keep(stays_here);
 }
 

@@ -53,7 +53,7 @@ class BoxPacking {
     int shared_length(const Shape& shape, int width, int height);
 
     std::vector<Shape> shapes_;
-    std::map<std::array<std::size_t, 2>, std::size_t> numbers_;  ///< of shapes, by their children
+    std::map<std::array<std::size_t, 2>, std::size_t> numbers_;  ///< of shapes, by children
     std::vector<std::size_t> shape_of_node_;                     ///< in preorder
     std::vector<std::size_t> shape_of_part_;
     std::map<std::array<std::size_t, 3>, int> lengths_;  ///< found so far

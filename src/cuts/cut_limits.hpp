@@ -21,8 +21,8 @@ struct Places {
 
 /// Allowed places of the cuts of a tree: all parts have the least width, and all cuts are on lines.
 ///
-/// If the complete tree has room, a cut leaves places to all cuts below it exactly if it is at one
-/// of its own.
+/// If the complete tree has room, a cut at any of its allowed places leaves places to all cuts
+/// below it.
 class CutLimits {
   public:
     /// Takes complete options with limits of cuts, the box of the points, and the axes of the cuts

@@ -62,7 +62,7 @@ class TransferLog {
   private:
     struct Transfer {
         std::uint64_t plan = 0;    ///< stamp of its plan
-        std::uint64_t number = 0;  ///< among all, the same on every rank
+        std::uint64_t number = 0;  ///< among all transfers, the same on every rank
         LocalIndex before = 0;
         LocalIndex after = 0;
         bool is_like_before = false;

@@ -30,8 +30,8 @@ void check_lengths(const Points& points);
 /// Throws Error as check_lengths(), or if weights are illegal.
 void check_arrays(const Points& points);
 
-/// Throws Error with the first weight that is illegal, and their number, or for their sum. One must
-/// be.
+/// Throws Error that names the first illegal weight and the number of such weights, or Error for
+/// the sum of the weights. One of them must be illegal.
 [[noreturn]] void reject_weights(const Points& points);
 
 /// Throws Error with the first coordinate that is NaN or infinite, and their number. Some must be.

@@ -40,7 +40,7 @@ void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector&
     const bool is_below =
         target.excess(ties.below, ties.begin) >= target.excess(above, ties.begin + ties.count);
     search.coincident = 1;
-    // At a position the cut is the first one above it.
+    // A cut at a position is below it: the position is the first one above the cut.
     for (int k = search.tied; k < search.num_axes; ++k) {
         const std::size_t axis = axis_index(search, k);
         search.cut.at[axis] = position[axis];

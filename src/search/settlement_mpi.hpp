@@ -51,8 +51,8 @@ struct AllPoints {
     bool are_counted = false;    ///< because all have the same weight or none
     Box box{};                   ///< around all
     double least_imbalance = 1;  ///< of any parts
-    /// Imbalance that makes the search for better parts idle: that of the ranks' present parts, if
-    /// these may be kept.
+    /// A search that cannot get below this imbalance is not made: it is that of the parts that the
+    /// ranks hold, if these may be kept.
     double enough = std::numeric_limits<double>::infinity();
 };
 

@@ -211,7 +211,7 @@ CutSearch TreeSearch::search_from_guide(Node& node) const {
     return search_across(cut.axis, bracket, node.weight);
 }
 
-/// Moves the open points of nodes whose cuts have left their intervals to the others.
+/// Opens the points of nodes beyond their intervals, if cuts have left these.
 void TreeSearch::widen() {
     std::vector<WiderNode> nodes;
     for (Node& node : nodes_) {

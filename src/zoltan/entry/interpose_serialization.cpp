@@ -24,7 +24,7 @@ int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& val
     return Zoltan_Set_Param_Vec(zz, name.substr(0, bracket).c_str(), value.c_str(), index);
 }
 
-/// Returns the value by which a parameter is as in a new handle.
+/// Returns the value that a parameter has in a new handle.
 const char* initial_value_of(std::string_view name) {
     if (name == "LB_METHOD") return "RCB";
     if (name == "REMAP") return "1";

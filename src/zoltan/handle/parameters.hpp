@@ -52,7 +52,7 @@ struct Parameters {
     int num_gid_entries = 1;
     int num_lid_entries = 1;
     int weight_dimension = 0;
-    int num_global_parts = -1;  ///< -1: not set, one_per_rank: as many as ranks
+    int num_global_parts = -1;  ///< -1: not set; one_per_rank: number of ranks
     int num_local_parts = -1;   ///< -1: not set
     int keep_cuts = 0;
     int auto_migrate = 0;

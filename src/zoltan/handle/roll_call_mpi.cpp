@@ -59,8 +59,8 @@ bool RollCall::complete(MPI_Request request, Participant& self) {
     return false;
 }
 
-/// Returns true if some ranks take no part. If all do, some only being slow, there is no limit any
-/// more; neither without memory.
+/// Returns true if some ranks take no part. Removes the limit if all ranks take part, even if some
+/// of them are slow, and if there is no memory.
 bool RollCall::is_missed() {
     if (limit_.count() == 0) return false;
     const Seconds now = waited();

@@ -83,7 +83,8 @@ inline int asked_global_parts(const State& state) {
 }
 
 /// Side table of handles. Threads may use it at the same time; a handle belongs to one of them.
-State* find_state(const Zoltan_Struct* zz);  ///< null: not in the table
+/// Returns the state of a handle, or null if the plug-in has not made the handle.
+State* find_state(const Zoltan_Struct* zz);
 void add_state(const Zoltan_Struct* zz, State&& state);
 void remove_state(const Zoltan_Struct* zz);  ///< collective, as it frees the communicator
 bool any_handle_made();                      ///< since the process began

@@ -3,6 +3,8 @@ rrcb_add_test(NAME mpm_soil_test SOURCES materials/soil_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_balancers_test SOURCES parallel/balancers_test.cpp
               LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 5 LABELS mpm)
+rrcb_add_test(NAME mpm_ghost_nodes_test SOURCES parallel/ghost_nodes_test.cpp
+              LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 2 3 5 LABELS mpm)
 rrcb_add_test(NAME mpm_anchor_test SOURCES effects/anchor_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm hard)
 rrcb_add_test(NAME mpm_scene_file_test SOURCES scene/scene_file_test.cpp
@@ -24,7 +26,7 @@ rrcb_add_test(NAME mpm_dam_break_test SOURCES analytic/dam_break_test.cpp
 rrcb_add_test(NAME mpm_work_columns_test SOURCES step/work_columns_test.cpp
               LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 2 4 LABELS mpm)
 foreach(test mpm_variations_test mpm_infinite_slope_test mpm_balancers_test mpm_work_columns_test mpm_scene_file_test mpm_reference_test mpm_soil_test
-             mpm_dam_break_test mpm_anchor_test
+             mpm_dam_break_test mpm_anchor_test mpm_ghost_nodes_test
              mpm_time_step_test mpm_state_test mpm_scene_reports_test)
   target_compile_definitions(${test}
                              PRIVATE RRCB_SCENES="${PROJECT_SOURCE_DIR}/examples/mpm/scenes")
@@ -153,6 +155,14 @@ rrcb_set_tests_properties(mpm_log PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   file(READ ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/two_disks.yaml wide)
   string(REPLACE "cells: [20, 20]" "cells: [31000, 31000]" wide "${wide}")
+  # A rank's cells are those around its points: these are far apart.
+  foreach(centre "1500, 700" "700, 1500")
+    string(REGEX REPLACE "[, ]" "_" name "at_${centre}")
+    string(
+      REPLACE "    upper_right:\n"
+              "    ${name}:\n      material: rubber\n      shapes:\n        disk:\n          shape: ball\n          centre: [${centre}]\n          radius: 0.2\n    upper_right:\n"
+              wide "${wide}")
+  endforeach()
   file(CONFIGURE OUTPUT wide.yaml CONTENT "${wide}" @ONLY)
   rrcb_add_mpi_run(
     NAME mpm_too_many_cells RANKS 2 LABELS mpm

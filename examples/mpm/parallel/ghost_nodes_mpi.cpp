@@ -9,6 +9,7 @@ namespace mpm {
 namespace {
 
 constexpr int ghost_tag = 1;
+constexpr auto nowhere = static_cast<std::size_t>(-1);
 
 template <int D>
 std::size_t width(const GridPatch<D>& patch) {
@@ -16,91 +17,151 @@ std::size_t width(const GridPatch<D>& patch) {
     return 1 + 2 * D + patch.fields.size();
 }
 
-/// Copies the sums and fields of nodes into a message.
+/// Whether points reach a node. Fields can have values where weights are 0.
 template <int D>
-void pack(const GridPatch<D>& patch, const std::vector<std::size_t>& nodes,
-          std::vector<double>& message) {
-    message.resize(nodes.size() * width(patch));
-    double* to = message.data();
-    for (const std::size_t n : nodes) {
-        const NodeSums<D>& node = patch.sums[n];
-        *to++ = node.mass;
-        to = std::copy(node.momentum.begin(), node.momentum.end(), to);
-        to = std::copy(node.force.begin(), node.force.end(), to);
-        for (const std::vector<double>& field : patch.fields) *to++ = field[n];
-    }
+bool is_reached(const GridPatch<D>& patch, std::size_t n) {
+    if (patch.sums[n].mass > 0) return true;
+    for (const std::vector<double>& field : patch.fields)
+        if (field[n] != 0) return true;
+    return false;
 }
 
-/// Adds a message to the sums and fields of nodes.
+/// Appends the sums and fields of a node to a message.
 template <int D>
-void unpack(const std::vector<double>& message, const std::vector<std::size_t>& nodes,
-            GridPatch<D>& patch) {
-    const double* from = message.data();
-    for (const std::size_t n : nodes) {
-        NodeSums<D>& node = patch.sums[n];
-        node.mass += *from++;
-        for (double& component : node.momentum) component += *from++;
-        for (double& component : node.force) component += *from++;
-        for (std::vector<double>& field : patch.fields) field[n] += *from++;
-    }
+void pack(const GridPatch<D>& patch, std::size_t n, std::vector<double>& message) {
+    const NodeSums<D>& node = patch.sums[n];
+    message.push_back(node.mass);
+    message.insert(message.end(), node.momentum.begin(), node.momentum.end());
+    message.insert(message.end(), node.force.begin(), node.force.end());
+    for (const std::vector<double>& field : patch.fields) message.push_back(field[n]);
+}
+
+/// Adds the next values of a message to the sums and fields of a node.
+template <int D>
+void add(const double* from, std::size_t n, GridPatch<D>& patch) {
+    NodeSums<D>& node = patch.sums[n];
+    node.mass += *from++;
+    for (double& component : node.momentum) component += *from++;
+    for (double& component : node.force) component += *from++;
+    for (std::vector<double>& field : patch.fields) field[n] += *from++;
+}
+
+template <int D>
+std::size_t num_nodes(const NodeRange<D>& range) {
+    std::size_t product = 1;
+    for (const int count : range.count) product *= static_cast<std::size_t>(count);
+    return product;
+}
+
+template <int D>
+bool contains(const NodeRange<D>& range, const std::array<int, D>& node) {
+    for (std::size_t a = 0; a < D; ++a)
+        if (node[a] < range.begin[a] || node[a] >= range.begin[a] + range.count[a]) return false;
+    return true;
 }
 
 }  // namespace
 
 template <int D>
-GhostNodes<D>::GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm)
+GhostNodes<D>::GhostNodes(std::span<const NodeRange<D>> ranges, MPI_Comm comm)
     : comm_(comm), rank_(rank_of(comm)) {
-    GridPatch<D> numbering;
-    numbering.nodes = patches[static_cast<std::size_t>(rank_)];
-    for (int rank = 0; rank < static_cast<int>(patches.size()); ++rank) {
-        const NodeRange<D> range =
-            intersection<D>(numbering.nodes, patches[static_cast<std::size_t>(rank)]);
+    for (int rank = 0; rank < static_cast<int>(ranges.size()); ++rank) {
+        const NodeRange<D> range = intersection<D>(ranges[static_cast<std::size_t>(rank_)],
+                                                   ranges[static_cast<std::size_t>(rank)]);
         if (rank == rank_ || range.empty()) continue;
         ranks_.push_back(rank);
-        nodes_.emplace_back();
-        visit_nodes<D>(range, [&](const std::array<int, D>& node) {
-            nodes_.back().push_back(numbering.index(node));
-        });
-        shared_.insert(shared_.end(), nodes_.back().begin(), nodes_.back().end());
+        neighbours_.push_back({range, {}, {}, {}});
     }
-    outgoing_.resize(ranks_.size());
-    incoming_.resize(ranks_.size());
     requests_.resize(2 * ranks_.size());
-    std::ranges::sort(shared_);
-    shared_.erase(std::unique(shared_.begin(), shared_.end()), shared_.end());
+}
+
+template <int D>
+void GhostNodes<D>::number(const GridPatch<D>& patch) {
+    common_.clear();
+    for (Neighbour& neighbour : neighbours_) {
+        neighbour.nodes.clear();
+        visit_nodes<D>(neighbour.range, [&](const std::array<int, D>& node) {
+            const bool is_mine = contains<D>(patch.nodes, node);
+            neighbour.nodes.push_back(is_mine ? patch.index(node) : nowhere);
+            if (is_mine) common_.push_back(neighbour.nodes.back());
+        });
+    }
+    std::ranges::sort(common_);
+    common_.erase(std::unique(common_.begin(), common_.end()), common_.end());
 }
 
 template <int D>
 void GhostNodes<D>::sum(GridPatch<D>& patch) {
-    exchange(patch);
-    pack(patch, shared_, own_);
-    for (const std::size_t n : shared_) {
+    reached_.clear();
+    own_.clear();
+    for (const std::size_t n : common_)
+        if (is_reached(patch, n)) reached_.push_back(n);
+    receive_any(width(patch));
+    send_all(patch);
+    for (const std::size_t n : reached_) {
+        pack(patch, n, own_);
         patch.sums[n] = {};
         for (std::vector<double>& field : patch.fields) field[n] = 0;
     }
+    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     // All ranks add from 0 on in the order of the ranks, so they get the same bits.
-    std::size_t neighbour = 0;
-    for (; neighbour < ranks_.size() && ranks_[neighbour] < rank_; ++neighbour)
-        unpack(incoming_[neighbour], nodes_[neighbour], patch);
-    unpack(own_, shared_, patch);
-    for (; neighbour < ranks_.size(); ++neighbour)
-        unpack(incoming_[neighbour], nodes_[neighbour], patch);
+    std::size_t k = 0;
+    for (; k < ranks_.size() && ranks_[k] < rank_; ++k) unpack(k, patch);
+    for (std::size_t i = 0; i < reached_.size(); ++i)
+        add(own_.data() + i * width(patch), reached_[i], patch);
+    for (; k < ranks_.size(); ++k) unpack(k, patch);
+}
+
+/// Awaits messages of at most all common nodes. Each begins with the number of its runs, and for
+/// each run its first node and the number of nodes.
+template <int D>
+void GhostNodes<D>::receive_any(std::size_t width) {
+    for (std::size_t k = 0; k < ranks_.size(); ++k) {
+        const std::size_t nodes = num_nodes<D>(neighbours_[k].range);
+        std::vector<double>& incoming = neighbours_[k].incoming;
+        incoming.resize(1 + 2 * ((nodes + 1) / 2) + nodes * width);
+        MPI_Irecv(incoming.data(), static_cast<int>(incoming.size()), MPI_DOUBLE, ranks_[k],
+                  ghost_tag, comm_, &requests_[k]);
+    }
 }
 
 template <int D>
-void GhostNodes<D>::exchange(const GridPatch<D>& patch) {
-    const std::size_t num_neighbours = ranks_.size();
-    for (std::size_t k = 0; k < num_neighbours; ++k) {
-        incoming_[k].resize(nodes_[k].size() * width(patch));
-        MPI_Irecv(incoming_[k].data(), static_cast<int>(incoming_[k].size()), MPI_DOUBLE, ranks_[k],
-                  ghost_tag, comm_, &requests_[k]);
+void GhostNodes<D>::send_all(const GridPatch<D>& patch) {
+    std::vector<std::size_t> sent;
+    for (std::size_t k = 0; k < ranks_.size(); ++k) {
+        const std::vector<std::size_t>& nodes = neighbours_[k].nodes;
+        std::vector<double>& message = neighbours_[k].outgoing;
+        message.assign(1, 0);
+        sent.clear();
+        std::size_t next = nowhere;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (nodes[i] == nowhere || !is_reached(patch, nodes[i])) continue;
+            if (i != next) {
+                message.insert(message.end(), {static_cast<double>(i), 0});
+                ++message.front();
+            }
+            next = i + 1;
+            ++message.back();
+            sent.push_back(nodes[i]);
+        }
+        for (const std::size_t n : sent) pack(patch, n, message);
+        MPI_Isend(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, ranks_[k],
+                  ghost_tag, comm_, &requests_[ranks_.size() + k]);
     }
-    for (std::size_t k = 0; k < num_neighbours; ++k) {
-        pack(patch, nodes_[k], outgoing_[k]);
-        MPI_Isend(outgoing_[k].data(), static_cast<int>(outgoing_[k].size()), MPI_DOUBLE, ranks_[k],
-                  ghost_tag, comm_, &requests_[num_neighbours + k]);
+}
+
+/// Adds a message to the nodes of the patch. Others are of no use to this rank.
+template <int D>
+void GhostNodes<D>::unpack(std::size_t neighbour, GridPatch<D>& patch) const {
+    const auto& [range, nodes, outgoing, message] = neighbours_[neighbour];
+    const auto num_runs = static_cast<std::size_t>(message.front());
+    const double* from = message.data() + 1 + 2 * num_runs;
+    for (std::size_t r = 0; r < num_runs; ++r) {
+        const auto first = static_cast<std::size_t>(message[1 + 2 * r]);
+        const std::size_t end = first + static_cast<std::size_t>(message[2 + 2 * r]);
+        for (std::size_t i = first; i < end; ++i, from += width(patch))
+            if (nodes[i] != nowhere) add(from, nodes[i], patch);
     }
-    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
 }
 
 template class GhostNodes<2>;

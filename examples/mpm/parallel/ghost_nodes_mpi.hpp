@@ -10,36 +10,53 @@
 
 namespace mpm {
 
-/// Nodes that a rank's patch shares with those of other ranks, and their sums.
+/// Nodes that the points of this rank and of others may reach, and their sums.
+///
+/// Ranks whose boxes touch the same cells are neighbours. A message has only the nodes that points
+/// of its sender reach, as runs of consecutive nodes of the two boxes' common range: next to water
+/// in a tank most of that range is air.
 template <int D>
 class GhostNodes {
   public:
-    /// Finds the shared nodes from the patches of all ranks. Not collective.
-    GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm);
+    /// Finds the neighbours from the ranges of nodes of all ranks' boxes. Not collective.
+    GhostNodes(std::span<const NodeRange<D>> ranges, MPI_Comm comm);
 
-    /// Sums the shared nodes over the ranks, sums and fields, to the same bits on all. One message
-    /// goes to each neighbour. Collective over the neighbours.
+    /// Numbers the nodes of this rank's patch, a part of its range. Not collective. Call it
+    /// whenever the patch has other nodes.
+    void number(const GridPatch<D>& patch);
+
+    /// Sums the nodes over the ranks, sums and fields, to the same bits on all that reach them. One
+    /// message goes to each neighbour. Collective over the neighbours.
     void sum(GridPatch<D>& patch);
 
-    /// Nodes that this rank shares with any other.
-    const std::vector<std::size_t>& shared() const { return shared_; }
-    std::size_t num_shared() const { return shared_.size(); }
+    /// Nodes of the patch that a neighbour may reach, ascending.
+    const std::vector<std::size_t>& common() const { return common_; }
+    /// Nodes that this rank has sent to any other in the last sum.
+    std::size_t num_shared() const { return reached_.size(); }
 
-    /// Ranks that share a node with this one, ascending.
+    /// Ranks that may reach a node of this one, ascending.
     const std::vector<int>& neighbours() const { return ranks_; }
 
   private:
-    void exchange(const GridPatch<D>& patch);
+    /// One neighbour, the nodes common with it, and the messages.
+    struct Neighbour {
+        NodeRange<D> range;
+        std::vector<std::size_t> nodes;  ///< numbers in the patch, `nowhere` outside it
+        std::vector<double> outgoing, incoming;
+    };
+
+    void receive_any(std::size_t width);
+    void send_all(const GridPatch<D>& patch);
+    void unpack(std::size_t neighbour, GridPatch<D>& patch) const;
 
     MPI_Comm comm_;
     int rank_;
     std::vector<int> ranks_;
-    std::vector<std::vector<std::size_t>> nodes_;  ///< shared with each neighbour
-    std::vector<std::vector<double>> outgoing_;    ///< one message per neighbour
-    std::vector<std::vector<double>> incoming_;
+    std::vector<Neighbour> neighbours_;
     std::vector<MPI_Request> requests_;
-    std::vector<std::size_t> shared_;  ///< nodes of the patch that any neighbour has
-    std::vector<double> own_;          ///< this rank's contributions to the shared nodes
+    std::vector<std::size_t> common_;
+    std::vector<std::size_t> reached_;  ///< of common_, by the points of this rank
+    std::vector<double> own_;           ///< this rank's contributions to them
 };
 
 }  // namespace mpm

@@ -84,19 +84,15 @@ bool Ownership::stays(Particles& particles, const MotionColumns& motion, std::si
 }
 
 template <int D>
-void Ownership::find_outside(const Box& box, Particles& particles, const MotionColumns& motion,
-                             double now) {
+void Ownership::find_outside(const Box& box, const Box& home, Particles& particles,
+                             const MotionColumns& motion, double now) {
     constexpr std::size_t block = 256;
     std::array<const double*, 3> at{};
-    Box inner = box;
-    for (std::size_t a = 0; a < D; ++a) {
-        at[a] = particles[motion.position[a]].data();
-        inner.lower[a] = std::max(box.lower[a], grid_.lower[a]);
-        inner.upper[a] = std::min(box.upper[a], grid_.upper[a]);
-    }
+    for (std::size_t a = 0; a < D; ++a) at[a] = particles[motion.position[a]].data();
+    has_outgrown_ = false;
     for (std::size_t begin = 0; begin < particles.size(); begin += block) {
         const std::size_t end = std::min(begin + block, particles.size());
-        if (are_inside<D>(inner, at, begin, end)) continue;
+        if (are_inside<D>(home, at, begin, end)) continue;
         for (std::size_t p = begin; p < end; ++p) {
             for (std::size_t a = 0; a < D; ++a)
                 if (!std::isfinite(at[a][p])) {
@@ -105,7 +101,10 @@ void Ownership::find_outside(const Box& box, Particles& particles, const MotionC
                     return report(Fault::not_finite);
                 }
             const bool is_lost = !is_inside<D>(grid_, at, p) && !stays<D>(particles, motion, p);
-            if (!is_lost && is_inside<D>(box, at, p)) continue;
+            if (!is_lost && is_inside<D>(box, at, p)) {
+                has_outgrown_ = has_outgrown_ || !is_inside<D>(home, at, p);
+                continue;
+            }
             leavers_.points.push_back(p);
             leavers_.owners.push_back(is_lost ? nobody : rank_);
             for (std::size_t a = 0; a < D && !is_lost; ++a) at_[a].push_back(at[a][p]);
@@ -114,14 +113,14 @@ void Ownership::find_outside(const Box& box, Particles& particles, const MotionC
 }
 
 template <int D>
-void Ownership::find_leavers(const Decomposition& decomposition, Particles& particles,
-                             const MotionColumns& motion, double now,
+void Ownership::find_leavers(const Decomposition& decomposition, const Box& home,
+                             Particles& particles, const MotionColumns& motion, double now,
                              std::span<const int> neighbours) {
     leavers_.points.clear();
     leavers_.owners.clear();
     for (std::vector<double>& column : at_) column.clear();
     const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_)];
-    find_outside<D>(box, particles, motion, now);
+    find_outside<D>(box, home, particles, motion, now);
     const Positions at{at_[0], at_[1], at_[2]};
     if (at.x.empty() || !ask_owners(decomposition, at)) return;
     std::size_t k = 0;
@@ -224,9 +223,9 @@ void Ownership::throw_fault(Fault fault, bool is_mine) {
         "rank for every position in the grid");
 }
 
-template void Ownership::find_leavers<2>(const Decomposition&, Particles&, const MotionColumns&,
-                                         double, std::span<const int>);
-template void Ownership::find_leavers<3>(const Decomposition&, Particles&, const MotionColumns&,
-                                         double, std::span<const int>);
+template void Ownership::find_leavers<2>(const Decomposition&, const Box&, Particles&,
+                                         const MotionColumns&, double, std::span<const int>);
+template void Ownership::find_leavers<3>(const Decomposition&, const Box&, Particles&,
+                                         const MotionColumns&, double, std::span<const int>);
 
 }  // namespace mpm

@@ -28,9 +28,10 @@ class Ownership {
     /// Finds the points that have left this rank's box. Not collective.
     ///
     /// A point that a step has carried beyond a closed side is put back where a mirror would have
-    /// sent it. `now` is for the message about one whose position is not finite.
+    /// sent it. Sets has_outgrown() if one that stays is outside `home`, a part of this rank's box.
+    /// `now` is for the message about one whose position is not finite.
     template <int D>
-    void find_leavers(const Decomposition& decomposition, Particles& particles,
+    void find_leavers(const Decomposition& decomposition, const Box& home, Particles& particles,
                       const MotionColumns& motion, double now, std::span<const int> neighbours);
 
     /// Finds the points that a new decomposition gives to other ranks. Not collective.
@@ -45,6 +46,7 @@ class Ownership {
     Agreement agree(double speed);
 
     const Leavers& leavers() const { return leavers_; }
+    bool has_outgrown() const { return has_outgrown_; }
 
   private:
     /// Faults of a rank, in ascending order of gravity.
@@ -53,8 +55,8 @@ class Ownership {
     [[noreturn]] void throw_fault(Fault fault, bool is_mine);
     void report(Fault fault);
     template <int D>
-    void find_outside(const Box& box, Particles& particles, const MotionColumns& motion,
-                      double now);
+    void find_outside(const Box& box, const Box& home, Particles& particles,
+                      const MotionColumns& motion, double now);
     template <int D>
     bool stays(Particles& particles, const MotionColumns& motion, std::size_t p) const;
     bool ask_owners(const Decomposition& decomposition, Positions positions);
@@ -71,6 +73,7 @@ class Ownership {
     Box grid_;
     std::array<std::array<bool, 2>, 3> is_open_;  ///< by axis: the lower and the upper side
     Leavers leavers_;
+    bool has_outgrown_ = false;
     std::array<std::vector<double>, 3> at_;  ///< positions of the leavers
     std::vector<int> owners_;
     Reach reach_ = Reach::nowhere;

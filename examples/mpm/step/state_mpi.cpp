@@ -10,7 +10,7 @@ namespace mpm {
 
 namespace {
 
-constexpr const char* first_line = "mpm state 2";
+constexpr const char* first_line = "mpm state 3";
 
 void write(std::ostream& file, const std::vector<double>& values) {
     const auto count = static_cast<std::int64_t>(values.size());
@@ -76,11 +76,10 @@ std::vector<double> Stepper<D>::state_numbers() const {
     return numbers;
 }
 
-/// Place between two sorts, and points of this rank.
+/// Runs after the last sort, and points of this rank.
 template <int D>
 std::vector<double> Stepper<D>::state_section() const {
-    std::vector<double> section{static_cast<double>(num_out_of_order_),
-                                static_cast<double>(steps_since_sort_)};
+    std::vector<double> section{static_cast<double>(num_sorted_runs_)};
     const std::size_t begin = section.size(), width = particles.column_names().size();
     section.resize(begin + particles.size() * width);
     for (std::size_t p = 0; p < particles.size(); ++p)
@@ -141,21 +140,21 @@ void Stepper<D>::load_state(const std::string& path) {
             "effects or method");
     const std::vector<Box> boxes = boxes_of(read(file));
     const bool has_own = boxes.size() == static_cast<std::size_t>(size_of(comm_));
-    if (has_own) divide_by(within(boxes), MPI_COMM_SELF);
+    if (has_own) divide_by(within(boxes));
     std::vector<std::size_t> all(particles.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     particles.remove(all);
     for (std::size_t rank = 0; rank < boxes.size(); ++rank) {
         const std::vector<double> section = read(file);
-        if (section.size() < 2) throw std::runtime_error("ends too early");
-        const auto rows = std::span(section).subspan(2);
+        if (section.empty()) throw std::runtime_error("ends too early");
+        const auto rows = std::span(section).subspan(1);
         if (!has_own) append_own(rows);
         if (!has_own || rank != static_cast<std::size_t>(rank_of(comm_))) continue;
-        num_out_of_order_ = static_cast<std::size_t>(section[0]);
-        steps_since_sort_ = static_cast<int>(section[1]);
+        num_sorted_runs_ = static_cast<std::size_t>(section[0]);
         particles.append(rows);
     }
-    if (!has_own) transfers_->sort(particles, patch_);
+    fit_patch();
+    if (!has_own) sort();
     time = numbers[0];
     time_step = numbers[1];
     max_speed = numbers[2];

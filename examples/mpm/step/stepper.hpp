@@ -73,15 +73,18 @@ class Stepper final : public Simulation::Model {
     std::vector<double> state_section() const;
     void load_state(const std::string& path);
     void append_own(std::span<const double> rows);
-    void divide_by(Decomposition next, MPI_Comm comm);
+    void divide_by(Decomposition next);
     void sum_fields();
     void advance_nodes();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
     double fastest_point() const;
     void set_time_step();
-    void migrate_leavers(double speed);
-    void sort_if_needed();
+    std::size_t migrate_leavers(double speed);
+    void fit_patch();
+    bool fits_patch(std::size_t first) const;
+    void sort();
+    void sort_if_needed(std::size_t num_arrived);
 
     Scene scene_;
     Scene ground_;  ///< the same with planes in place of walls with friction
@@ -98,12 +101,12 @@ class Stepper final : public Simulation::Model {
 
     Ownership ownership_;
     GridPatch<D> patch_;
-    std::vector<NodeRange<D>> patches_;  ///< of all ranks
+    std::vector<NodeRange<D>> ranges_;  ///< nodes of the boxes of all ranks
+    Box home_;                          ///< where this rank's points are: the patch's
     std::optional<GhostNodes<D>> ghosts_;
     std::vector<CellRun<D>> runs_, field_runs_;
     std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();
-    std::size_t num_out_of_order_ = 0;
-    int steps_since_sort_ = 0;
+    std::size_t num_sorted_runs_ = 0;  ///< runs in the first step after a sort; 0: before it
 };
 
 }  // namespace mpm

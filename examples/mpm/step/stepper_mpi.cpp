@@ -11,15 +11,27 @@ namespace mpm {
 
 namespace {
 
-/// Steps between sorts, within which points cross few cells.
-constexpr int sort_interval = 50;
-/// Share of the points, appended as they arrive, above which they are sorted at once.
-constexpr double tolerated_disorder = 0.1;
+/// Runs of points by those right after a sort, above which points are sorted again. A run costs as
+/// much as four points.
+constexpr double tolerated_runs = 1.2;
+/// Cells that points may move before the patch is fitted to them again.
+constexpr double slack = 1;
 
 MPI_Comm duplicate(MPI_Comm comm) {
     MPI_Comm own = MPI_COMM_NULL;
     MPI_Comm_dup(comm, &own);
     return own;
+}
+
+/// Least and largest of some numbers, two at a time.
+std::array<double, 2> extent_of(std::span<const double> numbers) {
+    Pair least{numbers.front(), numbers.back()}, most = least;
+    for (std::size_t p = 0; p + 2 <= numbers.size(); p += 2) {
+        const Pair here = load_pair(numbers.data() + p);
+        least = here < least ? here : least;
+        most = here > most ? here : most;
+    }
+    return {std::min(least[0], least[1]), std::max(most[0], most[1])};
 }
 
 /// Stages of a scene but for the mirror images in walls. Walls and planes enter before effects.
@@ -58,13 +70,14 @@ Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
     num_points = points.num_points;
-    divide_by(slabs(points.box, size_of(comm_)), comm_);
+    divide_by(slabs(points.box, size_of(comm_)));
     const auto place = [&] {
         place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
         for (const auto& prepare : stages_.preparations) prepare(particles);
-        transfers_->sort(particles, patch_);
     };
     in_memory(place, "bodies: the points", comm_);
+    in_memory([&] { fit_patch(); }, "domain: the cells", comm_);
+    in_memory([&] { sort(); }, "bodies: the points", comm_);
     for (const double mass : particles[motion_.mass])
         lightest_point_ = std::min(lightest_point_, mass);
     MPI_Allreduce(MPI_IN_PLACE, &lightest_point_, 1, MPI_DOUBLE, MPI_MIN, comm_);
@@ -79,21 +92,47 @@ void Stepper<D>::build_materials() {
         materials_.push_back(build_material<D>(material, particles));
 }
 
-/// Divides space by a decomposition. The grid is kept while no box begins or ends in another cell.
-/// Collective over `comm`, whose ranks fail together.
+/// Divides space by a decomposition. Neighbours are kept while no box begins or ends in another
+/// cell. Call fit_patch() once the points have moved.
 template <int D>
-void Stepper<D>::divide_by(Decomposition next, MPI_Comm comm) {
+void Stepper<D>::divide_by(Decomposition next) {
     decomposition = std::move(next);
     decomposition.local_owners.clear();
-    std::vector<NodeRange<D>> patches;
-    patches.reserve(decomposition.boxes.size());
+    std::vector<NodeRange<D>> ranges;
+    ranges.reserve(decomposition.boxes.size());
     for (const Box& box : decomposition.boxes)
-        patches.push_back(nodes_of<D>(ground_.grid, box, patch_.margin));
-    if (patches == patches_) return;
-    patches_ = std::move(patches);
-    const NodeRange<D>& mine = patches_[static_cast<std::size_t>(rank_of(comm_))];
-    in_memory([&] { resize<D>(patch_, mine); }, "domain: the cells", comm);
-    ghosts_.emplace(patches_, comm_);
+        ranges.push_back(nodes_of<D>(ground_.grid, box, patch_.margin));
+    if (ranges == ranges_) return;
+    ranges_ = std::move(ranges);
+    ghosts_.emplace(ranges_, comm_);
+    ghosts_->number(patch_);
+}
+
+/// Fits the patch to the box of this rank's points and some cells of slack, within its own box.
+template <int D>
+void Stepper<D>::fit_patch() {
+    const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_of(comm_))];
+    const Vector upper = ground_.grid.upper();
+    const double way = slack * ground_.grid.spacing;
+    home_ = particles.size() > 0 ? Box{} : Box{upper, ground_.grid.lower};
+    for (std::size_t a = 0; a < D && particles.size() > 0; ++a) {
+        const auto [least, most] = extent_of(particles[motion_.position[a]]);
+        home_.lower[a] = std::max({least - way, box.lower[a], ground_.grid.lower[a]});
+        home_.upper[a] = std::min({most + way, box.upper[a], upper[a]});
+    }
+    const NodeRange<D> nodes = nodes_of<D>(ground_.grid, home_, patch_.margin);
+    if (nodes == patch_.nodes) return;
+    resize<D>(patch_, nodes);
+    ghosts_->number(patch_);
+}
+
+/// Whether the points from `first` on are where the patch has nodes.
+template <int D>
+bool Stepper<D>::fits_patch(std::size_t first) const {
+    const Positions at = positions();
+    for (std::size_t p = first; p < particles.size(); ++p)
+        if (!contains(home_, at[p])) return false;
+    return true;
 }
 
 /// Sums the fields of effects. Those with the same `where` follow one another.
@@ -103,7 +142,7 @@ void Stepper<D>::sum_fields() {
     for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
         const NodeField& field = stages_.fields[f];
         if (field.where >= 0 && field.where != found)
-            find_runs_at<D>(patch_.fields[static_cast<std::size_t>(field.where)], ghosts_->shared(),
+            find_runs_at<D>(patch_.fields[static_cast<std::size_t>(field.where)], ghosts_->common(),
                             patch_, runs_, field_runs_);
         found = field.where;
         std::ranges::fill(patch_.fields[f], 0.0);
@@ -115,6 +154,7 @@ void Stepper<D>::sum_fields() {
 template <int D>
 void Stepper<D>::advance_nodes() {
     transfers_->find_runs(particles, patch_, runs_);
+    if (num_sorted_runs_ == 0) num_sorted_runs_ = runs_.size();
     transfers_->p2g(particles, runs_, stages_.volume_change, patch_);
     sum_fields();
     for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
@@ -191,26 +231,32 @@ void Stepper<D>::set_time_step() {
     if (time < scene_.end_time) time_step = std::min(time_step, scene_.end_time - time);
 }
 
-/// Agrees with all ranks on the largest speed and sends the leavers. Collective.
+/// Agrees with all ranks on the largest speed and sends the leavers. Collective. Returns the number
+/// of points that have arrived, the last ones.
 template <int D>
-void Stepper<D>::migrate_leavers(double speed) {
+std::size_t Stepper<D>::migrate_leavers(double speed) {
     const Agreement agreement = ownership_.agree(speed);
     max_speed = agreement.max_speed;
     const auto& owners = ownership_.leavers().owners;
     num_sent += std::ssize(owners) - std::ranges::count(owners, nobody);
-    num_out_of_order_ +=
-        migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_);
+    return migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_);
 }
 
-/// Sorts once so many points are out of order that they slow the transfers down.
 template <int D>
-void Stepper<D>::sort_if_needed() {
-    const double tolerated = tolerated_disorder * static_cast<double>(particles.size());
-    if (steps_since_sort_ < sort_interval && static_cast<double>(num_out_of_order_) <= tolerated)
-        return;
+void Stepper<D>::sort() {
     transfers_->sort(particles, patch_);
-    num_out_of_order_ = 0;
-    steps_since_sort_ = 0;
+    num_sorted_runs_ = 0;
+}
+
+/// Sorts once the points have so many more runs than when they were sorted that these slow the
+/// transfers down. A point that has arrived makes a run.
+template <int D>
+void Stepper<D>::sort_if_needed(std::size_t num_arrived) {
+    if (num_sorted_runs_ == 0 && num_arrived == 0) return;
+    const auto runs = static_cast<double>(runs_.size() + num_arrived);
+    if (runs <= tolerated_runs * static_cast<double>(num_sorted_runs_)) return;
+    fit_patch();
+    sort();
 }
 
 template <int D>
@@ -223,10 +269,11 @@ void Stepper<D>::step() {
     for (const auto& effect : stages_.ends) effect.kernel({time, time_step}, comm_);
     time += time_step;
     ++num_steps;
-    ++steps_since_sort_;
-    ownership_.find_leavers<D>(decomposition, particles, motion_, time, ghosts_->neighbours());
-    migrate_leavers(std::max(fastest_point(), fastest_node_));
-    sort_if_needed();
+    ownership_.find_leavers<D>(decomposition, home_, particles, motion_, time,
+                               ghosts_->neighbours());
+    const std::size_t arrived = migrate_leavers(std::max(fastest_point(), fastest_node_));
+    if (ownership_.has_outgrown() || !fits_patch(particles.size() - arrived)) fit_patch();
+    sort_if_needed(arrived);
     set_time_step();
 }
 
@@ -234,9 +281,10 @@ template <int D>
 std::size_t Stepper<D>::rebalance(const Balancer& balancer) {
     Decomposition next = balancer(positions(), comm_);
     ownership_.find_reassigned(next, positions(), ghosts_->neighbours());
-    migrate_leavers(max_speed);
-    divide_by(std::move(next), comm_);
-    sort_if_needed();
+    const std::size_t arrived = migrate_leavers(max_speed);
+    divide_by(std::move(next));
+    in_memory([&] { fit_patch(); }, "domain: the cells", comm_);
+    sort_if_needed(arrived);
     return ownership_.leavers().points.size();
 }
 

@@ -168,8 +168,10 @@ TEST(Balancers, of_cells_cut_on_faces_and_do_not_show) {
         expect_same(run(scene, "none", MPI_COMM_SELF), run(scene, "rrcb-cells", MPI_COMM_WORLD));
         Simulation simulation(scene, MPI_COMM_WORLD);
         simulation.rebalance(*make_balancer("rrcb", scene));
+        simulation.step();
         const std::int64_t anywhere = simulation.totals().num_ghost_nodes;
         simulation.rebalance(*make_balancer("rrcb-cells", scene));
+        simulation.step();
         const std::int64_t on_faces = simulation.totals().num_ghost_nodes;
         EXPECT_LT(on_faces, anywhere);
         for (const Box& box : simulation.decomposition().boxes) {

@@ -32,9 +32,10 @@ TEST(WorkColumns, are_the_sums_of_the_parts_of_points) {
     EXPECT_EQ(columns[3] > 0, size_of(MPI_COMM_WORLD) > 1);
 }
 
-/// A point takes 100 ns, a run 200, a node 30, a shared one 50.
+/// A point takes 100 ns, a run 200, a node 2 us, a shared one 50 ns. Real nodes are cheaper by far,
+/// and even points are even time within 2 %.
 double seconds_of(const std::vector<double>& columns) {
-    return 1e-9 * (100 * columns[0] + 200 * columns[1] + 30 * columns[2] + 50 * columns[3]);
+    return 1e-9 * (100 * columns[0] + 200 * columns[1] + 2000 * columns[2] + 50 * columns[3]);
 }
 
 double imbalance_of(double seconds) {
@@ -65,8 +66,8 @@ double imbalance_after(int num_rebalances, bool learns) {
 
 TEST(WorkColumns, let_a_cost_model_even_out_the_dam_break) {
     if (size_of(MPI_COMM_WORLD) < 4) GTEST_SKIP() << "there is little to even out";
-    EXPECT_GE(imbalance_after(3, false), 1.15);
-    EXPECT_LE(imbalance_after(3, true), 1.1);
+    EXPECT_GE(imbalance_after(6, false), 1.07);
+    EXPECT_LE(imbalance_after(6, true), 1.04);
 }
 
 }  // namespace

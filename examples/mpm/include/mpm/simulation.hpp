@@ -23,7 +23,7 @@ struct Totals {
     double strain_energy = 0;          ///< elastic, J
     double potential_energy = 0;       ///< of gravity at its full strength, J; 0 at the origin
     std::int64_t num_migrated = 0;     ///< changes of rank since the start, rebalances included
-    std::int64_t num_ghost_nodes = 0;  ///< nodes that a rank shares with others, of all ranks
+    std::int64_t num_ghost_nodes = 0;  ///< nodes that a rank sent in the last step, of all ranks
 };
 
 /// A scene, advanced in time by all ranks of a communicator.
@@ -68,7 +68,7 @@ class Simulation {
     double work_seconds() const;
 
     /// Numbers that the work of the last step grows with, on this rank: points, runs of points that
-    /// reach the same nodes one after the other, nodes of its grid, nodes shared with other ranks.
+    /// reach the same nodes one after the other, nodes around its points, nodes sent to other ranks.
     std::vector<double> work_columns() const;
     /// Parts of this rank's points in these numbers, row after row; 0 of the shared nodes.
     std::vector<double> point_columns() const;

@@ -1,5 +1,5 @@
-# Files for pkg-config: rrcb.pc, and rrcb_zoltan.pc and rrcb_fortran.pc where there are the plug-in and
-# the module.
+# Files for pkg-config: rrcb.pc, and rrcb_zoltan.pc, rrcb_teuchos.pc and rrcb_fortran.pc if the plug-in, the
+# parameter lists and the module are built.
 file(RELATIVE_PATH RRCB_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR} ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH RRCB_PC_INCLUDE ${CMAKE_INSTALL_FULL_LIBDIR} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 
@@ -46,14 +46,30 @@ function(rrcb_short_names result)
   set(${result} ${names} PARENT_SCOPE)
 endfunction()
 
-if(RRCB_ZOLTAN)
-  rrcb_header_folders(folders Zoltan::zoltan)
+# Sets RRCB_PC_<name> and RRCB_PC_<name>_FLAGS to the flags that link a target of Trilinos, and find its headers.
+function(rrcb_flags_of name target)
+  rrcb_header_folders(folders ${target})
   list(REMOVE_ITEM folders "" ${CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES})
-  rrcb_link_files(files Zoltan::zoltan)
+  rrcb_link_files(files ${target})
   rrcb_short_names(files ${files})
-  rrcb_flags(RRCB_PC_ZOLTAN_FLAGS -I ${folders})
-  rrcb_flags(RRCB_PC_ZOLTAN -l ${files})
+  rrcb_flags(flags -I ${folders})
+  rrcb_flags(libraries -l ${files})
+  set(RRCB_PC_${name}_FLAGS "${flags}" PARENT_SCOPE)
+  set(RRCB_PC_${name} "${libraries}" PARENT_SCOPE)
+endfunction()
+
+if(RRCB_ZOLTAN)
+  rrcb_flags_of(ZOLTAN Zoltan::zoltan)
   rrcb_install_pc(rrcb_zoltan zoltan)
+endif()
+if(RRCB_TEUCHOS)
+  rrcb_flags_of(TEUCHOS Teuchos::teuchos)
+  # As an archive it takes the table of options from the archive of the library: the shared one hides it.
+  set(RRCB_PC_TEUCHOS_RRCB -l:librrcb.a)
+  if(BUILD_SHARED_LIBS)
+    set(RRCB_PC_TEUCHOS_RRCB -lrrcb)
+  endif()
+  rrcb_install_pc(rrcb_teuchos teuchos)
 endif()
 
 # A program in Fortran calls MPI by MPI's own module; where there is none, its compiler has to know.

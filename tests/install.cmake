@@ -167,9 +167,11 @@ if(Python3_FOUND)
        ${PROJECT_SOURCE_DIR}/src/c/for_python.h
        ${PROJECT_SOURCE_DIR}/include/rrcb/*.hpp
        ${PROJECT_SOURCE_DIR}/include/rrcb/method/*.hpp)
+  file(GLOB listed ${PROJECT_SOURCE_DIR}/packaging/debian/librrcb[0-9]*.symbols)
   add_test(NAME install.symbols
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/symbols.py
-                   $<TARGET_FILE:rrcb_shared> ${headers})
+                   $<TARGET_FILE:rrcb_shared> ${CMAKE_CURRENT_SOURCE_DIR}/abi/symbols.txt
+                   ${listed} -- ${headers})
   add_test(NAME install.packages COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/packages.py
                                          ${PROJECT_SOURCE_DIR})
   add_test(NAME install.names

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""symbols.py LIBRARY HEADER...: compares what a shared library shows with what headers declare.
+"""symbols.py LIBRARY LIST... -- HEADER...: compares what a shared library shows with headers and lists.
 
 Fails unless each function that a header declares, and no other, is shown; methods count for their
-class. Of classes no more is shown than their type information and tables.
+class. Of classes no more is shown than their type information and tables. The lists name what is shown,
+one name at the start of each line. A function of a namespace detail is shown only for a header that calls it.
 """
 import re
 import subprocess
@@ -79,13 +80,32 @@ def declared_in(headers):
     return functions, classes
 
 
+def listed_in(files):
+    """Names at the start of lines, without the version that follows in a list of Debian."""
+    text = "\n".join(Path(file).read_text() for file in files)
+    return set(re.findall(r"^ *(rrcb(?:_|::)[\w:~=]+)", text, re.M))
+
+
+def uncalled(names, headers):
+    """Names of a namespace detail that headers declare, but do not call."""
+    text = "\n".join(bare(Path(header).read_text()) for header in headers)
+    last = {name: name.rpartition("::")[2] for name in names if "::detail::" in name}
+    return [name for name, word in last.items() if len(re.findall(rf"\b{word}\(", text)) < 2]
+
+
 def main():
-    library, *headers = sys.argv[1:]
+    split = sys.argv.index("--")
+    library, *lists = sys.argv[1:split]
+    headers = sys.argv[split + 1:]
     shown, shown_classes = shown_by(library)
     declared, classes = declared_in(headers)
     problems = [f"declared, but not shown: {name}" for name in sorted(declared - shown)]
     problems += [f"shown, but in no header: {name}" for name in sorted(shown - declared)]
     problems += [f"shown, but no class of a header: {name}" for name in shown_classes - classes]
+    listed = listed_in(lists)
+    problems += [f"shown, but in no list: {name}" for name in shown - listed]
+    problems += [f"in a list, but not shown: {name}" for name in listed - shown]
+    problems += [f"shown, but called by no header: {name}" for name in uncalled(shown, headers)]
     print("\n".join(sorted(problems)) or f"{len(declared)} functions are declared and shown")
     return 1 if problems or not declared else 0
 

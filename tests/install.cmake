@@ -163,7 +163,7 @@ find_package(Python3 COMPONENTS Interpreter QUIET)
 if(Python3_FOUND)
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/rrcb/*.h
        ${PROJECT_SOURCE_DIR}/include/rrcb/c/*.h
-       ${PROJECT_SOURCE_DIR}/src/c/ending.hpp
+       ${PROJECT_SOURCE_DIR}/src/c/for_fortran.h
        ${PROJECT_SOURCE_DIR}/src/c/for_python.h
        ${PROJECT_SOURCE_DIR}/include/rrcb/*.hpp
        ${PROJECT_SOURCE_DIR}/include/rrcb/method/*.hpp)

@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
     rrcb_balancer* balancer = NULL;
     rrcb_controller* controller = NULL;
     rrcb_cost_model* model = NULL;
-    check(rrcb_create(comm, &balancer));
+    check(rrcb_balancer_create(comm, &balancer));
     FILE* file = argc > 2 ? fopen(argv[2], "rb") : NULL;
     if (file != NULL) {
         read_run(file, &run, comm);
@@ -206,7 +206,7 @@ int main(int argc, char** argv) {
     rrcb_neighbours_destroy(&neighbours);
     rrcb_cost_model_destroy(&model);
     rrcb_controller_destroy(&controller);
-    rrcb_destroy(&balancer);
+    rrcb_balancer_destroy(&balancer);
     free(columns);
     free(ghosts.values);
     free(x.values);

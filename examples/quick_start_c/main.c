@@ -35,8 +35,8 @@ int main(int argc, char** argv) {
     int32_t* parts = malloc(count * sizeof *parts);
 
     rrcb_balancer* balancer = NULL;
-    check(rrcb_create(MPI_COMM_WORLD, &balancer));
-    check(rrcb_set(balancer, "imbalance_tolerance", "1.02"));
+    check(rrcb_balancer_create(MPI_COMM_WORLD, &balancer));
+    check(rrcb_balancer_set(balancer, "imbalance_tolerance", "1.02"));
     const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 2, count, coordinates, NULL);
     check(rrcb_balance(balancer, &points, parts));
     check(rrcb_plan(balancer, count, parts));
@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
         printf("rank 0 sends %zu points, receives %zu and holds %zu\n", plan.num_exports,
                plan.num_imports, plan.num_points_after);
     }
-    rrcb_destroy(&balancer);
+    rrcb_balancer_destroy(&balancer);
     free(here);
     free(parts);
     free(coordinates);

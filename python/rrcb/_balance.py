@@ -106,7 +106,7 @@ class Distribution(Plan):
 
         `previous` has the part that each point was in; None: points stay on their ranks.
         """
-        own = c.OwnedHandle("create_fortran", "destroy", self.comm.py2f())
+        own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", self.comm.py2f())
         numbers = np.empty(self.cuts.num_parts, dtype=np.int32)
 
         def local() -> Array | None:
@@ -190,7 +190,7 @@ def balance(
     first call. Raises Error on every rank alike.
     """
     chosen = communicator(comm)
-    own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
 
     def local() -> tuple[Points, Array]:
         points = Points(x, weights)
@@ -200,7 +200,7 @@ def balance(
             set_option(own, name.replace("__", "."), value)
         if part_sizes is not None:
             sizes = np.ascontiguousarray(numbers_in(part_sizes, "part_sizes").ravel())
-            c.call("set_part_sizes", own, sizes.size, sizes)
+            c.call("balancer_set_part_sizes", own, sizes.size, sizes)
         if previous is not None:
             cuts_from(previous)._give(own)
         return points, np.empty(points.count, dtype=np.int32)
@@ -219,7 +219,7 @@ def plan(parts: Any, num_parts: int | None = None, comm: MPI.Comm | None = None)
     of ranks by default, so that part p is rank p. distribute() of the result moves columns.
     """
     chosen = communicator(comm)
-    own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
 
     def local() -> Array:
         number = chosen.size if num_parts is None else num_parts
@@ -247,7 +247,7 @@ def parts_in(given: Any, count: int | None = None) -> Array:
 def assign_all(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) -> Distribution:
     """Assigns points to parts by earlier cuts, without balancing. Collective over `comm`."""
     chosen = communicator(comm)
-    own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
 
     def local() -> tuple[Points, Array]:
         points = Points(x)
@@ -274,7 +274,7 @@ def set_option(own: c.Handle, name: str, value: Any) -> None:
     if value is None:
         raise c.Error(f"the option {name} is None: leave it out for its default")
     try:
-        c.call("set", own, name.encode(), text_of(value).encode())
+        c.call("balancer_set", own, name.encode(), text_of(value).encode())
     except c.Error as error:  # A keyword has no dot.
         raise c.Error(re.sub(r"\b(axes|tree|tuning)\.", r"\1__", str(error)), error.kind) from None
 

@@ -56,7 +56,7 @@ class Cuts:
     @staticmethod
     def load(saved: bytes) -> Cuts:
         """Returns cuts from the bytes of save()."""
-        own = c.OwnedHandle("create_fortran", "destroy", communicator(MPI.COMM_SELF).py2f())
+        own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", communicator(MPI.COMM_SELF).py2f())
         c.call("load_cuts", own, bytes(saved), len(saved))
         return cuts_of(own)
 
@@ -114,7 +114,7 @@ class Cuts:
 
     def _handle(self) -> c.OwnedHandle:
         if self._own is None:
-            own = c.OwnedHandle("create_fortran", "destroy", communicator(MPI.COMM_SELF).py2f())
+            own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", communicator(MPI.COMM_SELF).py2f())
             self._give(own)
             self._own = own
         return self._own

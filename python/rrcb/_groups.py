@@ -91,7 +91,7 @@ def groups(
     """
     chosen = communicator(comm)
     given = keys if np.ndim(keys) < 2 else join_keys(keys, chosen)
-    balancer = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    balancer = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
 
     def local() -> tuple[Points, Array, int]:
         points = Points(x, weights)
@@ -124,7 +124,7 @@ def join_keys(keys: Any, comm: MPI.Comm | None = None) -> Array:
         return f"keys of the shape (n, {made.shape[1]})"
 
     given = prepare(chosen, local, signature)
-    balancer = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    balancer = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
     joined = np.empty(len(given), dtype=np.uint64)
     c.call("join_keys", balancer, *given.shape, given, joined)
     return joined

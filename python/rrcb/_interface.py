@@ -165,9 +165,9 @@ class Address:
 
 HANDLE = POINTER(c_void_p)
 FUNCTIONS: dict[str, tuple[Any, ...]] = {
-    "create_fortran": (c_int, HANDLE),
-    "set": (c_void_p, c_char_p, c_char_p),
-    "set_part_sizes": (c_void_p, c_size_t, Address),
+    "balancer_create_fortran": (c_int, HANDLE),
+    "balancer_set": (c_void_p, c_char_p, c_char_p),
+    "balancer_set_part_sizes": (c_void_p, c_size_t, Address),
     "balance": (c_void_p, POINTER(Points), Address),
     "get_report": (c_void_p, POINTER(Report)),
     "get_cuts": (c_void_p, POINTER(Cuts)),
@@ -221,4 +221,4 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "cost_model_costs": (c_void_p, c_size_t, Address),
     "cost_model_uses_costs": (c_void_p, POINTER(c_int)),
 }
-DESTROYED = ("destroy", "ghosts_destroy", "groups_destroy", "neighbours_destroy", "controller_destroy", "cost_model_destroy")
+DESTROYED = ("balancer_destroy", "ghosts_destroy", "groups_destroy", "neighbours_destroy", "controller_destroy", "cost_model_destroy")

@@ -46,7 +46,7 @@ class Neighbours:
     ) -> None:
         own_comm = cuts.comm if comm is None and isinstance(cuts, Distribution) else comm
         self.comm = communicator(own_comm)
-        balancer = c.OwnedHandle("create_fortran", "destroy", self.comm.py2f())
+        balancer = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", self.comm.py2f())
 
         def local() -> c.NeighbourOptions:
             given = cuts_from(cuts)

@@ -28,7 +28,7 @@ void set_option(const char* name, const char* value, Options& options) {
         reject("there is no option \"" + std::string(name) + "\"; docs/parameters.md lists them" +
                suggestion(name, option_names()));
     if (std::holds_alternative<Lists>(option->kind))
-        reject(std::string(name) + " cannot be set by a text; call rrcb_set_part_sizes");
+        reject(std::string(name) + " cannot be set by a text; call rrcb_balancer_set_part_sizes");
     if (!read_option(*option, value, options))
         reject(std::string(name) + " takes " + texts_of(*option) + ", not \"" + value + '"');
 }
@@ -118,15 +118,15 @@ const char* rrcb_last_error(void) {
     return rrcb::c::last_failure.text.data();
 }
 
-void rrcb_destroy(rrcb_balancer** balancer) {
+void rrcb_balancer_destroy(rrcb_balancer** balancer) {
     rrcb::c::destroy(balancer);
 }
 
-int rrcb_set(rrcb_balancer* balancer, const char* option, const char* value) {
+int rrcb_balancer_set(rrcb_balancer* balancer, const char* option, const char* value) {
     return guarded(balancer, [&](auto& own) { rrcb::c::set_option(option, value, own.options); });
 }
 
-int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes) {
+int rrcb_balancer_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes) {
     return guarded(balancer, [&](auto& own) {
         if (count > 0) require(sizes, "sizes");
         own.options.part_sizes.assign(sizes, sizes + count);

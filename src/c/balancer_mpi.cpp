@@ -1,5 +1,6 @@
 #include "balance_mpi.hpp"
 #include "c/balancer.hpp"
+#include "c/for_fortran.h"
 #include "c/handle_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "lists/duplicated_mpi.hpp"
@@ -43,12 +44,12 @@ using rrcb::Participant;
 using rrcb::c::guarded_together;
 using rrcb::c::require_cuts;
 
-int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer) {
+int rrcb_balancer_create(MPI_Comm comm, rrcb_balancer** balancer) {
     return rrcb::c::create(comm, CallName::create, balancer, [&](auto& own) { own.comm = comm; });
 }
 
-int rrcb_create_fortran(int comm, rrcb_balancer** balancer) {
-    return rrcb_create(rrcb::c::comm_of(comm), balancer);
+int rrcb_balancer_create_fortran(int comm, rrcb_balancer** balancer) {
+    return rrcb_balancer_create(rrcb::c::comm_of(comm), balancer);
 }
 
 int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {

@@ -1,5 +1,5 @@
 #include "c/balancer.hpp"
-#include "c/ending.hpp"
+#include "c/for_fortran.h"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/watch_mpi.hpp"

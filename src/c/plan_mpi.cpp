@@ -71,14 +71,14 @@ int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column
 
 int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts, const int32_t* previous,
                const rrcb_rank_range* ranks_of_parts, size_t num_parts, int32_t* numbers,
-               rrcb_kept* kept) {
+               rrcb_remap_report* report) {
     return guarded_together(CallName::remap, balancer, [&](auto& own, Participant& self) {
         std::vector<rrcb::RankRange> ranks;
         self.attempt([&] {
             rrcb::c::require_parts(own, num_parts);
             require_array(count, parts, "parts");
             rrcb::c::require(numbers, "numbers");
-            if (kept != nullptr) rrcb::c::require_sized(kept, "kept");
+            if (report != nullptr) rrcb::c::require_sized(report, "report");
             ranks = rrcb::c::ranks_of_parts(ranks_of_parts, own.cuts.num_parts,
                                             rrcb::mpi::size_of(self.comm));
         });
@@ -87,9 +87,9 @@ int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts, cons
         const rrcb::Remap made =
             rrcb::remap(rrcb::c::view(parts, count), earlier, ranks, own.cuts.shape, self);
         std::ranges::copy(made.numbers, numbers);
-        if (kept != nullptr)
+        if (report != nullptr)
             rrcb::c::copy_out(
                 {0, made.identity ? 1 : 0, made.num_points, made.kept_before, made.kept_after},
-                kept);
+                report);
     });
 }

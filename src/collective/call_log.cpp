@@ -20,7 +20,7 @@ std::string_view name_of(CallName call) {
                                "part_weights",
                                "moved_fraction",
                                "assign_all",
-                               "rrcb_create (Python: balance, assign_all)",
+                               "rrcb_balancer_create (Python: balance, assign_all)",
                                "Controller",
                                "Controller::step",
                                "CostModel",

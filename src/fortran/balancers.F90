@@ -297,15 +297,15 @@ contains
   !> @param numbers        numbers(p + 1) gets the new number of part p
   !> @param previous       the part that each point was in; without it points stay on their ranks
   !> @param ranks_of_parts the ranks of part p at p + 1; without it as by rrcb_ranks_of_part
-  !> @param kept           gets how many points stay
-  subroutine remap(self, parts, numbers, error, previous, ranks_of_parts, kept)
+  !> @param report         gets how many points stay
+  subroutine remap(self, parts, numbers, error, previous, ranks_of_parts, report)
     class(rrcb_balancer), intent(inout) :: self
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
     integer(c_int32_t), intent(inout), contiguous :: numbers(:)
     integer, intent(out), optional :: error
     integer(c_int32_t), intent(in), contiguous, optional :: previous(:)
     type(rrcb_rank_range), intent(in), contiguous, optional :: ranks_of_parts(:)
-    type(rrcb_kept), intent(inout), optional :: kept
+    type(rrcb_remap_report), intent(inout), optional :: report
     type(c_ptr) :: now
     integer(c_size_t) :: num_parts
     now = place_of(parts, size(parts, kind=c_size_t))
@@ -315,7 +315,7 @@ contains
     num_parts = size(numbers, kind=c_size_t)
     if (present(ranks_of_parts)) num_parts = min(num_parts, size(ranks_of_parts, kind=c_size_t))
     call settle(c_remap(self%handle, size(parts, kind=c_size_t), now, previous, ranks_of_parts, &
-      num_parts, numbers, kept), error)
+      num_parts, numbers, report), error)
   end subroutine
 
   !> Adds up the weights of each part over all ranks. Collective.

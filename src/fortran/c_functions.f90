@@ -71,9 +71,9 @@ module rrcb_c_functions
   procedure(text), bind(c, name="rrcb_version") :: c_version
   procedure(text), bind(c, name="rrcb_build_info") :: c_build_info
   procedure(text), bind(c, name="rrcb_last_error") :: c_last_error
-  procedure(make_of_comm), bind(c, name="rrcb_create_fortran") :: c_create
+  procedure(make_of_comm), bind(c, name="rrcb_balancer_create_fortran") :: c_create
   procedure(make_of_comm), bind(c, name="rrcb_controller_create_fortran") :: c_controller_create
-  procedure(free), bind(c, name="rrcb_destroy") :: c_destroy
+  procedure(free), bind(c, name="rrcb_balancer_destroy") :: c_destroy
   procedure(free), bind(c, name="rrcb_ghosts_destroy") :: c_ghosts_destroy
   procedure(free), bind(c, name="rrcb_groups_destroy") :: c_groups_destroy
   procedure(free), bind(c, name="rrcb_neighbours_destroy") :: c_neighbours_destroy
@@ -108,12 +108,12 @@ module rrcb_c_functions
       type(c_ptr), value :: part_weights, part_sizes
       real(c_double), intent(inout) :: percent(*)
     end function
-    integer(c_int) function c_set(handle, option, value) bind(c, name="rrcb_set")
+    integer(c_int) function c_set(handle, option, value) bind(c, name="rrcb_balancer_set")
       import
       type(c_ptr), value :: handle
       character(kind=c_char), intent(in) :: option(*), value(*)
     end function
-    integer(c_int) function c_set_part_sizes(handle, count, sizes) bind(c, name="rrcb_set_part_sizes")
+    integer(c_int) function c_set_part_sizes(handle, count, sizes) bind(c, name="rrcb_balancer_set_part_sizes")
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: count
@@ -167,14 +167,14 @@ module rrcb_c_functions
       type(c_plan), intent(inout) :: plan
     end function
     integer(c_int) function c_remap(handle, count, parts, previous, ranks_of_parts, num_parts, &
-                                    numbers, kept) bind(c, name="rrcb_remap")
+                                    numbers, report) bind(c, name="rrcb_remap")
       import
       type(c_ptr), value :: handle, parts
       integer(c_size_t), value :: count, num_parts
       integer(c_int32_t), intent(in), optional :: previous(*)
       type(rrcb_rank_range), intent(in), optional :: ranks_of_parts(*)
       integer(c_int32_t), intent(inout) :: numbers(*)
-      type(rrcb_kept), intent(inout), optional :: kept
+      type(rrcb_remap_report), intent(inout), optional :: report
     end function
     integer(c_int) function c_part_weights(handle, points, parts, num_parts, part_weights) &
       bind(c, name="rrcb_part_weights")

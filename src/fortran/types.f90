@@ -97,7 +97,7 @@ module rrcb_types
   end type
 
   !> Points that stay under the new numbers of parts, and under the old ones.
-  type, public, bind(c) :: rrcb_kept
+  type, public, bind(c) :: rrcb_remap_report
     integer(c_size_t) :: size = 40
     integer(c_int) :: identity = 1
     integer(c_int64_t) :: num_points = 0, kept_before = 0, kept_after = 0

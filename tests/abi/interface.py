@@ -25,7 +25,8 @@ RENAMED = {"limits": "transfer_limits", "plan": "plan_lists"}
 
 def texts(source):
     """Headers in C without comments."""
-    files = sorted((source / "include/rrcb/c").glob("*.h")) + [source / "include/rrcb/rrcb.h"]
+    files = sorted((source / "include/rrcb/c").glob("*.h"))
+    files += [source / "include/rrcb/rrcb.h", source / "src/c/for_fortran.h"]
     return "\n".join(bare(file.read_text()) for file in files)
 
 

@@ -60,12 +60,12 @@ class Sizes : public testing::Test {
             x_.insert(x_.end(), {0.025 * i + 0.001 * rank(), 0.3 + 0.01 * (i % 7)});
         parts_.resize(40);
         points_ = rrcb_interleaved_points(RRCB_DOUBLE, 2, 40, x_.data(), nullptr);
-        ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer_), RRCB_OK);
+        ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer_), RRCB_OK);
         ASSERT_EQ(rrcb_balance(balancer_, &points_, parts_.data()), RRCB_OK) << rrcb_last_error();
         ASSERT_EQ(rrcb_plan(balancer_, 40, parts_.data()), RRCB_OK);
         ASSERT_EQ(rrcb_get_plan(balancer_, &plan_), RRCB_OK);
     }
-    void TearDown() override { rrcb_destroy(&balancer_); }
+    void TearDown() override { rrcb_balancer_destroy(&balancer_); }
 
     /// Refuses structs without a size, and with members that the library lacks.
     template <class Struct, class Call>
@@ -126,12 +126,12 @@ TEST_F(Sizes, of_results_are_kept) {
         "RRCB_TRANSFER_REPORT_INIT");
     std::vector<std::int32_t> numbers(static_cast<std::size_t>(num_ranks()));
     expect_filled(
-        rrcb_kept RRCB_KEPT_INIT,
+        rrcb_remap_report RRCB_REMAP_REPORT_INIT,
         [&](auto* to) {
             return rrcb_remap(balancer_, 40, parts_.data(), nullptr, nullptr, numbers.size(),
                               numbers.data(), to);
         },
-        "RRCB_KEPT_INIT", 1);
+        "RRCB_REMAP_REPORT_INIT", 1);
 }
 
 TEST_F(Sizes, of_lists_and_views_are_kept) {

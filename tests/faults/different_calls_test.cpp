@@ -104,12 +104,12 @@ std::vector<NamedCall> all_calls() {
          [](Input&) {
              CostModel{world, 1};
          }},
-        {"rrcb_create (Python: balance, assign_all)",
+        {"rrcb_balancer_create (Python: balance, assign_all)",
          [](Input&) {
              rrcb_balancer* made = nullptr;
-             if (rrcb_create(world, &made) != RRCB_OK)
+             if (rrcb_balancer_create(world, &made) != RRCB_OK)
                  throw Error(ErrorCode::mpi, rrcb_last_error());
-             rrcb_destroy(&made);
+             rrcb_balancer_destroy(&made);
          }},
     };
 }
@@ -191,7 +191,7 @@ TEST_F(DifferentCalls, give_a_c_program_the_code_and_the_text) {
         rrcb_interleaved_points(RRCB_DOUBLE, 2, in.points.count, in.coordinates.data(), nullptr);
     std::vector<std::int32_t> parts(in.points.count);
     rrcb_balancer* balancer = nullptr;
-    ASSERT_EQ(rrcb_create(world, &balancer), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_create(world, &balancer), RRCB_OK);
     EXPECT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
     const int code = rank() == 1 ? rrcb_plan(balancer, parts.size(), parts.data())
                                  : rrcb_balance(balancer, &points, parts.data());
@@ -201,7 +201,7 @@ TEST_F(DifferentCalls, give_a_c_program_the_code_and_the_text) {
                  "the same order");
     EXPECT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, in.balanced.parts);
-    rrcb_destroy(&balancer);
+    rrcb_balancer_destroy(&balancer);
 }
 
 }  // namespace

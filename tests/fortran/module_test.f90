@@ -21,7 +21,7 @@ program module_test
   type(rrcb_ghost_plan) :: ghost_plan
   type(rrcb_report) :: report
   type(rrcb_transfer_report) :: messages
-  type(rrcb_kept) :: kept
+  type(rrcb_remap_report) :: kept
   type(rrcb_rank_range) :: ranks
   type(rrcb_cuts) :: cuts
   real(c_double), allocatable, target :: x(:, :), weights(:), moved(:, :), moved_weights(:)
@@ -210,7 +210,7 @@ program module_test
   call rrcb_ranks_of_part(2_c_int32_t, 3, 7, ranks, error)
   call expect(error == rrcb_ok .and. ranks%first_rank == 5 .and. ranks%count == 2, "ranks_of_part")
   ! All points are on rank 0, where the largest part is to be.
-  call balancer%remap(parts, new_numbers, error, kept=kept)
+  call balancer%remap(parts, new_numbers, error, report=kept)
   call expect(error == rrcb_ok .and. new_numbers(2) == 0 .and. kept%kept_after == 150, "remap")
   call balancer%remap(parts, new_numbers, error, previous=parts)
   call expect(error == rrcb_ok .and. all(new_numbers == [0, 1, 2]), "remap of previous")

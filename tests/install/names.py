@@ -45,7 +45,7 @@ ONLY_CPP = {
 }
 # Functions in C alone: a handle holds what is an argument or a result in C++.
 ONLY_C = {
-    "rrcb_create", "rrcb_destroy", "rrcb_set", "rrcb_set_part_sizes", "rrcb_set_cuts", "rrcb_clear_cuts",
+    "rrcb_balancer_create", "rrcb_balancer_destroy", "rrcb_balancer_set", "rrcb_balancer_set_part_sizes", "rrcb_set_cuts", "rrcb_clear_cuts",
     "rrcb_get_cuts", "rrcb_get_plan", "rrcb_get_report", "rrcb_ghosts_destroy",
     "rrcb_ghosts_get_plan", "rrcb_groups_destroy",
     "rrcb_groups_fetch",  # an overload
@@ -86,7 +86,7 @@ NOT_PYTHON = {
 }
 CLASSES = {"Controller": "controller", "CostModel": "cost_model", "Groups": "groups",
            "Neighbours": "neighbours"}
-HANDLES = ["controller", "cost_model", "ghosts", "groups", "neighbours"]
+HANDLES = ["balancer", "controller", "cost_model", "ghosts", "groups", "neighbours"]
 
 
 def declarations(text):
@@ -230,8 +230,6 @@ def main():
     in_module = set(re.findall(r'name="(rrcb_\w+)"', "".join(
         file.read_text() for file in (source / "src/fortran").glob("c_*.f90"))))
     fortran = procedures_of_fortran(source / "src/fortran")
-    of_fortran = {name for name in c if name.endswith("_fortran")}
-    c -= of_fortran
 
     wanted_c = {expected_in_c(name): name for name in cpp} | {name: name for name in ONLY_C}
     wanted_c.pop(None, None)

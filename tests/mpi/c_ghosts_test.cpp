@@ -19,7 +19,7 @@ class CGhosts : public testing::Test {
         for (std::size_t i = 0; i < 3 * count; ++i) coordinates.push_back(uniform(random));
         for (std::size_t i = 0; i < count; ++i) weights.push_back(uniform(random));
         parts.resize(count);
-        ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
+        ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
         in_c = rrcb_interleaved_points(RRCB_DOUBLE, 3, count, coordinates.data(), weights.data());
         ASSERT_EQ(rrcb_balance(balancer, &in_c, parts.data()), RRCB_OK) << rrcb_last_error();
         cuts = rrcb::balance(points(), {}, {}, MPI_COMM_WORLD).cuts;
@@ -27,7 +27,7 @@ class CGhosts : public testing::Test {
     }
     void TearDown() override {
         rrcb_ghosts_destroy(&ghosts);
-        rrcb_destroy(&balancer);
+        rrcb_balancer_destroy(&balancer);
     }
 
     /// Lets points stay where they are.
@@ -377,7 +377,7 @@ TEST_F(CGhosts, part_numbers_are_those_of_cpp) {
                                    : remap(parts, ranks, MPI_COMM_WORLD, cuts.shape);
         std::vector<std::int32_t> numbers(ranks.size());
         const std::int32_t* earlier = previous.empty() ? nullptr : previous.data();
-        rrcb_kept kept = RRCB_KEPT_INIT;
+        rrcb_remap_report kept = RRCB_REMAP_REPORT_INIT;
         ASSERT_EQ(rrcb_remap(balancer, parts.size(), parts.data(), by_previous ? earlier : nullptr,
                              nullptr, numbers.size(), numbers.data(), &kept),
                   RRCB_OK)

@@ -11,7 +11,7 @@ using test::expect_refused;
 class CHandles : public testing::Test {
   protected:
     void SetUp() override {
-        ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
+        ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
         ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
         rrcb_cuts shown = RRCB_CUTS_INIT;
         ASSERT_EQ(rrcb_get_cuts(balancer, &shown), RRCB_OK);
@@ -32,7 +32,7 @@ class CHandles : public testing::Test {
         rrcb_controller_destroy(&controller);
         rrcb_groups_destroy(&groups);
         rrcb_ghosts_destroy(&ghosts);
-        rrcb_destroy(&balancer);
+        rrcb_balancer_destroy(&balancer);
     }
 
     std::array<double, 4> coordinates{0.1, 0.2, 0.3, 0.4};
@@ -59,7 +59,7 @@ TEST_F(CHandles, are_null_after_they_are_destroyed_once_or_twice) {
     expect_refused(rrcb_cost_model_uses_costs(model, &due), "model" + gone);
     expect_refused(rrcb_groups_points(groups, &shown), "groups" + gone);
     expect_refused(rrcb_ghosts_get_plan(ghosts, &plan), "ghosts" + gone);
-    rrcb_destroy(nullptr);
+    rrcb_balancer_destroy(nullptr);
     rrcb_ghosts_destroy(nullptr);
 }
 
@@ -68,7 +68,7 @@ TEST_F(CHandles, in_use_are_refused_as_room_for_new_ones) {
     rrcb_balancer* fresh = nullptr;
     rrcb_balancer** room = is_last_rank() ? &balancer : &fresh;
     rrcb_balancer* const before = balancer;
-    expect_refused(rrcb_create(MPI_COMM_WORLD, room), "balancer" + in_use);
+    expect_refused(rrcb_balancer_create(MPI_COMM_WORLD, room), "balancer" + in_use);
     EXPECT_EQ(fresh, nullptr);
     EXPECT_EQ(balancer, before);
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
@@ -151,14 +151,15 @@ TEST_F(CHandles, take_and_show_the_numbers_and_the_debt_of_cuts) {
 
 TEST_F(CHandles, make_one_part_for_each_rank_if_asked_for_none) {
     for (const char* number : {"0", "AUTO"}) {
-        ASSERT_EQ(rrcb_set(balancer, "num_parts", "7"), RRCB_OK);
-        ASSERT_EQ(rrcb_set(balancer, "num_parts", number), RRCB_OK) << rrcb_last_error();
+        ASSERT_EQ(rrcb_balancer_set(balancer, "num_parts", "7"), RRCB_OK);
+        ASSERT_EQ(rrcb_balancer_set(balancer, "num_parts", number), RRCB_OK) << rrcb_last_error();
         ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
         rrcb_cuts cuts = RRCB_CUTS_INIT;
         ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
         EXPECT_EQ(cuts.num_parts, num_ranks());
     }
-    expect_refused(rrcb_set(balancer, "num_parts", "-1"), "or 0 or AUTO for one part per rank");
+    expect_refused(rrcb_balancer_set(balancer, "num_parts", "-1"),
+                   "or 0 or AUTO for one part per rank");
 }
 
 }  // namespace

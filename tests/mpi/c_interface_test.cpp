@@ -1,4 +1,5 @@
 // The interface in C beside the one in C++, which is the reference.
+#include "c/for_fortran.h"
 #include "c_calls.hpp"
 
 namespace rrcb {
@@ -32,8 +33,8 @@ struct Cloud {
 
 class CInterface : public testing::Test {
   protected:
-    void SetUp() override { ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK); }
-    void TearDown() override { rrcb_destroy(&balancer); }
+    void SetUp() override { ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_OK); }
+    void TearDown() override { rrcb_balancer_destroy(&balancer); }
 
     int balance(const Cloud& cloud) {
         parts.assign(cloud.count(), -1);
@@ -70,8 +71,9 @@ void CInterface::expect_as_in_cpp(
     const std::vector<std::pair<const char*, std::string>>& settings) {
     const Cloud cloud(dimension);
     for (const auto& [name, value] : settings)
-        ASSERT_EQ(rrcb_set(balancer, name, value.c_str()), RRCB_OK) << rrcb_last_error();
-    ASSERT_EQ(rrcb_set_part_sizes(balancer, options.part_sizes.size(), options.part_sizes.data()),
+        ASSERT_EQ(rrcb_balancer_set(balancer, name, value.c_str()), RRCB_OK) << rrcb_last_error();
+    ASSERT_EQ(rrcb_balancer_set_part_sizes(balancer, options.part_sizes.size(),
+                                           options.part_sizes.data()),
               RRCB_OK);
     ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
     const Balance expected = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
@@ -119,7 +121,7 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
 
     const rrcb_points points = cloud.in_c();
     rrcb_balancer* other = nullptr;
-    ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &other), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &other), RRCB_OK);
     ASSERT_EQ(rrcb_set_cuts(other, &cuts), RRCB_OK);
     parts.assign(cloud.count(), -1);
     ASSERT_EQ(rrcb_assign(other, &points, parts.data()), RRCB_OK);
@@ -140,13 +142,13 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
         EXPECT_LE(box.lower[a], middle[a]);
         EXPECT_GE(box.upper[a], middle[a]);
     }
-    rrcb_destroy(&other);
+    rrcb_balancer_destroy(&other);
 }
 
 TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
     Cloud cloud(2);
     Options options{.imbalance_tolerance = 1.5};
-    ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", "1.5"), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_set(balancer, "imbalance_tolerance", "1.5"), RRCB_OK);
     ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
     const Cuts first = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
     for (double& x : cloud.coordinates) x *= 1.01;
@@ -168,8 +170,8 @@ TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
 TEST_F(CInterface, keeps_uncounted_cuts_within_the_tolerance_only) {
     Cloud cloud(2);
     const Options options{.imbalance_tolerance = 1.1, .refine = Refine::none};
-    ASSERT_EQ(rrcb_set(balancer, "refine", "NONE"), RRCB_OK);
-    ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", "1.1"), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_set(balancer, "refine", "NONE"), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_set(balancer, "imbalance_tolerance", "1.1"), RRCB_OK);
     ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
     const Cuts first = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
     Cuts cuts = first;
@@ -328,27 +330,30 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
 
 TEST_F(CInterface, options_that_differ_fail_on_all) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
-    ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", is_last_rank() ? "1.1" : "1.2"), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_set(balancer, "imbalance_tolerance", is_last_rank() ? "1.1" : "1.2"),
+              RRCB_OK);
     expect_refused(balance(Cloud(2)), "imbalance_tolerance");
     rrcb_cuts cuts = cuts_of(2, 1, nullptr);
     rrcb_balancer* none = nullptr;
-    expect_refused(rrcb_create(MPI_COMM_NULL, &none), "COMM_NULL");
+    expect_refused(rrcb_balancer_create(MPI_COMM_NULL, &none), "COMM_NULL");
     EXPECT_EQ(none, nullptr);
     rrcb_balancer** const room = is_last_rank() ? nullptr : &none;
-    expect_refused(rrcb_create(MPI_COMM_WORLD, room), "null");
+    expect_refused(rrcb_balancer_create(MPI_COMM_WORLD, room), "null");
     EXPECT_EQ(none, nullptr);
     EXPECT_EQ(rrcb_set_cuts(balancer, &cuts), RRCB_OK);
 }
 
 TEST_F(CInterface, names_what_it_does_not_know) {
-    EXPECT_EQ(rrcb_set(balancer, "colour", "blue"), RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_balancer_set(balancer, "colour", "blue"), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_last_error(), "there is no option \"colour\"; docs/parameters.md lists them");
-    expect_refused(rrcb_set(balancer, "tolerance", "1.1"), "did you mean imbalance_tolerance?");
-    expect_refused(rrcb_set(balancer, "tree.group_size", "OFF"),
+    expect_refused(rrcb_balancer_set(balancer, "tolerance", "1.1"),
+                   "did you mean imbalance_tolerance?");
+    expect_refused(rrcb_balancer_set(balancer, "tree.group_size", "OFF"),
                    "or 0 or AUTO for the parts of each machine");
-    expect_refused(rrcb_set(balancer, "part_sizes", "1 2"), "call rrcb_set_part_sizes");
-    expect_refused(rrcb_set(balancer, "refine", "twice"), "EXACT");
-    EXPECT_EQ(rrcb_set(nullptr, "refine", "NONE"), RRCB_INVALID_ARGUMENT);
+    expect_refused(rrcb_balancer_set(balancer, "part_sizes", "1 2"),
+                   "call rrcb_balancer_set_part_sizes");
+    expect_refused(rrcb_balancer_set(balancer, "refine", "twice"), "EXACT");
+    EXPECT_EQ(rrcb_balancer_set(nullptr, "refine", "NONE"), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_last_error(), "balancer is null: it was not created, or is destroyed");
     const rrcb_cuts no_tree = cuts_of(2, 3, nullptr);
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_tree), RRCB_INVALID_ARGUMENT);
@@ -360,7 +365,7 @@ TEST_F(CInterface, names_what_it_does_not_know) {
         const rrcb_cuts nowhere = cuts_of(dimension, 1, nullptr);
         expect_refused(rrcb_set_cuts(balancer, &nowhere), "1, 2 or 3 dimensions");
     }
-    rrcb_destroy(nullptr);
+    rrcb_balancer_destroy(nullptr);
 }
 
 TEST_F(CInterface, refuses_numbers_that_a_flag_does_not_have) {
@@ -482,7 +487,7 @@ TEST_F(CInterface, saves_and_loads_cuts) {
     std::size_t size = 0;
     ASSERT_EQ(rrcb_save_cuts(balancer, &bytes, &size), RRCB_OK) << rrcb_last_error();
     rrcb_balancer* other = nullptr;
-    ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &other), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &other), RRCB_OK);
     EXPECT_EQ(rrcb_load_cuts(other, bytes, size - 1), RRCB_INVALID_ARGUMENT);
     EXPECT_EQ(rrcb_load_cuts(other, nullptr, size), RRCB_INVALID_ARGUMENT);
     ASSERT_EQ(rrcb_load_cuts(other, bytes, size), RRCB_OK) << rrcb_last_error();
@@ -490,7 +495,7 @@ TEST_F(CInterface, saves_and_loads_cuts) {
     ASSERT_EQ(rrcb_get_cuts(other, &cuts), RRCB_OK);
     expect_same_cuts(cuts, load<Cuts>({static_cast<const std::byte*>(bytes), size}));
     EXPECT_EQ(rrcb_save_cuts(balancer, nullptr, &size), RRCB_INVALID_ARGUMENT);
-    rrcb_destroy(&other);
+    rrcb_balancer_destroy(&other);
 }
 
 TEST(CCostModel, continues_from_saved_bytes) {

@@ -24,7 +24,7 @@ class CNeighbours : public testing::Test {
         std::tie(x_, ids_) =
             transfer(plan(made, MPI_COMM_WORLD), columns(column(x_, 2), ids_), MPI_COMM_WORLD);
         cuts_ = made.cuts;
-        ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer_), RRCB_OK);
+        ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer_), RRCB_OK);
         std::vector<rrcb_cut> tree;
         for (const Cut& cut : cuts_.tree)
             tree.push_back({static_cast<std::int32_t>(cut.axis),
@@ -61,7 +61,7 @@ class CNeighbours : public testing::Test {
     }
     void TearDown() override {
         rrcb_neighbours_destroy(&neighbours_);
-        rrcb_destroy(&balancer_);
+        rrcb_balancer_destroy(&balancer_);
         EXPECT_EQ(neighbours_, nullptr);
         for (const rrcb_array& array : {columns_[0], ghosts_[0], ghosts_[1]})
             std::free(array.values);

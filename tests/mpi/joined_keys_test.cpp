@@ -95,12 +95,12 @@ TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
 
     Keys in_c(mine.size());
     rrcb_balancer* balancer = nullptr;
-    ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
     const Keys given = here(all, 2, homes);
     EXPECT_EQ(rrcb_join_keys(balancer, in_c.size(), 2, given.data(), in_c.data()), RRCB_OK);
     EXPECT_EQ(in_c, joined);
     EXPECT_EQ(rrcb_join_keys(balancer, 1, 2, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
-    rrcb_destroy(&balancer);
+    rrcb_balancer_destroy(&balancer);
 }
 
 TEST(JoinedKeys, of_a_wrong_length_are_refused_on_all_ranks) {

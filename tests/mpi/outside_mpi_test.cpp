@@ -1,5 +1,6 @@
 // Calls before MPI_Init and after MPI_Finalize are errors, in C as well.
 #include "../support/common.hpp"
+#include "c/for_fortran.h"
 
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
@@ -29,7 +30,7 @@ void expect_errors() {
     expect_error([&] { Controller controller(MPI_COMM_WORLD); });
     expect_error([&] { CostModel model(MPI_COMM_WORLD, 2); });
     rrcb_balancer* balancer = nullptr;
-    EXPECT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_INVALID_ARGUMENT);
     EXPECT_EQ(rrcb_last_error(), text);
     rrcb_controller* controller = nullptr;
     EXPECT_EQ(rrcb_controller_create_fortran(0, &controller), RRCB_INVALID_ARGUMENT);
@@ -44,7 +45,7 @@ TEST(OutsideMpi, calls_are_errors) {
     controller->step(1);
     model->step(1, {{1.0}});
     rrcb_balancer* balancer = nullptr;
-    ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
+    ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
     MPI_Finalize();
     expect_errors();
     expect_error([&] { controller->step(1); });
@@ -54,7 +55,7 @@ TEST(OutsideMpi, calls_are_errors) {
     const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 1, 1, &x, nullptr);
     EXPECT_EQ(rrcb_balance(balancer, &points, &part), RRCB_INVALID_ARGUMENT);
     EXPECT_EQ(rrcb_last_error(), text);
-    rrcb_destroy(&balancer);
+    rrcb_balancer_destroy(&balancer);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ def test_names_the_calls_of_ranks_that_differ():
         else:
             balance.ghosts(x, 0.1)
 
-    same_error(different, "rank 0 calls ghosts, rank 1 calls rrcb_create (Python: balance, assign_all);")
+    same_error(different, "rank 0 calls ghosts, rank 1 calls rrcb_balancer_create (Python: balance, assign_all);")
     same_error(lambda: controller.step(1), "make another controller")
     controller.free()
     assert rrcb.balance(x, comm=comm).report == balance.report

@@ -60,35 +60,31 @@ typedef struct rrcb_report {
 /** Makes a balancer with the default options and no cuts. Collective.
  *
  * @param comm     must outlive the balancer
- * @param balancer points to null; gets the balancer, for rrcb_destroy; unchanged if the call fails
+ * @param balancer points to null; gets the balancer, for rrcb_balancer_destroy; unchanged if the
+ * call fails
  */
-RRCB_API int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
-
-/** Does the same from a communicator of Fortran. Collective.
- *
- * @param comm     must outlive the balancer
- * @param balancer as for rrcb_create */
-RRCB_API int rrcb_create_fortran(int comm, rrcb_balancer** balancer);
+RRCB_API int rrcb_balancer_create(MPI_Comm comm, rrcb_balancer** balancer);
 
 /** Frees a balancer, and the cuts and the plan it has shown. Not collective.
  *
  * @param balancer may be null or point to null; its pointer is set to null. Copies of the pointer
  * must not be used any more, which cannot be checked */
-RRCB_API void rrcb_destroy(rrcb_balancer** balancer);
+RRCB_API void rrcb_balancer_destroy(rrcb_balancer** balancer);
 
 /** Sets an option, such as ("refine", "EXACT") or ("axes.min_width", "0.1 0.1"). Not collective.
  *
  * @param balancer the same options on all ranks, which rrcb_balance checks
  * @param option   its name in rrcb::Options
  * @param value    as docs/parameters.md lists them */
-RRCB_API int rrcb_set(rrcb_balancer* balancer, const char* option, const char* value);
+RRCB_API int rrcb_balancer_set(rrcb_balancer* balancer, const char* option, const char* value);
 
 /** Sets the relative weights of the parts. Not collective.
  *
  * @param balancer the same sizes on all ranks, which rrcb_balance checks
  * @param count    one for each part; 0: equal parts
  * @param sizes    0 or more, not all 0 */
-RRCB_API int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes);
+RRCB_API int rrcb_balancer_set_part_sizes(rrcb_balancer* balancer, size_t count,
+                                          const double* sizes);
 
 /** Divides the points of all ranks into parts, as rrcb::balance; starts from the cuts of the
  * balancer, if it has any, and keeps the new ones. Collective. With the option refine NONE, and
@@ -164,8 +160,8 @@ RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* p
 
 /** Writes the region of a part; sides without a cut are +-infinity. Not collective.
  *
- * With rrcb_set("axes.plain", "ON") it contains its lower faces and not its upper ones, see
- * rrcb::box_of.
+ * With rrcb_balancer_set("axes.plain", "ON") it contains its lower faces and not its upper ones,
+ * see rrcb::box_of.
  * @param balancer with cuts
  * @param part     0 ... num_parts - 1
  * @param lower    gets the lower end, of length 3
@@ -219,10 +215,10 @@ RRCB_API int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rr
  * @param ranks_of_parts the ranks of each part; null: as by rrcb_ranks_of_part
  * @param num_parts      that of the cuts, length of `numbers`
  * @param numbers        gets the new number of each part
- * @param kept           gets how many points stay; may be null */
+ * @param report         gets how many points stay; may be null */
 RRCB_API int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts,
                         const int32_t* previous, const rrcb_rank_range* ranks_of_parts,
-                        size_t num_parts, int32_t* numbers, rrcb_kept* kept);
+                        size_t num_parts, int32_t* numbers, rrcb_remap_report* report);
 
 #ifdef __cplusplus
 }

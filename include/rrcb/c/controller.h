@@ -16,18 +16,12 @@ typedef struct rrcb_cost_model rrcb_cost_model;
 /** Makes a controller, as rrcb::Controller. Collective.
  *
  * @param comm       may be freed before the controller
- * @param controller as for rrcb_create */
+ * @param controller as for rrcb_balancer_create */
 RRCB_API int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller);
-
-/** Does the same from a communicator of Fortran. Collective.
- *
- * @param comm       may be freed before the controller
- * @param controller as for rrcb_create */
-RRCB_API int rrcb_controller_create_fortran(int comm, rrcb_controller** controller);
 
 /** Frees a controller, after its cost models. Collective.
  *
- * @param controller as for rrcb_destroy */
+ * @param controller as for rrcb_balancer_destroy */
 RRCB_API void rrcb_controller_destroy(rrcb_controller** controller);
 
 /** Records a step. Collective.
@@ -73,18 +67,9 @@ RRCB_API int rrcb_controller_save(rrcb_controller* controller, const void** byte
  * @param comm       may be freed before the controller
  * @param bytes      the same on every rank
  * @param size       number of them
- * @param controller as for rrcb_create */
+ * @param controller as for rrcb_balancer_create */
 RRCB_API int rrcb_controller_load(MPI_Comm comm, const void* bytes, size_t size,
                                   rrcb_controller** controller);
-
-/** Does the same from a communicator of Fortran. Collective.
- *
- * @param comm       may be freed before the controller
- * @param bytes      the same on every rank
- * @param size       number of them
- * @param controller as for rrcb_create */
-RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t size,
-                                          rrcb_controller** controller);
 
 /** Makes a cost model, as rrcb::CostModel. Collective.
  *
@@ -92,22 +77,13 @@ RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t si
  * @param controller  carries the sums with its steps: outlives the model, has recorded none. Null:
  * the model has a communicator of its own
  * @param num_columns the same on every rank
- * @param model       as for rrcb_create */
+ * @param model       as for rrcb_balancer_create */
 RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                                     rrcb_cost_model** model);
 
-/** Does the same from a communicator of Fortran. Collective.
- *
- * @param comm        may be freed before the model
- * @param controller  address of a controller, or null
- * @param num_columns the same on every rank
- * @param model       as for rrcb_create */
-RRCB_API int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* controller,
-                                            int num_columns, rrcb_cost_model** model);
-
 /** Frees a cost model. Collective unless it was made with a controller.
  *
- * @param model as for rrcb_destroy */
+ * @param model as for rrcb_balancer_destroy */
 RRCB_API void rrcb_cost_model_destroy(rrcb_cost_model** model);
 
 /** Shows the state as bytes, as rrcb_controller_save. Collective.
@@ -123,19 +99,9 @@ RRCB_API int rrcb_cost_model_save(rrcb_cost_model* model, const void** bytes, si
  * @param controller loaded before, outlives the model; null: as for rrcb_cost_model_create
  * @param bytes      the same on every rank
  * @param size       number of them
- * @param model      as for rrcb_create */
+ * @param model      as for rrcb_balancer_create */
 RRCB_API int rrcb_cost_model_load(MPI_Comm comm, rrcb_controller* controller, const void* bytes,
                                   size_t size, rrcb_cost_model** model);
-
-/** Does the same from a communicator of Fortran. Collective.
- *
- * @param comm       may be freed before the model
- * @param controller address of a controller, or null
- * @param bytes      the same on every rank
- * @param size       number of them
- * @param model      as for rrcb_create */
-RRCB_API int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller,
-                                          const void* bytes, size_t size, rrcb_cost_model** model);
 
 /** Records a step, also in the controller of the model, whose decision rrcb_controller_due returns.
  * Collective.

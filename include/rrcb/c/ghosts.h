@@ -60,13 +60,13 @@ typedef struct rrcb_ghost_plan {
  * @param points   of this rank, after rrcb_transfer; refused if they are those of the balance or
  * of rrcb_assign_all, and one has yet to leave its rank
  * @param options  radius, periodic box, ranks of the parts
- * @param ghosts   as for rrcb_create */
+ * @param ghosts   as for rrcb_balancer_create */
 RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const rrcb_ghost_options* options, rrcb_ghosts** ghosts);
 
 /** Frees ghosts and their lists. Not collective.
  *
- * @param ghosts as for rrcb_destroy */
+ * @param ghosts as for rrcb_balancer_destroy */
 RRCB_API void rrcb_ghosts_destroy(rrcb_ghosts** ghosts);
 
 /** Shows the lists. Not collective.

@@ -25,7 +25,7 @@ typedef enum rrcb_group_place {
  * @param points   of this rank
  * @param keys     one for each point; RRCB_NO_GROUP for a point that needs none
  * @param place    an rrcb_group_place, the same on every rank
- * @param groups   as for rrcb_create */
+ * @param groups   as for rrcb_balancer_create */
 RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const uint64_t* keys, int place, rrcb_groups** groups);
 
@@ -41,7 +41,7 @@ RRCB_API int rrcb_join_keys(const rrcb_balancer* balancer, size_t count, size_t 
 
 /** Frees groups and their points. Not collective.
  *
- * @param groups as for rrcb_destroy */
+ * @param groups as for rrcb_balancer_destroy */
 RRCB_API void rrcb_groups_destroy(rrcb_groups** groups);
 
 /** Shows the groups of this rank as points, for rrcb_balance. Not collective.

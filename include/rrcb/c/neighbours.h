@@ -69,14 +69,14 @@ typedef struct rrcb_shared_entries {
  *
  * @param balancer   with cuts; not needed afterwards, but its communicator is
  * @param options    distances, periodic box, ranks of the parts
- * @param neighbours as for rrcb_create */
+ * @param neighbours as for rrcb_balancer_create */
 RRCB_API int rrcb_neighbours_create(const rrcb_balancer* balancer,
                                     const rrcb_neighbour_options* options,
                                     rrcb_neighbours** neighbours);
 
 /** Frees neighbours and their lists. Not collective.
  *
- * @param neighbours as for rrcb_destroy */
+ * @param neighbours as for rrcb_balancer_destroy */
 RRCB_API void rrcb_neighbours_destroy(rrcb_neighbours** neighbours);
 
 /** Sends points that have left the parts of this rank to their ranks, and takes theirs, in place;

@@ -76,17 +76,17 @@ typedef struct rrcb_transfer_report {
     { sizeof(rrcb_transfer_report), 0, 0, 0 }
 
 /** Points that stay under the old and new numbers of parts, over all ranks; as rrcb::Remap. */
-typedef struct rrcb_kept {
-    size_t size;         /**< of this struct, set by RRCB_KEPT_INIT */
+typedef struct rrcb_remap_report {
+    size_t size;         /**< of this struct, set by RRCB_REMAP_REPORT_INIT */
     int identity;        /**< 1: no number changes */
     int64_t num_points;  /**< over all ranks */
     int64_t kept_before; /**< of the points, those that stay when no number changes */
     int64_t kept_after;  /**< those that stay under the new numbers */
-} rrcb_kept;
+} rrcb_remap_report;
 
 /** No points. */
-#define RRCB_KEPT_INIT \
-    { sizeof(rrcb_kept), 0, 0, 0, 0 }
+#define RRCB_REMAP_REPORT_INIT \
+    { sizeof(rrcb_remap_report), 0, 0, 0, 0 }
 
 /** Writes the ranks of a part, as rrcb::ranks_of_part. Not collective.
  *

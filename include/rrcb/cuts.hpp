@@ -57,7 +57,8 @@ struct Cuts {
     bool empty() const { return dimension == 0 && tree.empty(); }
     /// Returns the part at an end of the tree. Not collective.
     Part part_at(Part end) const {
-        return numbers.empty() ? shape.part_at(end, num_parts) : numbers[end];
+        return numbers.empty() ? shape.part_at(end, num_parts)
+                               : numbers[static_cast<std::size_t>(end)];
     }
     /// Returns true if end k is part k. Not collective.
     bool is_numbered_in_order() const { return numbers.empty() && shape.dealt == 0; }

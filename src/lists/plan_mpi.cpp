@@ -31,8 +31,8 @@ int destination_of(Part part, int num_parts, int rank, int num_ranks) {
     return ranks.first_rank + rank % ranks.count;
 }
 
-/// Returns the first rank of a part if ranks outnumber parts. The parts just before the last get
-/// the ranks left over, one each.
+/// Returns the first rank of a part if there are more ranks than parts. Ranks that are left over
+/// go to the parts just before the last one, one to each.
 int first_rank_of(Part part, int num_parts, int num_ranks) {
     if (part == num_parts) return num_ranks;
     const int left_over = num_ranks % num_parts;

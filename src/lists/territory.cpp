@@ -80,7 +80,8 @@ std::vector<int> Territory::near_ranks() const {
         const NearBoxes near(cuts_, {ranks_of, rank_, region, reach_, images()});
         ranks.insert(ranks.end(), near.ranks().begin(), near.ranks().end());
     }
-    // So that each rank is connected to all others, see Neighbours.
+    // A rank without regions has the ranks before and after it as neighbours, so that errors reach
+    // all ranks, see Neighbours.
     if (regions_.empty() && rank_ > 0) ranks.push_back(rank_ - 1);
     if (regions_.empty() && rank_ + 1 < num_ranks_) ranks.push_back(rank_ + 1);
     std::ranges::sort(ranks);

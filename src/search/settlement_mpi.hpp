@@ -73,8 +73,9 @@ struct SettledCuts {
 /// Buffers are made before the first message.
 class Settlement {
   public:
-    /// Borrows complete options, the points and memory for them; `counts` if parts may be counted
-    /// though no cut moves. Not collective. Throws Error or std::bad_alloc.
+    /// Borrows complete options, the points, and memory for open points. If `counts` is true, the
+    /// points of the parts are counted even if no cut moves. Not collective. Throws Error or
+    /// std::bad_alloc.
     Settlement(const Options& options, PointPasses& points, bool counts, OpenMemory& memory,
                const Participant& self);
 

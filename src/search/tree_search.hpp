@@ -152,8 +152,8 @@ class TreeSearch {
         Places places{};        ///< allowed for the cut
     };
 
-    /// Answer of an owner, followed by a LotAnswer, or after the first count of a node in a spread
-    /// search by its box.
+    /// Answer of an owner. A LotAnswer may follow it, and the box of the node after the first count
+    /// of the node in a spread search.
     struct Answer {
         CutSearch search;
         double weight = 0;

@@ -46,7 +46,7 @@ struct PartSize {
     int part = 0;
     bool global = true;  ///< false: the part is counted from the first one on this rank
     float size = 0;
-    int weight = 0;  ///< number of its whole weight
+    int weight = 0;  ///< index of the weight that the size is for
 };
 
 /// Result of the last partition. It is valid while the objects are unchanged and in the parts they
@@ -62,7 +62,7 @@ struct Settings {
     std::vector<PartSize> part_sizes;
     std::optional<KeptObjects> kept;  ///< of the last partition; none once a parameter was changed
     bool zoltan_has_cuts = false;     ///< of the last partition, which the real Zoltan made
-    bool axes_changed = false;        ///< a parameter that chooses axes was changed since
+    bool axes_changed = false;        ///< a parameter that chooses axes was changed after it
     bool deserialized = false;        ///< Zoltan's parameters were set without the plug-in
     bool replacement_asked = false;   ///< by RRCB_REPLACE, on any rank of the communicator
     bool is_verbose = false;          ///< by RRCB_VERBOSE, on any rank of the communicator

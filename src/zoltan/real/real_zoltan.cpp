@@ -22,7 +22,7 @@ class Finder {
         require(found);
     }
 
-    /// Requires a function called by name.
+    /// Throws unless Zoltan has a function of this name, which callers look up by it.
     void find(const char* name) { require(Found(name)); }
 
     /// Finds a function in the library of those found so far; null if it has none. One in another

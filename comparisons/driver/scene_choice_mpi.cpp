@@ -21,11 +21,12 @@ struct SceneRow {
     double end_time = 0;   ///< s; 0: the file's
 };
 
-constexpr std::array<SceneRow, 5> rows{{
+constexpr std::array<SceneRow, 6> rows{{
     {"slope"},
     {"submarine_slide"},
     {"torpedo_anchor"},
     {"dam_break"},
+    {"run_out"},
     // Its file has too few points to share out.
     {"elastic_structure", 0.0625, 1},
 }};

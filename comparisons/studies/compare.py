@@ -10,7 +10,7 @@ comparisons/run [option ...]
   --quick               a small run of everything, to see that it works
  points, one of
   --scene=slope         snapshots of a simulation: slope (the default), submarine_slide,
-                        torpedo_anchor, dam_break, elastic_structure, or a scene file
+                        torpedo_anchor, dam_break, run_out, elastic_structure, or a scene file
   --cloud=NAME          generated: uniform, slope, clusters, lattice, run_out, polygon,
                         shell or spiral, with
       --points=N            how many over all ranks

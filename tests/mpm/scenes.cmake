@@ -178,6 +178,7 @@ mpm_add_scene(elastic_structure RANKS 2 BALANCER rrcb-exact CELL_SIZE 0.25 END_T
               POINTS 384)
 mpm_add_scene(submarine_slide RANKS 3 BALANCER rrcb CELL_SIZE 2.5 END_TIME 1 VTK_EVERY 50 POINTS 4096)
 mpm_add_scene(torpedo_anchor RANKS 3 BALANCER rrcb CELL_SIZE 0.375 END_TIME 0.1 VTK_EVERY 20 POINTS 4288)
+mpm_add_scene(run_out RANKS 4 BALANCER rrcb CELL_SIZE 0.25 END_TIME 0.2 VTK_EVERY 20 POINTS 1728)
 mpm_add_scene(axial_bar RANKS 2 BALANCER none CELL_SIZE 1 END_TIME 0.5 VTK_EVERY 40 POINTS 100)
 mpm_add_scene(granular_column RANKS 2 BALANCER rrcb-cells CELL_SIZE 0.2 END_TIME 0.3 VTK_EVERY 40
               POINTS 800)

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace mpm {
 
@@ -54,6 +55,15 @@ void check_plane(const Scene& scene, const Plane& plane) {
     check_friction(plane.friction, place);
 }
 
+/// A parameter that only another one makes use of is refused without that.
+void check_partners(const Material& material) {
+    for (const auto& [key, partner] : {std::pair("softening_strain", "residual_ratio"),
+                                       std::pair("reference_rate", "rate_factor")})
+        if (material.parameters.contains(key) && !material.parameters.contains(partner))
+            throw std::invalid_argument("materials / " + material.name + ": '" + key +
+                                        "' has no effect without '" + partner + "'");
+}
+
 /// All effects of water must be in the same.
 void check_water(const std::vector<NamedEffect>& effects) {
     double density = 0;
@@ -89,7 +99,10 @@ const Effect* find_effect(const Scene& scene, const std::string& name) {
 void validate(const Scene& scene) {
     check_grid(scene);
     require(!scene.bodies.empty(), "there is no body");
-    for (const Material& material : scene.materials) values_of(material, scene.dimension);
+    for (const Material& material : scene.materials) {
+        values_of(material, scene.dimension);
+        check_partners(material);
+    }
     for (const Body& body : scene.bodies) check_body(scene, body);
     const Walls& walls = scene.walls;
     for (const Wall* wall :

@@ -103,6 +103,10 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
         warnings.push_back("method: the courant_number " + written(scene.courant_number) +
                            " is above " + written(stable) +
                            ", up to which these shape functions were found stable; lower it");
+    if (scene.dimension == 2 && find_effect(scene, "penetrator") != nullptr)
+        warnings.push_back(
+            "effects / penetrator: in two dimensions it is a plate without an end, "
+            "not a cylinder; take depths from three");
     for (const Material& material : scene.materials) check_material(scene, material, warnings);
     for (const Body& body : scene.bodies) check_bounds(scene, body, warnings);
     for (const Probe& probe : scene.probes) check_probe(scene, probe, warnings);

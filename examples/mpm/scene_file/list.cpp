@@ -6,6 +6,7 @@
 #include <Teuchos_YamlParameterListCoreHelpers.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
@@ -52,17 +53,34 @@ List converted(const Teuchos::ParameterList& from, const std::string& name,
     return list;
 }
 
-/// Returns what Teuchos says of a text, without places in its own source.
-std::string readable(const std::string& message) {
+/// A line of a text without the spaces around it; the first is number 1.
+std::string line_of(const std::string& text, int number) {
+    std::istringstream lines(text);
+    std::string line;
+    while (number-- > 0) std::getline(lines, line);
+    const std::size_t begin = line.find_first_not_of(" \t\r"), end = line.find_last_not_of(" \t\r");
+    return begin == std::string::npos ? "" : line.substr(begin, end + 1 - begin);
+}
+
+/// Returns the fault that Teuchos names in a text of YAML, in one line.
+std::string fault_of(const std::string& text, const std::string& message) {
+    constexpr const char* bad_character = "Unexpected character code";
     std::istringstream lines(message);
-    std::string readable;
-    for (std::string line; std::getline(lines, line);) {
-        line = line.substr(0, line.find(" in list \"ANONYMOUS\""));
-        if (!line.empty() && !line.starts_with("./") && !line.starts_with("Throw") &&
-            !line.starts_with("error: Parser failure"))
-            readable += "\n" + line;
+    std::string before, fault = "its brackets, colons or indents do not match";
+    for (std::string line; std::getline(lines, line); before = line) {
+        if (line.find("already exists") != std::string::npos)
+            return line.substr(0, line.find(" in list \"ANONYMOUS\""));
+        const std::size_t at = line.find(" at line ");
+        if (line.find(bad_character) != std::string::npos && at != std::string::npos) {
+            const int number = std::atoi(line.c_str() + at + 9);
+            return "line " + std::to_string(number) + ", '" + line_of(text, number) +
+                   "', has a character that is not ASCII";
+        }
+        // The parser points with a caret to the place in the line before.
+        if (!line.empty() && line.find_first_not_of(' ') == line.find('^') && !before.empty())
+            fault = "near '" + line_of(before, 1) + "'";
     }
-    return readable;
+    return fault;
 }
 
 }  // namespace
@@ -102,9 +120,11 @@ List parse_list(const std::string& text) {
         list = Teuchos::getParametersFromYamlString(text);
     } catch (const std::exception& error) {
         throw std::invalid_argument(
-            "is not understood; it must be one list named scene, in YAML, each key once:" +
-            readable(error.what()));
+            "is not understood; it must be one list named scene, in YAML, each key once: " +
+            fault_of(text, error.what()));
     }
+    if (list->name() != "scene")
+        throw std::invalid_argument("must be one list named scene, not '" + list->name() + "'");
     return converted(*list, "scene", "scene");
 }
 

@@ -75,6 +75,17 @@ Shape ball_shape(const Values& values) {
     return ball;
 }
 
+/// Twice the area of a polygon, by the shoelace formula.
+double twice_area(const std::vector<Vector>& corners) {
+    double sum = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vector &a = corners[k], &b = corners[(k + 1) % corners.size()];
+        sum += (a[0] - corners[0][0]) * (b[1] - corners[0][1]) -
+               (b[0] - corners[0][0]) * (a[1] - corners[0][1]);
+    }
+    return std::abs(sum);
+}
+
 /// Corners are rows of x and y, in three dimensions too.
 Shape polygon_shape(const List& list, const std::vector<double>& rows) {
     if (rows.size() < 6 || rows.size() % 2 != 0)
@@ -88,6 +99,10 @@ Shape polygon_shape(const List& list, const std::vector<double>& rows) {
         polygon.bounds.lower[a] = std::ranges::min(corners, {}, along)[a];
         polygon.bounds.upper[a] = std::ranges::max(corners, {}, along)[a];
     }
+    const double width = polygon.bounds.upper[0] - polygon.bounds.lower[0];
+    const double height = polygon.bounds.upper[1] - polygon.bounds.lower[1];
+    if (!(twice_area(corners) > 1e-9 * std::pow(std::max(width, height), 2)))
+        list.refuse("corners", "must enclose an area: they are on one line");
     return polygon;
 }
 
@@ -130,6 +145,11 @@ VelocityField read_velocity(const List& list, int dimension) {
                      vector("rotation_centre", "m", zero), vector("sine_amplitude", "m/s", zero),
                      vector("sine_wave_number", "rad/m", zero), number("sine_phase", "rad", 0.0)},
                     dimension);
+    constexpr double light = 3e8;
+    for (const char* key : {"constant", "sine_amplitude"})
+        for (const double component : values.list(key))
+            if (!(std::abs(component) < light))
+                list.refuse(key, "must be slower than light, 3e8 m/s");
     return velocity_field({.constant = vector_of(values.list("constant")),
                            .rotation_rate = values.number("rotation_rate"),
                            .rotation_centre = vector_of(values.list("rotation_centre")),

@@ -71,7 +71,35 @@ TEST(SceneFile, names_the_file_the_place_the_key_and_what_is_allowed) {
     expect_names(error_with("[0, -9.81]", "[0, 1, 2]"), {"effects / gravity", "list of 2"});
     expect_names(error_with("material: soil", "material: mud"), {"'mud'", "possible: soil"});
     expect_names(error_with("cells: [116, 38]", "cells: [1.5, 38]"), {"'cells'", "whole"});
-    expect_names(error_with("cells: [116, 38]", "cells: [116, 38"), {"not understood"});
+    expect_names(error_with("cells: [116, 38]", "cells: [116, 38"),
+                 {"not understood", "near 'cell_size: 0.948"});
+    expect_names(error_with("\nscene:", "\nscenery:"), {"named scene, not 'scenery'"});
+    expect_names(error_with("dimension: 2", "dimension: 2\n  dimension: 2"),
+                 {"\"dimension\" already exists"});
+    const std::string cyrillic =
+        error_with("cohesion: 10e3", "\u0441\u0432\u044f\u0437\u044c: 10e3");
+    expect_names(cyrillic, {"'\u0441\u0432\u044f\u0437\u044c: 10e3'", "not ASCII"});
+    EXPECT_EQ(cyrillic.find('\n'), std::string::npos);
+}
+
+TEST(SceneFile, names_what_cannot_be_meant) {
+    expect_names(error_with("material: soil",
+                            "material: soil\n      velocity:\n        constant: [1e200, 0]"),
+                 {"bodies / ground / velocity", "'constant'", "light"});
+    Scene scene = slope_scene(22);
+    scene.materials.front() = clay_material(70e6, 1e4);
+    scene.bodies.front().material = "clay";
+    validate(scene);
+    scene.materials.front().parameters["softening_strain"] = 2.0;
+    try {
+        validate(scene);
+        FAIL() << "it is accepted";
+    } catch (const std::invalid_argument& error) {
+        expect_names(error.what(), {"materials / clay", "'softening_strain'", "'residual_ratio'"});
+    }
+    expect_names(error_with("corners: [[0, -15], [110, -15], [110, 0], [50, 0], [30, 20], [0, 20]]",
+                            "corners: [[0, 0], [1, 1], [2, 2]]"),
+                 {"shapes / outline", "'corners'", "on one line"});
 }
 
 /// The slope's file with a plane named face.

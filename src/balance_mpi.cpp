@@ -229,13 +229,11 @@ Balance make_anew(const Given& given, Participant& self) {
     Balance result{{}, {}, decide_on_all(given, options, mine, decision, self)};
     SettledCuts made{std::move(decision.cuts), std::move(decision.brackets)};
     const Verdict& verdict = decision.verdict;
-    bool has_numbers = verdict.has_numbers != 0;
-    if (verdict.may_turn != 0) has_numbers = turns(decision, made.cuts, given.points, self);
-    if (verdict.may_turn != 0 && has_numbers) {
+    if (verdict.may_turn != 0 && turns(decision, made.cuts, given.points, self)) {
         made = {std::move(decision.turned.cuts), std::move(decision.turned.brackets)};
         result.report.details.estimated_imbalance = verdict.turned_imbalance;
     }
-    if (has_numbers) made.cuts.numbers = std::move(decision.numbers);
+    if (verdict.has_numbers != 0) made.cuts.numbers = std::move(decision.numbers);
     made.cuts.debt = verdict.debt;
     bool is_kept = keeps_at_once(verdict.kept_imbalance, options);
     if (is_kept) {

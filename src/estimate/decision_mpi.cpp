@@ -147,15 +147,6 @@ std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
     return read_kept_tree(extents, estimate, options);
 }
 
-/// Returns the tree that the ranks hold, with the number of the rank at each end.
-Cuts numbered_by_ranks(const KeptTree& held) {
-    Cuts cuts = held.cuts;
-    cuts.numbers.resize(held.parts.size());
-    for (std::size_t rank = 0; rank < held.parts.size(); ++rank)
-        cuts.numbers[held.parts[rank]] = static_cast<Part>(rank);
-    return cuts;
-}
-
 /// Bisects the cells of all ranks, and reads what the ranks hold. If that is a bisection, the cuts
 /// are across its axes; otherwise points at rest might turn in every call. Cuts across other axes
 /// come as well, for points to be counted near them, because the estimate depends on what the ranks
@@ -183,8 +174,6 @@ Bisection make_cuts(const Contribution& all, const Options& options, Decision& d
     if (options.axes.order.is_longest() ||
         (is_even && are_axes_good(domain, decision.held->cuts, made.cuts, enough)))
         return across;
-    keep_numbers(domain, options.part_sizes, numbered_by_ranks(*decision.held), made.cuts);
-    decision.numbers = made.cuts.numbers;
     decision.turned = std::move(made);
     return across;
 }
@@ -253,8 +242,10 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
     const std::size_t num_cuts = num_parts - 1;
     Cuts& cuts = decision.cuts;
     cuts = {dimension, static_cast<int>(num_parts), std::vector<Cut>(num_cuts), options.tree};
-    if (decision.earlier) cuts.numbers = decision.earlier->numbers;
-    if (decision.earlier || may_keep) decision.numbers.resize(num_parts);
+    if (decision.earlier) {
+        cuts.numbers = decision.earlier->numbers;
+        decision.numbers.resize(num_parts);
+    }
     decision.brackets.resize(is_refined(options) ? num_cuts : 0);
     if (may_keep) {
         decision.part_weights.resize(num_parts);

@@ -23,7 +23,12 @@ def shown_by(library):
                           check=True, capture_output=True, text=True).stdout
     names, classes = set(), set()
     for line in text.splitlines():
-        symbol = line.split(maxsplit=2)[2]
+        kind, symbol = line.split(maxsplit=2)[1:]
+        symbol, _, version = symbol.partition("@@")
+        if kind == "A":  # the name of a version
+            continue
+        if not version.startswith("RRCB_CPP_" if "rrcb::" in symbol else "RRCB_C_"):
+            sys.exit(f"{symbol} has the version '{version}'")
         if match := TYPE_DATA.match(symbol):
             classes.add(match[2])
         else:

@@ -32,7 +32,8 @@ ADDRESSES = [
 
 
 def wrong_versions(source, version):
-    names = version, version.rsplit(".", 1)[0]
+    numbers = version.split(".")
+    names = version, ".".join(numbers[:2] if numbers[0] == "0" else numbers[:1])
     for file, line in VERSIONS:
         path = source / file.format(*names)
         lines = path.read_text().splitlines() if path.exists() else []

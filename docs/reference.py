@@ -13,7 +13,7 @@ import reference_members
 import reference_python
 
 CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts", "neighbours",
-       "groups", "remap", "quality", "controller", "cost", "restart", "stages", "error", "version", "eigen",
+       "groups", "remap", "quality", "part_sizes", "controller", "cost", "restart", "stages", "error", "version", "eigen",
        "kokkos", "kokkos/passes", "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
        "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters")
 C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/neighbours", "c/groups", "c/controller",
@@ -24,7 +24,7 @@ FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "arrays.F90",
 TASKS = {"points": "describe points", "views": "describe views", "kokkos": "divide on a device", "options": "choose", "balance": "divide",
          "cuts": "look up", "plan": "plan a move", "transfer": "move columns", "balancer": "divide, look up, move",
          "balancers": "divide, look up, move", "ghosts": "find neighbours and answer queries",
-         "neighbours": "exchange in each step", "arrays": "hold arrays that grow", "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure",
+         "neighbours": "exchange in each step", "arrays": "hold arrays that grow", "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure", "part_sizes": "even out loads",
          "controller": "decide when to rebalance", "controllers": "decide when to rebalance",
          "cost": "learn weights", "restart": "save and load", "error": "handle errors", "paper": "compare"}
 

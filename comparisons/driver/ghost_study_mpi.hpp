@@ -42,4 +42,8 @@ void compare_meshes(bool quick, MPI_Comm comm);
 /// methods. Collective over `comm`.
 void call_with_meshes(int dimension, int num_parts, MPI_Comm comm);
 
+/// Prints the largest loads of parts, points + a cost * ghosts, as part sizes are corrected call by
+/// call; a part for each rank. Collective over `comm`.
+void compare_loads(bool quick, MPI_Comm comm);
+
 }  // namespace comparisons

@@ -4,6 +4,7 @@
 //   rrcb_ghosts clouds [--quick]        clouds of 20,000 points, several seeds
 // On several:
 //   rrcb_ghosts meshes [--quick]        the clouds with support meshes of several sizes
+//   rrcb_ghosts loads [--quick]         loads of the ranks with corrected part sizes
 //   rrcb_ghosts calls DIMENSION PARTS   a call with each of these meshes, for Callgrind
 //
 // A point is a ghost within three times the radius of GhostCounter.
@@ -139,6 +140,8 @@ int main(int argc, char** argv) {
             compare_clouds(quick);
         } else if (!words.empty() && words[0] == "meshes") {
             compare_meshes(quick, MPI_COMM_WORLD);
+        } else if (!words.empty() && words[0] == "loads") {
+            compare_loads(quick, MPI_COMM_WORLD);
         } else if (words.size() == 3 && words[0] == "calls") {
             call_with_meshes(std::stoi(words[1]), std::stoi(words[2]), MPI_COMM_WORLD);
         } else {

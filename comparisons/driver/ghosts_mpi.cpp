@@ -193,6 +193,7 @@ struct Sums {
             ghosts.most_neighbours = std::max(ghosts.most_neighbours, neighbours);
         }
         if (has_machines) ghosts.off_machine = off_machine;
+        ghosts.of_parts = needed;
         return ghosts;
     }
 

@@ -27,6 +27,7 @@ struct Ghosts {
     std::int64_t most = 0;                      ///< that a part needs
     int most_neighbours = 0;                    ///< parts that a part needs ghosts from
     std::optional<std::int64_t> off_machine{};  ///< of the sum, between machines
+    std::vector<std::int64_t> of_parts{};       ///< that each part needs
 };
 
 struct PointInCube {

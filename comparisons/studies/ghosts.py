@@ -1,4 +1,7 @@
-"""Compares the ghosts of methods on 16 clouds; with --meshes those of support meshes of several sizes."""
+"""Compares the ghosts of methods on 16 clouds.
+
+With --meshes it compares support meshes of several sizes instead, with --loads part sizes that are corrected by ghosts.
+"""
 
 from __future__ import annotations
 
@@ -19,6 +22,7 @@ COUNTS = ["ghosts", "ghosts_max", "neighbours_max"]
 LAYOUTS = ("sorted", "scattered")
 MEANS = ("ghosts / RCB", "rounds", "kB")
 MESH_RANKS = 8
+LOAD_RANKS = (8, 16, 32)
 CALL_PARTS = 16  # of calls whose instructions are counted
 
 
@@ -77,6 +81,21 @@ def instructions_of_rank_0(program: Path, out: Path) -> dict[tuple[int, int, str
     return found
 
 
+def load_table(rows: pd.DataFrame) -> list[list[str]]:
+    """By parts and cost of a ghost: the largest load over the mean load, mean of the clouds and worst, by corrections."""
+    numbers = sorted(rows["corrections"].unique())
+    lines = [["parts", "cost of a ghost", *(f"{n} corrections: mean (worst)" for n in numbers),
+              *(f"{n} / 0" for n in numbers[1:]), "ghosts after 2 / 0", "at most 1.03: 0; 2"]]  # fmt: skip
+    for (parts, cost), of in rows.groupby(["parts", "cost"]):
+        largest, ghosts = (of.pivot_table(index=["cloud", "dim"], columns="corrections", values=name)
+                           for name in ("largest", "ghosts"))  # fmt: skip
+        line = [str(parts), f"{cost:g}", *(f"{largest[n].mean():.3f} ({largest[n].max():.3f})" for n in numbers)]
+        good = [str((largest[n] <= 1.03).sum()) for n in (0, 2)]
+        line += [f"{mean(largest[n] / largest[0]):.3f}" for n in numbers[1:]]
+        lines.append([*line, f"{mean(ghosts[2] / ghosts[0]):.3f}", f"{'; '.join(good)} of {len(largest)}"])
+    return lines
+
+
 def count(program: Path, file: Path, *words: str, ranks: int = 1) -> pd.DataFrame:
     print("rrcb_ghosts", *words, file=sys.stderr, flush=True)
     with file.open("w") as rows:
@@ -89,6 +108,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=OUT / "ghosts", help="folder of the results")
     parser.add_argument("--quick", action="store_true", help="few points, one seed")
     parser.add_argument("--meshes", action="store_true", help="compare support meshes of several sizes")
+    parser.add_argument("--loads", action="store_true", help="correct part sizes by ghosts, on 8, 16 and 32 ranks")
     parser.add_argument("--driver", type=Path, help="a program beside rrcb_ghosts, which is not built then")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
@@ -100,6 +120,11 @@ def main() -> None:
         rows = count(program, given.out / "meshes.csv", "meshes", *quick, ranks=MESH_RANKS)
         known = {} if given.quick else instructions_of_rank_0(program, given.out)
         print(markdown_table(mesh_table(rows, known)))
+        return
+    if given.loads:
+        found = [count(program, given.out / f"loads_{ranks}.csv", "loads", *quick, ranks=ranks)
+                 for ranks in ((8,) if given.quick else LOAD_RANKS)]  # fmt: skip
+        print(markdown_table(load_table(pd.concat(found))))
         return
     print("Ghosts over those of zoltan-rcb\n")
     print(markdown_table(table(ratios(count(program, given.out / "clouds.csv", "clouds", *quick)))))

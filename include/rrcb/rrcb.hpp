@@ -9,6 +9,7 @@
 #include <rrcb/groups.hpp>
 #include <rrcb/neighbours.hpp>
 #include <rrcb/options.hpp>
+#include <rrcb/part_sizes.hpp>
 #include <rrcb/plan.hpp>
 #include <rrcb/points.hpp>
 #include <rrcb/quality.hpp>

@@ -9,7 +9,7 @@ The calls are collective over the communicator, and raise rrcb.Error on every ra
 """
 
 from . import _library
-from ._balance import Balance, Distribution, Plan, Report, assign_all, balance, plan
+from ._balance import Balance, Distribution, Plan, Report, assign_all, balance, balanced_sizes, plan
 from ._controller import Controller, CostModel
 from ._cuts import Cuts
 from ._ghosts import Ghosts, Verification
@@ -32,6 +32,7 @@ __all__ = [
     "Verification",
     "assign_all",
     "balance",
+    "balanced_sizes",
     "build_info",
     "groups",
     "join_keys",

@@ -261,6 +261,25 @@ def assign_all(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) 
     return together(chosen, local, collective)
 
 
+def balanced_sizes(loads: Any, part_sizes: Any = None) -> Array:
+    """Returns `part_sizes` for the next balance that make the loads of the parts more even.
+
+    `loads` are those of all parts in the last step, in any unit, such as points + 0.25 * ghosts;
+    `part_sizes` are those of the last balance, None for equal parts. Give the next balance the cuts
+    of the last one. Not collective.
+    """
+    of_parts = np.ascontiguousarray(numbers_in(loads, "loads").ravel())
+    before = None
+    if part_sizes is not None:
+        before = np.ascontiguousarray(numbers_in(part_sizes, "part_sizes").ravel())
+        if before.size != of_parts.size:
+            raise c.Error(f"part_sizes must hold one entry per part: {of_parts.size}, not {before.size}")
+    sizes = np.empty(of_parts.size)
+    if sizes.size:
+        c.call("balanced_sizes", sizes.size, of_parts, before, sizes)
+    return sizes
+
+
 def cuts_from(given: Any) -> Cuts:
     """Returns given cuts, or those of a balance."""
     cuts = given.cuts if isinstance(given, Distribution) else given

@@ -179,6 +179,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "box_of": (c_void_p, c_int32, Address, Address),
     "part_weights": (c_void_p, POINTER(Points), Address, c_size_t, Address),
     "moved_fraction": (c_void_p, POINTER(Points), Address, POINTER(c_double)),
+    "balanced_sizes": (c_size_t, Address, Address, Address),
     "remap": (c_void_p, c_size_t, Address, Address, c_void_p, c_size_t, Address, c_void_p),
     "ranks_of_part": (c_int32, c_int, c_int, POINTER(RankRange)),
     "plan": (c_void_p, c_size_t, Address),

@@ -108,6 +108,13 @@ module rrcb_c_functions
       type(c_ptr), value :: part_weights, part_sizes
       real(c_double), intent(inout) :: percent(*)
     end function
+    integer(c_int) function c_balanced_sizes(num_parts, loads, part_sizes, sizes) &
+      bind(c, name="rrcb_balanced_sizes")
+      import
+      integer(c_size_t), value :: num_parts
+      type(c_ptr), value :: loads, part_sizes
+      real(c_double), intent(inout) :: sizes(*)
+    end function
     integer(c_int) function c_set(handle, option, value) bind(c, name="rrcb_balancer_set")
       import
       type(c_ptr), value :: handle

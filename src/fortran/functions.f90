@@ -8,8 +8,8 @@ module rrcb_functions
   implicit none
   private
   public :: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, rrcb_ranks_of_part, &
-    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of, save_by, settle, &
-    three_of
+    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, rrcb_balanced_sizes, &
+    text_of, save_by, settle, three_of
 
 contains
 
@@ -163,6 +163,21 @@ contains
     call settle(c_worst_load_unbalance_percent(size(part_weights, kind=c_size_t), &
       weights_at(part_weights, part_sizes), &
       address_of(part_sizes), percent), error)
+  end subroutine
+
+  !> Computes sizes of the parts that make their loads more even.
+  !> @param loads        of each part in the last step, in any unit
+  !> @param sizes        gets one for each part
+  !> @param part_sizes   those of the last call
+  subroutine rrcb_balanced_sizes(loads, sizes, error, part_sizes)
+    real(c_double), intent(in), target, contiguous :: loads(:)
+    real(c_double), intent(inout), contiguous :: sizes(:)
+    integer, intent(out), optional :: error
+    real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
+    type(c_ptr) :: of_parts
+    of_parts = weights_at(loads, part_sizes)
+    if (size(sizes) < size(loads)) of_parts = c_null_ptr
+    call settle(c_balanced_sizes(size(loads, kind=c_size_t), of_parts, address_of(part_sizes), sizes), error)
   end subroutine
 
 end module rrcb_functions

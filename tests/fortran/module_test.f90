@@ -197,6 +197,8 @@ program module_test
   call expect(error == rrcb_ok .and. lower(2) == -50, "rrcb_load_unbalance_percent")
   call rrcb_worst_load_unbalance_percent(of_parts, value, error)
   call expect(error == rrcb_ok .and. value == 50, "rrcb_worst_load_unbalance_percent")
+  call rrcb_balanced_sizes([4.0_c_double, 4.0_c_double, 4.0_c_double], lower, error)
+  call expect(error == rrcb_ok .and. all(lower == 1), "rrcb_balanced_sizes")
   call rrcb_load_unbalance_percent(of_parts, columns, error)
   call expect_text("part_weights, or an array of one for each part, is null (in Fortran: or has the wrong")
   call rrcb_worst_load_unbalance_percent(of_parts, value, error, sizes(:2))

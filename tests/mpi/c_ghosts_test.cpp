@@ -249,6 +249,10 @@ TEST_F(CGhosts, measures_are_those_of_cpp) {
         rrcb_load_unbalance_percent(of_parts.size(), of_parts.data(), nullptr, percent.data()),
         RRCB_OK);
     EXPECT_EQ(percent, load_unbalance_percent(of_parts));
+    const std::vector<double> expected_sizes = balanced_sizes(of_parts, sizes);
+    ASSERT_EQ(rrcb_balanced_sizes(of_parts.size(), of_parts.data(), sizes.data(), sizes.data()),
+              RRCB_OK);
+    EXPECT_EQ(sizes, expected_sizes);
     expect_refused(rrcb_imbalance(1, nullptr, nullptr, &number),
                    "part_weights, or an array of one for each part, is null");
 }

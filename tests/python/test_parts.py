@@ -40,6 +40,15 @@ def test_weighs_parts_and_moves():
     same_error(lambda: whole.part_weights(weights[1:]), "weights must have the shape")
 
 
+def test_gives_parts_sizes_for_even_loads():
+    sizes = rrcb.balanced_sizes([1, 2, 4])
+    expected = np.array([1, 2, 4]) ** -0.7
+    assert np.allclose(sizes, 3 * expected / expected.sum())
+    assert np.allclose(rrcb.balanced_sizes([5, 5], sizes[:2]), sizes[:2])
+    same_error(lambda: rrcb.balanced_sizes([1, -1]), "loads must be finite, 0 or more")
+    same_error(lambda: rrcb.balanced_sizes([1, 1], [1]), "one entry per part: 2, not 1")
+
+
 def test_gives_parts_the_numbers_with_which_points_stay():
     x = rrcb.balance(positions(), comm=comm).distribute(positions())
     turned = x[:, ::-1].copy()  # the same boxes under other numbers

@@ -35,6 +35,16 @@ RRCB_API int rrcb_load_unbalance_percent(size_t num_parts, const double* part_we
 RRCB_API int rrcb_worst_load_unbalance_percent(size_t num_parts, const double* part_weights,
                                                const double* part_sizes, double* percent);
 
+/** Writes sizes of the parts that make their loads more even, as rrcb::balanced_sizes. Not
+ * collective.
+ *
+ * @param num_parts  length of the arrays
+ * @param loads      of each part in the last step, in any unit
+ * @param part_sizes of the last call; null: equal parts
+ * @param sizes      gets one for each part; may be `part_sizes` */
+RRCB_API int rrcb_balanced_sizes(size_t num_parts, const double* loads, const double* part_sizes,
+                                 double* sizes);
+
 /** Writes the weight of each part of the cuts over all ranks, as rrcb::part_weights. Collective.
  *
  * @param balancer     with cuts

@@ -60,4 +60,4 @@ int main(int argc, char** argv) {
 }
 
 // Output on 4 ranks:
-// imbalance 1.010, 9964 points and 295 ghosts
+// imbalance 1.010, 10000 points and 200 ghosts

@@ -68,7 +68,8 @@ class Simulation {
     double work_seconds() const;
 
     /// Numbers that the work of the last step grows with, on this rank: points, runs of points that
-    /// reach the same nodes one after the other, nodes around its points, nodes sent to other ranks.
+    /// reach the same nodes one after the other, nodes around its points, nodes sent to other
+    /// ranks.
     std::vector<double> work_columns() const;
     /// Parts of this rank's points in these numbers, row after row; 0 of the shared nodes.
     std::vector<double> point_columns() const;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/export.h>
+#include <rrcb/points.hpp>
 
 #include <span>
 #include <vector>

@@ -137,8 +137,8 @@ void prepare(const Given& given, Options& options, Contribution& mine, Decision&
         options.axes.order = AxisOrder::given(axes_of(given.previous->tree));
     settlement.emplace(options, points, reads_kept || given.previous, workspace_of(self.comm).open,
                        self);
-    if (given.previous) decision.cuts.numbers = given.previous->numbers;
     if (spread) {
+        if (given.previous) decision.cuts.numbers = given.previous->numbers;
         decision.verdict.answer = Answer::totals;
         return;
     }

@@ -6,9 +6,10 @@
 
 namespace rrcb {
 
-// Doubles in ascending order as whole numbers: neighbours differ by 1, both zeros are equal.
+// // Maps doubles to integers in the same order: consecutive doubles differ by 1, and both zeros
+// map to 0.
 
-/// Returns the number of doubles from 0 to `value`, negative below 0.
+/// /// Returns the number of doubles between 0 and `value`; it is negative if `value` is below 0.
 inline std::int64_t double_rank(double value) {
     if (value == 0) return 0;
     const auto bits = std::bit_cast<std::int64_t>(value);

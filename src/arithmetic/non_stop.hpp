@@ -4,9 +4,9 @@
 
 namespace rrcb {
 
-/// Keeps the floating-point exceptions of a scope from the caller: none traps, and the caller's
-/// flags are restored. Near the ends of a double's range, sums and extents overflow to infinity by
-/// design.
+/// Protects the caller from the floating-point exceptions raised in a scope: no exception traps,
+/// and the caller's flags are restored at the end. Near the largest double, sums and extents
+/// overflow to infinity by design.
 class NonStop {
   public:
     NonStop() { std::feholdexcept(&before_); }
@@ -14,7 +14,8 @@ class NonStop {
     NonStop& operator=(const NonStop&) = delete;
     ~NonStop() { std::fesetenv(&before_); }
 
-    /// Calls a function of the caller's, which must not throw, in the caller's environment.
+    /// Calls a function of the caller, which must not throw, with the caller's floating-point
+    /// environment.
     template <class Call>
     void outside(Call&& call) const {
         std::fenv_t inside;

@@ -10,11 +10,11 @@ inline double sum_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Returns the weight of a part over its intended weight, the share `ideal` of `total`; 0 without
-/// weight, infinite if the part should be empty.
+/// Returns the weight of a part divided by its intended weight, which is the share `ideal` of
+/// `total`. Returns 0 if the part has no weight, and infinity if it should be empty but has weight.
 inline double over_ideal(double weight, double total, double ideal) {
     if (!(weight > 0)) return 0;
-    // Shares, because the intended weight of a tiny part may underflow.
+    // Divides shares instead of weights, because the intended weight of a tiny part may underflow.
     return ideal > 0 ? weight / total / ideal : std::numeric_limits<double>::infinity();
 }
 

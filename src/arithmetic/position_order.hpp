@@ -6,13 +6,13 @@
 
 namespace rrcb {
 
-/// Returns number k of the axes that order points across a cut: its own, then the others,
-/// ascending.
+/// Returns axis number k of the order of points across a cut: first the axis that the cut crosses,
+/// then the others in ascending order.
 constexpr std::size_t ordering_axis(int axis, int k) {
     return static_cast<std::size_t>(k == 0 ? axis : k <= axis ? k - 1 : k);
 }
 
-/// The order of positions across a cut, by ordering_axis() `first` to `last` - 1.
+/// Compares positions by the axes ordering_axis(axis, k) with k from `first` to `last` - 1.
 class PositionOrder {
   public:
     PositionOrder(int axis, int first, int last) {

@@ -9,12 +9,13 @@
 
 namespace rrcb {
 
-/// One sum per bin, over entries in any order of the bins. The same entries give the same bits.
-/// `Sum` starts at zero and has +=. A running sum may be a `Running`, derived from it; empty()
-/// keeps its other members.
+/// Adds up one sum per bin; entries may come in any order of the bins. The same entries in the same
+/// order give bit-identical sums. `Sum` starts at zero and has +=. Running sums may have a type
+/// `Running` derived from it; empty() keeps the additional members.
 ///
-/// One long running sum would lose a digit for every tenfold of the entries. So the running sums
-/// are emptied into others from time to time, and these into the totals less often.
+/// A single running sum over many entries would lose a digit of accuracy with every factor of ten
+/// in their number. The running sums are therefore emptied into intermediate sums from time to
+/// time, and those into the totals less often.
 template <class Sum, class Running = Sum>
 class RunningSums {
   public:
@@ -32,7 +33,8 @@ class RunningSums {
         if (++num_emptied_ == most_emptied) totals();
     }
 
-    /// Returns the sums of all entries added before the last empty(). Cheap if called again.
+    /// Returns the sums of all entries added before the last empty(). A repeated call costs
+    /// nothing.
     const std::vector<Sum>& totals() {
         if (std::exchange(num_emptied_, 0) > 0) pour(emptied_, totals_);
         return totals_;
@@ -49,7 +51,7 @@ class RunningSums {
 
     std::vector<Running> running_;
     std::vector<Sum> emptied_;
-    std::size_t num_emptied_ = 0;  ///< times, since the totals were taken
+    std::size_t num_emptied_ = 0;  ///< calls of empty() since the totals were last updated
     std::vector<Sum> totals_;
 };
 

@@ -6,8 +6,8 @@
 
 namespace rrcb {
 
-/// Returns the power of two that brings `largest` (>= 0) near 1; 1 if its exponent is harmless, or
-/// for 0.
+/// Returns the power of two that scales `largest` (>= 0) to about 1. Returns 1 if `largest` is 0 or
+/// its exponent is at most `harmless_exponent` in size.
 inline double safe_scale(double largest, int harmless_exponent) {
     if (!(largest > 0)) return 1;
     const int exponent = std::ilogb(largest);

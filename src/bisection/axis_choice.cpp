@@ -8,8 +8,9 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the axis of each level of the tree, in the order that was given. Each axis gets as many
-/// levels as if each cut halved the longest extent of the box.
+/// Returns the axis of each level of the tree: the axes in the given order, each for several
+/// consecutive levels. An axis gets as many levels as if every cut halved the longest extent of the
+/// box.
 std::vector<int> group_levels(std::span<const int> order, Box box, int dimension, int num_levels) {
     constexpr double enough = 1;
     std::array<int, max_dimension> cuts_across{};

@@ -10,18 +10,20 @@
 
 namespace rrcb {
 
-/// An axis is replaced by another only if the other is better by a tenth. Extents and weights of an
-/// analytic domain are estimates; otherwise small changes would turn the cuts of a cube and move
-/// half of the points.
+/// An axis is replaced by another one only if that one is better by a tenth. Extents and weights of
+/// an analytic domain are estimates: without this margin small changes would turn the cuts of a
+/// cube, and half of the points would move.
 inline constexpr double nearly = 0.9;
 
-/// Returns the first of `axes` whose extent is at least the share `enough` of the greatest.
+/// Returns the first of `axes` whose extent is at least `enough` times the greatest extent.
 int longest_axis(const Box& box, std::span<const int> axes, double enough);
 
-/// Chooses the axes for each cut to cross: the given one, its level's, or any allowed.
+/// Chooses the axes that each cut may cross: the given axis, the axis of its level, or all allowed
+/// ones.
 class AxisChoice {
   public:
-    /// `box` holds all points; options are complete and checked. The options must outlive it.
+    /// The box contains all points, and the options are complete and checked. The options must
+    /// outlive this object.
     AxisChoice(const Options& options, const Box& box, int dimension);
 
     /// Returns the axes of cut number `node` in preorder, at `depth` cuts below the root.

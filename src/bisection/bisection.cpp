@@ -26,11 +26,13 @@ struct Task {
     const AxisChoice& axis_choice;
     CutLimits* limits;  ///< null if cuts are not limited
     bool with_brackets;
-    std::span<const int> preferred;  ///< axes of the cuts, or none
-    double* near_weight;             ///< near all cuts; null if not asked for
-    double reach = 0;                ///< greatest distance of weight that is near a cut
-    double light = 0;                ///< weight of points too few to show the weight near a cut
-    bool shows_near = false;         ///< the domain is more than a few places
+    std::span<const int> preferred;  ///< preferred axis of each cut; may be empty
+    double* near_weight;             ///< gets the weight near all cuts; null if it is not needed
+    double reach = 0;                ///< weight is near a cut up to this distance
+    double light = 0;  ///< pieces up to this weight have too few points to estimate the weight near
+                       ///< a cut
+    bool shows_near = false;  ///< whether the patches have extents, so that weight near cuts can be
+                              ///< estimated
     Bisection result{};
     Profile profile{};  ///< of the piece being cut
 };
@@ -40,8 +42,9 @@ double share_below_node(const Descent& at, const Options& options) {
     return share_below(sizes, at.lower_parts());
 }
 
-/// Returns the preferred axis of a cut, if the piece has an extent along it; with
-/// AxisOrder::longest() nearly the longest one. Otherwise returns the longest axis.
+/// Returns the preferred axis of a cut if the piece has an extent along it; with
+/// AxisOrder::longest() its extent must also be at least 90 % of the longest. Otherwise returns the
+/// longest axis.
 int usual_axis(const Piece& piece, std::span<const int> axes, const Task& task) {
     const Box& extent = task.profile.extent();
     const int longest = longest_axis(extent, axes, nearly);
@@ -53,10 +56,11 @@ int usual_axis(const Piece& piece, std::span<const int> axes, const Task& task) 
     return half(preferred) > 0 && half(preferred) >= enough ? preferred : longest;
 }
 
-/// Replaces a cut across the usual axis by one across another that has clearly less weight near it.
+/// Replaces a cut across the usual axis by one across another axis, if that one has clearly less
+/// weight near it.
 void choose_fewest(const Profile& profile, std::span<const int> axes, double target,
                    const Task& task, Cut& best) {
-    // Few patches show the weight near a cut with a large error.
+    // The fewer patches there are, the larger is the error of the weight near a cut.
     const auto num_patches = static_cast<double>(profile.domain().patches.size());
     const double enough = nearly - 1 / std::sqrt(num_patches);
     const bool plain = task.options.axes.plain;
@@ -68,7 +72,7 @@ void choose_fewest(const Profile& profile, std::span<const int> axes, double tar
     double fewest = near(best);
     for (const int axis : axes) {
         if (axis == best.axis || !(extent.lower[axis] < extent.upper[axis])) continue;
-        // A coarse cut rules out most axes.
+        // Most axes are ruled out by a coarse cut already.
         const double coarse = profile.range_of(axis, target, profile.weight() / 64).value;
         const bool is_known = std::isfinite(coarse);
         if (is_known && profile.weight_near(axis, coarse, reach) > (1 + enough) / 2 * fewest)
@@ -81,8 +85,8 @@ void choose_fewest(const Profile& profile, std::span<const int> axes, double tar
     }
 }
 
-/// Returns the cut that leaves the share `below` (0 ... 1) of the piece's weight below it, and
-/// takes the profile of its axis.
+/// Returns the cut that leaves the share `below` (0 to 1) of the piece's weight below it. Leaves
+/// the piece's domain in `task.profile`.
 Cut choose_cut(const Piece& piece, double below, Task& task) {
     Profile& profile = task.profile;
     profile.take(piece.domain);
@@ -93,10 +97,10 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     const int usual = usual_axis(piece, axes, task);
     if (task.limits && task.limits->divides(piece.at))
         return cut_in_places(piece, profile, below, usual, counts_near, task.options, *task.limits);
-    // First: a side of size 0 is empty even if the domain has no weight.
+    // These tests come first: a side of size 0 is empty even if the domain has no weight.
     if (below >= 1) return plane(usual, infinity);
     if (below <= 0 || !(weight > 0)) return plane(usual, -infinity);
-    // Coincident patches go to one side.
+    // Coincident patches all go to one side.
     if (extent.lower == extent.upper) return plane(usual, below < 0.5 ? -infinity : infinity);
     const double target = below * weight;
     Cut cut = weighted_quantile(profile, usual, target, task.options.axes.plain);
@@ -106,9 +110,9 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     return cut;
 }
 
-/// Returns the range in which the exact cut is expected: the domain is an estimate. `below` is the
-/// share of the weight below the cut, `depth` the number of cuts above. It takes many steps into a
-/// small cluster.
+/// Returns the range in which the exact cut is expected, because the domain is only an estimate.
+/// `below` is the share of the weight below the cut, `depth` the number of cuts above. Many steps
+/// are allowed because a small cluster is found only after many of them.
 Bracket bracket_of(const Profile& profile, const Cut& cut, double below, int depth) {
     if (profile.domain().patches.empty()) return {};
     const double margin = expected_error(depth);
@@ -129,7 +133,8 @@ Bracket bracket_of(const Profile& profile, const Cut& cut, double below, int dep
     return {lower, std::nextafter(upper, infinity)};
 }
 
-/// Returns the distance from a cut within which weight is near, like the cut-off radii of codes.
+/// Returns the distance up to which weight counts as near a cut; it stands for the cut-off radius
+/// of a code.
 double near_reach(const Profile& profile) {
     return near_share * profile.mean_half_side();
 }
@@ -148,7 +153,7 @@ void bisect_piece(Piece piece, Task& task) {
     if (task.near_weight && task.reach > 0 && std::isfinite(value))
         *task.near_weight += profile.weight_within(cut.axis, value, task.reach);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(profile, cut, below, depth));
-    // Parts need weights only.
+    // Two parts need no domains, only weights.
     if (at.num_parts == 2 && is_plane(cut, domain.dimension) && std::isfinite(value)) {
         const double weight_below = profile.weight_below(cut.axis, value);
         task.result.part_weights.push_back(weight_below);
@@ -160,7 +165,7 @@ void bisect_piece(Piece piece, Task& task) {
     bisect_piece({std::move(halves.upper), at.upper(), box_above(region, cut), depth + 1}, task);
 }
 
-/// Returns the weight within `reach` of the cuts at and below a node.
+/// Returns the weight within `reach` of the cut of a node and of all cuts below it.
 double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts, double reach) {
     if (at.is_part() || domain.patches.empty()) return 0;
     const Cut& cut = cuts.tree[at.node];
@@ -172,7 +177,7 @@ double weight_near(StatisticalDomain domain, const Descent& at, const Cuts& cuts
     return weight + weight_near(std::move(halves.upper), at.upper(), cuts, reach);
 }
 
-/// Bisects with all cuts at allowed places, if there are limits.
+/// Bisects the domain. All cuts are at allowed positions if `task.limits` is given.
 Bisection bisect(StatisticalDomain domain, GlobalCount num_points, Task&& task) {
     constexpr double few_points = 16;
     const NonStop arithmetic;

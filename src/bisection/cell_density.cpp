@@ -9,7 +9,7 @@ namespace rrcb {
 
 namespace {
 
-// Within this file u runs from -1 to 1 across a cell.
+// In this file the coordinate u runs from -1 to 1 across a cell.
 
 /// Mean and variance of u.
 struct Spread {
@@ -17,7 +17,7 @@ struct Spread {
     double variance;
 };
 
-/// Part of the interval in u, and the density there, see Patch.
+/// Part of the interval in u and the density on it; Patch explains slope and bow.
 struct UnitPiece {
     double lower;
     double upper;
@@ -26,8 +26,9 @@ struct UnitPiece {
     double bow = 0;
 };
 
-/// Returns the quadratic density of a spread on an interval, in units of half its length. The
-/// Legendre polynomials P1 and P2 have the squared norms 2/3 and 2/5.
+/// Returns the quadratic density with this mean and variance on an interval, in units of half its
+/// length. The coefficients follow from the squared norms 2/3 and 2/5 of the Legendre polynomials
+/// P1 and P2.
 UnitPiece quadratic(const Spread& spread) {
     const double square = spread.variance + spread.mean * spread.mean;
     return {-1, 1, 1, 3 * spread.mean, 2.5 * (3 * square - 1)};
@@ -40,7 +41,8 @@ bool is_nowhere_negative(const UnitPiece& density) {
     return !has_inner_minimum || 1 - density.bow / 2 - slope * slope / (6 * density.bow) >= 0;
 }
 
-/// Returns one or two pieces for a spread that no quadratic density on the cell has; mean <= 0.
+/// Returns one or two pieces with a mean (<= 0) and variance that no quadratic density on the cell
+/// has.
 std::array<UnitPiece, 2> pieces_of(const Spread& spread) {
     const auto [mean, variance] = spread;
     // A parabola with 0 at both ends has the variance half^2 / 5.
@@ -107,7 +109,7 @@ AxisDensity density_of(double mean, double deviation, double lower, double upper
 namespace {
 
 constexpr std::size_t num_density_pieces = 6;
-// Gauss-Legendre on [-1, 1]; exact up to degree 9.
+// Nodes and weights of Gauss-Legendre quadrature on [-1, 1], exact up to degree 9.
 constexpr std::array<double, 5> gauss_nodes{-0.90617984593866399, -0.53846931010568309, 0,
                                             0.53846931010568309, 0.90617984593866399};
 constexpr std::array<double, 5> gauss_weights{0.23692688505618909, 0.47862867049936647,
@@ -120,7 +122,7 @@ double node(std::size_t i) {
     return (2 * piece + 1 + gauss_nodes[i % gauss_nodes.size()]) / num_density_pieces - 1;
 }
 
-/// The density exp(b u + c u^2) as masses at the nodes; their sum is 1.
+/// The density exp(b u + c u^2), represented by masses at the nodes whose sum is 1.
 struct Tilted {
     double b = 0;
     double c = 0;
@@ -153,8 +155,9 @@ Tilted tilted(double b, double c) {
     return density;
 }
 
-/// Finds b and c by Newton's method: they minimize the convex function log sum - b mean - c square,
-/// whose gradient is the error of the moments. Steps are halved until the function decreases.
+/// Finds b and c by Newton's method. They minimize the convex function (log sum - b mean - c
+/// square), whose gradient is the error of the moments. A step is halved until the function
+/// decreases.
 bool find_tilt(double mean, double square, Tilted& density) {
     constexpr int most_steps = 40;
     constexpr double enough = 1e-13;
@@ -184,7 +187,7 @@ bool find_tilt(double mean, double square, Tilted& density) {
     return false;
 }
 
-/// Appends one piece of a density, with the moments of its nodes.
+/// Appends one piece with the moments that the density has at the nodes of this piece.
 void append_piece(std::size_t piece, const Tilted& density, double lower, double upper,
                   std::vector<DensityPiece>& pieces) {
     const std::size_t first = piece * gauss_nodes.size();
@@ -213,7 +216,8 @@ void append_piece(std::size_t piece, const Tilted& density, double lower, double
 
 std::vector<DensityPiece> entropy_density_of(double mean, double deviation, double lower,
                                              double upper) {
-    constexpr double reach = 4;  // deviations; almost no weight is beyond
+    constexpr double reach =
+        4;  // in standard deviations; almost no weight is farther from the mean
     const AxisDensity simple = density_of(mean, deviation, lower, upper);
     std::vector<DensityPiece> pieces(simple.begin(),
                                      simple.begin() + (simple[1].share > 0 ? 2 : 1));

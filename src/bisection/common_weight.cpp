@@ -9,7 +9,8 @@ namespace rrcb {
 
 namespace {
 
-/// Calls visit(end, domain) with what the cuts at and below a node leave in each end.
+/// Calls visit(end, domain) for each end of the tree below a node, with the part of the domain
+/// inside it.
 template <class Visit>
 void visit_ends(StatisticalDomain domain, const Descent& at, const Cuts& cuts, Visit&& visit) {
     if (domain.patches.empty()) return;

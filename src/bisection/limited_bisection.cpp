@@ -23,8 +23,8 @@ struct Way {
     Places places;
 };
 
-/// Returns the axes that have places for the cut of a node: `preferred`, then the others from the
-/// longest of `extent` down.
+/// Returns the axes across which the node has allowed positions for its cut: first `preferred`,
+/// then the others in descending order of `extent`.
 std::vector<Way> ways_across(const Descent& at, const Box& region, const Box& extent, int preferred,
                              CutLimits& limits) {
     std::vector<Way> ways;
@@ -50,8 +50,9 @@ Trial trial_in(const Profile& profile, int axis, double place) {
     return {plane(axis, place), profile.weight_below(axis, place)};
 }
 
-/// Returns the cut at an allowed place of `way` with about the weight `target` below it. Of the
-/// grid lines on both sides of the exact place, takes the one with the smaller error.
+/// Returns a cut at an allowed position of `way` with about the weight `target` below it. If the
+/// allowed positions are grid lines, compares the two next to the exact cut and takes the one with
+/// the smaller error.
 Trial trial_at(const Profile& profile, const Way& way, double target, bool is_plain,
                const AxisLimits& limits) {
     const Cut cut = weighted_quantile(profile, way.axis, target, is_plain);

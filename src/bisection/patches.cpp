@@ -7,7 +7,8 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the axis deciding the side of a patch: the cut's, or the next one without a tie.
+/// Returns the axis that decides on which side of a cut a patch is: the axis of the cut, or the
+/// next axis along which the patch is not on the cut.
 int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
     const auto tied = [&](int axis) {
         return patch.lower[axis] == cut.at[axis] && patch.upper[axis] == cut.at[axis];
@@ -18,20 +19,22 @@ int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
     return cut.axis;
 }
 
-/// Returns the share of [lower, upper] below `value`, which must be inside; lower < upper.
+/// Returns the share of [lower, upper] below `value`, which must be in the interval; `lower` is
+/// less than `upper`.
 double fraction_below(double lower, double value, double upper) {
     const double extent = upper - lower;
     if (std::isinf(extent)) return (value / 2 - lower / 2) / (upper / 2 - lower / 2);
     return (value - lower) / extent;
 }
 
-/// Returns the mean of a density over the first fraction `t` of its interval.
+/// Returns the mean of a density over the first fraction `t` of its interval, relative to its mean
+/// over the complete interval.
 double mean_of_first(double t, double slope, double bow) {
     return 1 - (1 - t) * (slope + bow * (2 * t - 1));
 }
 
-/// Restricts a density to the first fraction `t` of its interval, scaled to the mean 1; uniform if
-/// no weight is left.
+/// Restricts a density to the first fraction `t` of its interval, and scales it to the mean 1. The
+/// density becomes uniform if no weight is left.
 void restrict_to_first(double t, double& slope, double& bow) {
     const double mean = mean_of_first(t, slope, bow);
     const double least = 1e-12 * (1 + std::abs(slope) + std::abs(bow));
@@ -43,8 +46,8 @@ void restrict_to_first(double t, double& slope, double& bow) {
     bow = t * t * bow / mean;
 }
 
-/// Takes the part of a patch below a value between its ends along an axis; the weights add up.
-/// Returns the part.
+/// Cuts a patch at a value between its ends along an axis, and keeps the upper part in `patch`.
+/// Returns the lower part. The two weights add up to the old weight.
 Patch cut_off_below(Patch& patch, int axis, double value) {
     const double t = fraction_below(patch.lower[axis], value, patch.upper[axis]);
     const double mean = mean_of_first(t, patch.slope[axis], patch.bow[axis]);
@@ -53,7 +56,7 @@ Patch cut_off_below(Patch& patch, int axis, double value) {
     below.upper[axis] = patch.lower[axis] = value;
     patch.weight -= below.weight;
     restrict_to_first(t, below.slope[axis], below.bow[axis]);
-    // The upper part is the first of the mirror image.
+    // The upper part is computed as the first part of the mirror image.
     patch.slope[axis] = -patch.slope[axis];
     restrict_to_first(1 - t, patch.slope[axis], patch.bow[axis]);
     patch.slope[axis] = -patch.slope[axis];

@@ -38,12 +38,14 @@ struct Patches {
     fill(of_axis + 3 * stride, patches.bow);
 }
 
-/// The shares of patches below a value, as if they were even; and what the slopes take away.
+/// Terms from which the share of each patch below a value is computed: `even` is the share of a
+/// uniform density, and rest * tilt is subtracted from it because of slope and bow.
 struct Shares {
     Row even, u, rest, tilt;
 };
 
-/// Without branches. NaN, the offset at the place of a patch without extent, compares as below it.
+/// Computes the shares without branches. A patch without extent at the value has the offset NaN,
+/// which is not above 0, so that its share is 0.
 [[gnu::always_inline]] inline void find_shares(const Patches& patches, double half,
                                                Shares& shares) {
     const Row zero{};
@@ -173,7 +175,7 @@ double Profile::weight_near(int axis, double value, double reach) const {
 
 Profile::Range Profile::range_of(int axis, double target, double error, int most_steps,
                                  const Range& known) const {
-    constexpr int steps_among_points = 5;  // mere jumps
+    constexpr int steps_among_points = 5;  // enough, because the weight only jumps
     if (!(mean_half_side_ > 0)) most_steps = std::min(most_steps, steps_among_points);
     Range range = known;
     double left = std::max(range.lower, extent_.lower[axis]) / 2;

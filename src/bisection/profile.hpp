@@ -9,22 +9,23 @@
 
 namespace rrcb {
 
-/// The weight of a domain along each axis, to be read at many values, and its extent.
+/// Extent of a domain and its weight along each axis, prepared for reading at many values.
 class Profile {
   public:
     Profile() = default;
     explicit Profile(const StatisticalDomain& domain) { take(domain); }
 
-    /// Takes another domain, which is borrowed; reuses the memory.
+    /// Replaces the domain, which is borrowed, and reuses the memory.
     void take(const StatisticalDomain& domain);
 
     const StatisticalDomain& domain() const { return *domain_; }
     double weight() const { return weight_; }
     const Box& extent() const { return extent_; }
-    double mean_half_side() const { return mean_half_side_; }  ///< of the patches, by weight
+    /// mean of the patches, by weight
+    double mean_half_side() const { return mean_half_side_; }
 
-    /// Returns the distance from a cut within which weight counts when axes are compared. Half a
-    /// patch side blurs jets and filaments, which are thinner than that.
+    /// Returns the distance from a cut up to which weight counts when axes are compared. It is a
+    /// quarter of a patch side: half a side would be more than the thickness of jets and filaments.
     double reach() const { return mean_half_side_ / 2; }
 
     /// Returns the weight below a value.
@@ -35,33 +36,34 @@ class Profile {
     /// Estimates the ghosts that a cut costs: the weight at most `reach` away from it, or the
     /// weight of all patches if all of it is on one side of the cut.
     ///
-    /// `reach` is 0 if the patches are points. Then the weight is assumed to be spread evenly over
-    /// the extent of the domain, so that a cut across the longest axis costs the least.
+    /// A `reach` of 0 means that the patches are points. Then the weight is assumed to be spread
+    /// evenly over the extent of the domain, so that a cut across the longest axis costs least.
     double weight_near(int axis, double value, double reach) const;
 
     /// Range in which the cumulative weight passes a target.
     struct Range {
         double lower = -std::numeric_limits<double>::infinity();
         double upper = std::numeric_limits<double>::infinity();
-        /// With the target below it; NaN if none was found.
+        /// Has the target weight below it; NaN if no such value was found.
         double value = std::numeric_limits<double>::quiet_NaN();
-        double density = 0;  ///< at the value, over half lengths
+        double density = 0;  ///< at the value, as weight per half length
     };
 
-    /// Looks for the value with the target below it, give or take `error`, by Newton's method, or
-    /// false position and bisection if the weight jumps. Begins with `known`, which contains it,
-    /// and ends with a range after `most_steps`, or a few if the patches are points.
+    /// Searches for the value with the weight `target` below it, within `error`, by Newton's
+    /// method. If the weight jumps, uses false position and bisection. The search starts from
+    /// `known`, which must contain the value, and returns a range after `most_steps` steps, or
+    /// after a few if the patches are points.
     Range range_of(int axis, double target, double error, int most_steps, const Range& known) const;
     Range range_of(int axis, double target, double error, int most_steps = 12) const {
         return range_of(axis, target, error, most_steps, Range());
     }
 
-    /// Returns true if the weight grows by more than `error` just below the value of a range, which
-    /// has `target` below it, and just above.
+    /// Returns true if the weight grows by more than `error` both just below and just above
+    /// range.value, which has `target` below it.
     bool grows_at(int axis, const Range& range, double target, double error) const;
 
   private:
-    /// Weight below a value, and density there over half lengths.
+    /// Weight below a value, and density there as weight per half length.
     struct Reading {
         double below = 0;
         double density = 0;
@@ -76,7 +78,7 @@ class Profile {
     double weight_ = 0;
     Box extent_{};
     double mean_half_side_ = 0;
-    std::size_t stride_ = 0;       ///< number of patches, or up to three more of weight 0
+    std::size_t stride_ = 0;       ///< number of patches, padded with up to three of weight 0
     std::vector<double> numbers_;  ///< weights, and for each axis half the lower ends, inverse half
                                    ///< extents, slopes and bows
 };

@@ -17,8 +17,8 @@ void set_piece(const DensityPiece& piece, double weight, std::size_t axis, Patch
     patch.weight = weight;
 }
 
-/// Sets the densities along an axis of the patches from `first` on, all of one cell. Each becomes
-/// one patch per piece.
+/// Gives a density along an axis to the patches from `first` on, which all belong to one cell. Each
+/// patch is replaced by one patch for each piece of the density.
 void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis,
             std::span<const DensityPiece> pieces) {
     const std::size_t last = patches.size();
@@ -34,8 +34,8 @@ void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis,
     }
 }
 
-/// Returns the weight above which a cell counts as heavy: cuts may divide it more than once. Few
-/// cells are heavy, so their extra patches cost little.
+/// Returns the weight above which a cell is heavy: more than one cut may divide it. Few cells are
+/// heavy, so the additional patches cost little.
 double least_heavy_weight(std::span<const double> weights, int dimension) {
     const double many = dimension == 3 ? 64 : 8;
     const auto count = static_cast<double>(weights.size());

@@ -9,8 +9,8 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the weight of possible round-off. It must not decide the side of a gap between
-/// clusters.
+/// Returns the weight that may be due to round-off. So small a weight must not decide on which side
+/// of a gap between clusters a cut is.
 double negligible(double weight) {
     return 1e-12 * weight;
 }
@@ -28,8 +28,8 @@ struct Along {
     }
 };
 
-/// Moves the ends of the range to ends of patches, with no other between them. The weight below
-/// `lower` is less than the target, unlike the weight below `upper`.
+/// Narrows the range to two neighbouring ends of patches. The weight below `lower` is less than the
+/// target; the weight below `upper` is not.
 Profile::Range between_ends(const Along& along, Profile::Range range, double target) {
     std::vector<double> ends;
     const auto is_inside = [&](double end) { return range.lower < end && end < range.upper; };
@@ -37,7 +37,7 @@ Profile::Range between_ends(const Along& along, Profile::Range range, double tar
         if (is_inside(lower)) ends.push_back(lower);
         if (lower < upper && is_inside(upper)) ends.push_back(upper);
     });
-    // A round removes at least one of them, usually half.
+    // Each round removes at least one end, usually half of them.
     while (!ends.empty()) {
         const auto middle = ends.begin() + std::ssize(ends) / 2;
         std::ranges::nth_element(ends, middle);
@@ -49,12 +49,12 @@ Profile::Range between_ends(const Along& along, Profile::Range range, double tar
     return range;
 }
 
-/// Returns the middle between a value and the weight from `next` on.
+/// Returns the middle of the gap between a value and the weight that begins at `next`.
 double middle_of_gap(double value, double next) {
     return next == infinity ? value : value / 2 + next / 2;
 }
 
-/// Returns a cut above a jump: in the middle of the next gap, or infinity if nothing does.
+/// Returns a cut in the middle of the gap above a jump, or infinity if there is no weight above.
 double after_jump(const Along& along, double jump) {
     double next = infinity;
     along.for_each([&](const Patch&, double lower, double upper) {
@@ -64,7 +64,7 @@ double after_jump(const Along& along, double jump) {
     return std::max(std::nextafter(jump, infinity), middle_of_gap(jump, next));
 }
 
-/// Returns the middle of the gap behind `value`, or `value` if weight begins at once.
+/// Returns the middle of the gap above `value`, or `value` if there is no gap.
 double after_slope(const Along& along, double value) {
     double next = infinity;
     along.for_each([&](const Patch&, double lower, double upper) {
@@ -79,7 +79,7 @@ enum class Below { none, some, all };
 
 Below divide(const Along& along, std::span<const int> axes, double target, Vector& at);
 
-/// Divides the patches without extent at `jump`.
+/// Divides the patches whose extent along the axis is 0 at `jump`.
 Below divide_jump(const Along& along, double jump, std::span<const int> axes, double target,
                   Vector& at) {
     StatisticalDomain tied{along.profile.domain().dimension};
@@ -94,7 +94,8 @@ Below divide_jump(const Along& along, double jump, std::span<const int> axes, do
     return below;
 }
 
-/// Cuts the patches across their axis, and ties along `axes`; all of `at` must be -infinity.
+/// Cuts the patches across their axis, and divides ties along `axes`. All of `at` must be -infinity
+/// before.
 Below divide(const Along& along, std::span<const int> axes, double target, Vector& at) {
     const auto& [profile, axis] = along;
     const double error = negligible(target);
@@ -104,8 +105,8 @@ Below divide(const Along& along, std::span<const int> axes, double target, Vecto
         cut = near.value;
         return Below::some;
     }
-    // The target is in the jump at `lower`, on the slope from there to `upper`, or, by round-off,
-    // behind a jump with an empty slope.
+    // The target is reached in the jump at `lower`, or on the slope between `lower` and `upper`.
+    // Because of round-off it may also seem to be above the jump although the slope has no weight.
     const Profile::Range range = between_ends(along, near, target);
     const double below = profile.weight_below(axis, range.lower);
     double jump = 0;
@@ -118,7 +119,8 @@ Below divide(const Along& along, std::span<const int> axes, double target, Vecto
         const Below of_jump = divide_jump(along, range.lower, axes, target - below, at);
         if (of_jump == Below::none && below == 0) return Below::none;
     } else if (slope > error && rest > error) {
-        constexpr int most_steps = 2000;  // of bisection from the largest double to the least
+        constexpr int most_steps =
+            2000;  // enough to bisect from the largest double to the smallest
         const Profile::Range inside = profile.range_of(axis, target, error, most_steps, range);
         cut = slope - rest > error ? (std::isfinite(inside.value) ? inside.value : inside.lower)
                                    : after_slope(along, range.upper);

@@ -6,13 +6,13 @@
 
 namespace rrcb {
 
-/// Returns the cut across an axis of a domain with the weight `target` below it, from 0 up to, not
-/// including, the weight of the domain.
+/// Returns the cut across an axis with the weight `target` below it. The target is at least 0 and
+/// less than the weight of the domain.
 ///
 /// The cumulative weight along an axis is piecewise cubic, with jumps at patches without extent. If
-/// the target falls into a jump, its patches are divided along the other axes, unless `plain`.
-/// Coincident patches go to the side with the smaller error. Expected cost linear in the number of
-/// patches.
+/// the target is inside a jump, the patches of the jump are divided along the other axes, unless
+/// `plain`. Coincident patches all go to the side that gives the smaller error. The expected cost
+/// is linear in the number of patches.
 Cut weighted_quantile(const Profile& profile, int axis, double target, bool plain);
 
 }  // namespace rrcb

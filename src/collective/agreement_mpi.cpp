@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t most_shared = 12;
 
-/// Returns a number that is smaller for a failure to be reported first: failures that no other
-/// failure can have caused come first, then lower ranks.
+/// Returns the rank of this failure in the order of reporting; the smallest number is reported.
+/// Failures that no other failure can have caused come first, then lower ranks.
 std::uint64_t order_of(const Participant& self) {
     const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
     if (!self.failed()) return 2 * num_ranks;
@@ -25,7 +25,7 @@ std::uint64_t order_of(const Participant& self) {
     return self.failure.may_follow ? num_ranks + rank : rank;
 }
 
-/// The least value of an argument, and the complement of the greatest.
+/// Least value of an argument, and the complement of its greatest value.
 using Ends = std::array<std::uint64_t, 2>;
 constexpr Ends not_needed{std::numeric_limits<std::uint64_t>::max(),
                           std::numeric_limits<std::uint64_t>::max()};
@@ -34,18 +34,18 @@ Ends ends_of(const Shared& argument) {
     return argument.is_needed ? Ends{argument.value, ~argument.value} : not_needed;
 }
 
-/// The order of this rank's failure, and the ends of its arguments.
+/// order_of() this rank's failure, followed by the ends of each argument.
 using Words = std::array<std::uint64_t, 1 + 2 * most_shared>;
 
-/// Collective.
+/// Takes the minimum of each value over the ranks. Collective.
 void find_smallest(std::span<std::uint64_t> values, MPI_Comm comm) {
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()),
                              MPI_UINT64_T, MPI_MIN, comm),
                "MPI_Allreduce");
 }
 
-/// As find_smallest(), in the meeting of a call. The first value is the order of the failure, to
-/// which a message may add one. Collective.
+/// As find_smallest(), in the meeting of a call. The first value is order_of() this rank's failure;
+/// it is computed again after the messages, which may fail themselves. Collective.
 void meet(std::span<std::uint64_t> values, Participant& self) {
     const int rank = mpi::rank_of(self.comm);
     const MergeTree tree{mpi::size_of(self.comm)};

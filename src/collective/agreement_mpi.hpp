@@ -34,13 +34,15 @@ std::string difference(std::string_view name, std::string_view fix, int rank, in
 /// Throws the same Error on every rank if any rank has failed since the last agreement, or if one
 /// of `arguments` differs between the ranks.
 ///
-/// The Error is that of the lowest rank whose failure no other one caused, or else of the lowest
-/// failing rank. Collective: one reduction; if it is the meeting of the call, up the MergeTree and
-/// by a broadcast, R - 1 messages each. All ranks name the same arguments, twelve at most. The
-/// messages that follow may depend on them.
+/// The Error is that of the lowest rank whose failure no other failure caused; if there is none,
+/// that of the lowest failing rank. All ranks pass the same arguments, twelve at most; messages
+/// after agree() may depend on their values.
+///
+/// Collective: one reduction. In the meeting of a call it sends R - 1 messages up the MergeTree and
+/// R - 1 in a broadcast instead.
 void agree(Participant& self, std::initializer_list<Shared> arguments = {});
 
-/// As above. Gives ranks that need no argument the value of the others, or 0.
+/// As above. On ranks that do not need an argument, it is set to the value of the others, or to 0.
 void agree(Participant& self, std::span<Shared> arguments);
 
 /// As agree(), but returns the number of the first of `arguments` that differs, or their number.

@@ -9,12 +9,12 @@
 
 namespace rrcb::mpi {
 
-/// Keeps one value of a type with a communicator, which frees it. Not collective.
+/// Attaches one value of a type to a communicator, which then owns it. Not collective.
 template <class Value>
 class Attribute {
   public:
-    /// Returns the value of `comm`, or null. A rank without memory for a key has kept none, so no
-    /// rank has one for a communicator that they share.
+    /// Returns the value of `comm`, or null. If a rank had no memory for the attribute's key, it
+    /// could not attach values, so no communicator with this rank has one.
     static Value* find(MPI_Comm comm) {
         void* value = nullptr;
         int found = 0;
@@ -23,7 +23,7 @@ class Attribute {
         return found != 0 ? static_cast<Value*>(value) : nullptr;
     }
 
-    /// Keeps a value. Throws Error; then nothing is kept.
+    /// Attaches a value. If it throws Error, nothing is attached.
     static Value* keep(std::unique_ptr<Value> value, MPI_Comm comm) {
         check(MPI_Comm_set_attr(comm, key(), value.get()), "MPI_Comm_set_attr");
         return value.release();

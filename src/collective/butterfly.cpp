@@ -14,7 +14,8 @@ Butterfly::Butterfly(int rank, int num_ranks, Join join, Way way)
 
 Butterfly::Halves Butterfly::halves_at(int step) const {
     Halves halves = halves_of(0, num_ranks_);
-    // This rank is always in `halves`. Without branches, because the half is unpredictable.
+    // Keeps the half that contains this rank. The loop has no branches, because they would be
+    // unpredictable.
     for (; step > 0; --step) {
         const bool is_below = rank_ < halves.middle;
         halves = halves_of(is_below ? halves.begin : halves.middle,
@@ -31,8 +32,8 @@ Butterfly::Links Butterfly::links(int step, Direction direction) const {
         const bool sends = to == (rank_ >= halves.middle);
         return {{Link{mirror, sends, !sends}}, mirror == rank_ ? 0U : 1U};
     }
-    // With an odd number of ranks the last of the lower half has no partner: it sends its records
-    // to the first of the other half, and gets none.
+    // If the number of ranks is odd, the last rank of the lower half has no partner: it sends its
+    // records to the first rank of the other half, and receives none.
     if (mirror == rank_) return {{Link{halves.middle, to, !to}}, 1};
     const bool is_odd = (halves.end - halves.begin) % 2 != 0;
     return {{Link{mirror, true, true}, Link{rank_ - 1, !to, to}},
@@ -76,11 +77,11 @@ void Butterfly::hand_over(int step) {
     held_.for_each([&](const Record& record) {
         if (!stays_here(record)) append_to_message(record);
     });
-    // The message is mostly empty if points are near the ranks of their parts.
+    // Usually no record is handed over, because points are near the ranks of their parts.
     if (!message_.empty()) held_.keep(stays_here);
 }
 
-/// Adds the answers to the records that a rank sent in a step to the message.
+/// Adds to the message the answers to the records that a rank sent in this step.
 void Butterfly::reply(int step, int rank) {
     const auto asked = std::ranges::find_if(
         asked_, [&](const Asked& one) { return one.step == step && one.rank == rank; });
@@ -104,19 +105,19 @@ void Butterfly::take(int step, Direction direction, const Link& link,
     records = merged(records.read(), incoming);
 }
 
-/// Notes the rank that gets the answers to records.
+/// Notes the rank that is to receive the answers to some records.
 void Butterfly::note_asked(int step, int rank, RecordReader incoming) {
     const std::size_t begin = keys_asked_.size();
     while (!incoming.at_end()) keys_asked_.push_back(incoming.next().key);
     asked_.push_back({step, rank, begin, keys_asked_.size()});
 }
 
-/// Merges records, both in the order of their keys.
+/// Merges two lists of records that are both ordered by key.
 Records Butterfly::merged(RecordReader mine, RecordReader others) const {
     Records result;
-    // Records that add up leave the rest of this memory untouched.
+    // This is an upper bound; memory is left unused if records are joined.
     result.reserve_bytes(mine.words().size_bytes() + others.words().size_bytes());
-    // The result has all records before the next ones.
+    // Invariant: the result contains all records before the next ones of both lists.
     while (!mine.at_end() && !others.at_end()) {
         if (join_ != nullptr && mine.key() == others.key()) {
             const Record a = mine.next();

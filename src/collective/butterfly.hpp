@@ -12,10 +12,10 @@
 
 namespace rrcb {
 
-/// Numbers whose maximum over the ranks all know after a pass.
+/// Numbers whose maximum over all ranks is known to every rank after a pass.
 ///
-/// The first is for failures, 0 for none: its maximum names the rank whose failure agree() would
-/// report. The caller chooses the meaning of the others.
+/// The first number reports failures; 0 means that there is none. Its maximum identifies the rank
+/// whose failure agree() would report. The caller chooses the meaning of the others.
 using Flags = std::array<double, 4>;
 
 inline void mark_failed(Flags& flags, int rank, int num_ranks, bool may_follow = false) {
@@ -27,37 +27,38 @@ inline int failing_rank(const Flags& flags, int num_ranks) {
     return flags[0] > 0 ? static_cast<int>(2.0 * num_ranks - flags[0]) % num_ranks : no_rank;
 }
 
-/// Sends records of all ranks to the owners of their keys, and answers back: the part of one rank,
-/// without the messages.
+/// Sends records of all ranks to the owners of their keys, and sends answers back. This class is
+/// the part of one rank, without the messages.
 ///
-/// The ranks are halved again and again, the lower half being the larger one, until each is alone.
-/// In the step of a halving a rank sends one rank of the other half all records whose owner is
-/// there: ceil(log2 R) steps for R ranks, as in the crystal router (G. C. Fox et al.: Solving
-/// Problems on Concurrent Processors, volume 1, 1988). Records of one key are joined when they
-/// meet. Answers take the same paths back, in reverse order, to all ranks that sent or passed on a
-/// record of the key.
+/// The ranks are halved repeatedly, until each half has one rank; the lower half is the larger one.
+/// In the step of a halving each rank sends to one rank of the other half all records whose owner
+/// is there. That takes ceil(log2 R) steps for R ranks, as in the crystal router (G. C. Fox et al.:
+/// Solving Problems on Concurrent Processors, volume 1, 1988). Records of one key are joined when
+/// they meet. Answers take the same paths back in reverse order, to all ranks that sent or passed
+/// on a record of the key.
 ///
-/// Flags are joined in every step, so each rank knows the largest of all ranks after a pass in
-/// either direction. Proof by induction over the halves: every rank sends its flags to one of the
-/// other half, so after a step a half knows what both halves knew before it. This also holds if
-/// ranks fail on the way, provided that they go on with pack_nothing(). The flags of the next pass
-/// then report the failure, the same on all ranks.
+/// Flags are joined in every step, so that each rank knows their maximum over all ranks after a
+/// pass in either direction. Proof by induction over the halves: every rank sends its flags to a
+/// rank of the other half, so after a step each half has the flags that both halves had before it.
+/// This is also true if ranks fail in the pass, provided that they continue with pack_nothing().
+/// The flags of the next pass then report the failure, and all ranks report the same.
 ///
-/// The central way has fewer messages for few ranks: rank 0 owns all keys, so the upper half of
-/// each halving sends to the lower one, and receives from it on the way back: R - 1 messages a
-/// pass. After a pass to the owners only rank 0 knows the flags of all; the others receive those of
-/// rank 0 on the way back.
+/// The central way sends fewer messages if there are few ranks. Rank 0 owns all keys, so in each
+/// step only the upper half sends, and only the lower half sends answers back: R - 1 messages in a
+/// pass. After a pass to the owners only rank 0 has the flags of all ranks; the others receive the
+/// flags of rank 0 on the way back.
 class Butterfly {
   public:
-    /// Appends the payload that `a` and `b` of one key make together. Null if records of one key
-    /// stay apart; then there are no answers.
+    /// Appends to `joined` the joint payload of two records of one key. A null function means that
+    /// records of one key are kept apart; then there are no answers.
     using Join = void (*)(std::span<const double> a, std::span<const double> b,
                           std::vector<double>& joined);
 
     enum Direction { to_owners, back };
     enum class Way { spread, central };
 
-    /// A partner in a step and the directions of its messages; links are used in this order.
+    /// A partner in a step, and the directions in which messages are sent. Links are used in the
+    /// order of links().
     struct Link {
         int rank;
         bool sends;     ///< to that rank
@@ -78,17 +79,19 @@ class Butterfly {
     int num_ranks() const { return num_ranks_; }
     bool is_central() const { return way_ == Way::central; }
 
-    /// Returns the number of steps of this rank. They are numbered from 0 on the way to the owners,
-    /// and run in reverse order on the way back.
+    /// Returns the number of steps of this rank. Steps have numbers from 0; they run in ascending
+    /// order to the owners, and in descending order on the way back.
     int num_steps() const { return num_steps_; }
 
-    /// The same step means the same halving on all ranks in it.
+    /// Returns the links of a step. A step number belongs to the same halving on all ranks that
+    /// take part in it.
     Links links(int step, Direction direction) const;
 
     /// Forgets all records and answers.
     void clear();
 
-    /// Adds a record of this rank before a pass to the owners; keys ascend. Throws std::bad_alloc.
+    /// Adds a record of this rank before a pass to the owners. Keys must ascend. Throws
+    /// std::bad_alloc.
     void add(Key key, int owner, std::span<const double> payload) {
         held_.append({key, owner, payload});
     }
@@ -96,27 +99,27 @@ class Butterfly {
     /// Returns the joined records of the keys that this rank owns, after a pass to the owners.
     const Records& owned() const { return held_; }
 
-    /// Adds the answer to a key that this rank owns before a pass back; keys ascend. Throws
+    /// Adds the answer to a key that this rank owns, before a pass back. Keys must ascend. Throws
     /// std::bad_alloc.
     void answer(Key key, std::span<const double> payload) {
         answers_.append({key, rank_, payload});
     }
 
-    /// Returns the answers to the records of this rank, and to those that it passed on, after a
-    /// pass back; ascending by key.
+    /// After a pass back, returns the answers to the records that this rank sent or passed on, in
+    /// ascending order of keys.
     const Records& answers() const { return answers_; }
 
-    /// Begins a pass. From this call on flags() are joined.
+    /// Begins a pass with the flags of this rank. Flags of other ranks are joined from now on.
     void start(const Flags& mine) { flags_ = mine; }
     const Flags& flags() const { return flags_; }
 
-    /// Makes the message for a link that sends. Throws std::bad_alloc; then call pack_nothing().
+    /// Makes the message for a link that sends. If it throws std::bad_alloc, call pack_nothing().
     void pack(int step, Direction direction, const Link& link);
 
     /// Makes a message without records. Never throws.
     void pack_nothing();
 
-    /// Returns the message that was made: its number of doubles, the flags, and records.
+    /// Returns the latest message: its length in doubles, the flags, and the records.
     std::span<const double> message() const {
         return message_.empty() ? std::span<const double>(head_) : message_;
     }
@@ -129,7 +132,7 @@ class Butterfly {
     void take(int step, Direction direction, const Link& link, std::span<const double> message);
 
   private:
-    /// The ranks from `begin` to `end` as they are halved in a step.
+    /// Ranks `begin` to `end` - 1, and the rank at which a step halves them.
     struct Halves {
         int begin;
         int middle;
@@ -141,7 +144,7 @@ class Butterfly {
         return {begin, begin + length / 2 + length % 2, end};
     }
 
-    /// Keys of the records from a rank: entries `begin` to `end` - 1 of keys_asked_.
+    /// Keys of the records received from a rank: entries `begin` to `end` - 1 of keys_asked_.
     struct Asked {
         int step;
         int rank;
@@ -167,7 +170,8 @@ class Butterfly {
     std::vector<Asked> asked_;
     std::vector<Key> keys_asked_;
     std::array<double, head_length> head_{};
-    std::vector<double> message_;  ///< empty if the message is only its head
+    std::vector<double> message_;  ///< empty if the message has no records; then head_ is the
+                                   ///< message
 };
 
 }  // namespace rrcb

@@ -54,21 +54,21 @@ void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction
             exchange(butterfly, step, direction, link, self);
     }
     const int failing = failing_rank(butterfly.flags(), butterfly.num_ranks());
-    // The other ranks learn of it on the way back.
+    // The other ranks learn of the failure on the way back.
     if (butterfly.is_central() && direction == Butterfly::to_owners) return self.hear_of(failing);
     note_met(self);
     fail_together(failing, self);
 }
 
-/// Sends and receives the message of a link: each piece in both directions at the same time, so
+/// Sends and receives the messages of a link. Each piece is sent and received at the same time, so
 /// that two ranks never wait for each other.
 void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Direction direction,
                                  const Butterfly::Link& link, Participant& self) {
     butterfly.pack_nothing();
     if (link.sends) self.attempt([&] { butterfly.pack(step, direction, link); });
     if (self.failed()) {
-        // On the way to rank 0 a rank sends after it has received everything, so that failures
-        // reach rank 0.
+        // On the way to rank 0 a rank sends after it has received everything, so it can still add
+        // the failure to its flags for rank 0.
         if (butterfly.is_central() && direction == Butterfly::to_owners) {
             Flags flags = butterfly.flags();
             add_failure(flags, butterfly, self);
@@ -91,7 +91,8 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
     self.attempt([&] { butterfly.take(step, direction, link, arrived_); });
 }
 
-/// Receives a piece of a message, even without memory to keep it; returns the number of pieces.
+/// Receives a piece of a message, even if there is no memory to keep it. Returns the number of
+/// pieces.
 std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant& self) {
     const std::span<double> piece = this->piece();
     std::fill_n(piece.begin(), head_.size(), 0.0);

@@ -13,18 +13,19 @@ namespace rrcb {
 /// Sends and receives the messages of butterflies.
 class ButterflyMessages {
   public:
-    /// Runs a pass of records to their owners, or of answers back; `flags` of this rank are joined
-    /// to those of all ranks in `butterfly`.
+    /// Runs a pass of records to their owners, or of answers back. Joins the flags of this rank
+    /// with those of all ranks in `butterfly`.
     ///
-    /// Collective: ceil(log2 R) messages from each of R ranks, one more at most from some; a
-    /// message longer than a piece takes several. No rank leaves before all have entered, because
-    /// it needs the flags of all. Throws on every rank the failure of one before the pass. A rank
-    /// that fails in the pass goes on without records. These are then missing elsewhere as well,
-    /// until the next pass or agreement reports the failure.
+    /// Collective: each of R ranks sends ceil(log2 R) messages, and some send one more; a message
+    /// longer than a piece is sent in several. No rank returns before all ranks have entered,
+    /// because it needs the flags of all. If a rank failed before the pass, every rank throws its
+    /// failure. If a rank fails in the pass, it continues without records: those are then missing
+    /// on other ranks as well, until the next pass or agreement reports the failure.
     ///
-    /// The central way has R - 1 messages in all. In a pass to the owners rank 0 learns of failures
-    /// before or in it, which the pass back throws. `flags` of all ranks count on the way to the
-    /// owners, on the way back only those of rank 0.
+    /// The central way sends R - 1 messages in all. In a pass to the owners only rank 0 learns of
+    /// failures, before or in the pass; the pass back throws them on all ranks. On the way to the
+    /// owners the flags of all ranks are joined, on the way back only those of rank 0 are
+    /// distributed.
     void run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags, Participant& self);
 
   private:
@@ -33,7 +34,7 @@ class ButterflyMessages {
 
     std::size_t receive(std::size_t number, int from, Participant& self);
 
-    /// Returns the memory of a piece, for at least a head and at most mpi::longest_message.
+    /// Returns the memory of a piece: at least a head long, and at most mpi::longest_message.
     std::span<double> piece();
 
     std::array<double, 8192> piece_;                     ///< the latest piece

@@ -46,7 +46,8 @@ std::string_view name_of(CallName call) {
 
 namespace {
 
-/// Returns the first difference from the calls of one rank, among those that both records have.
+/// Returns the first difference between the calls of one rank and those of the others, among the
+/// calls that both records contain.
 std::optional<CallDifference> find_difference_from(std::size_t rank,
                                                    std::span<const CallRecord> known) {
     const CallRecord& mine = known[rank];
@@ -72,7 +73,8 @@ std::optional<CallDifference> find_different_calls(std::span<const CallRecord> k
     if (std::ranges::any_of(known, [](const CallRecord& one) { return one.number() == 0; }))
         return std::nullopt;
     if (const auto found = find_difference_from(0, known)) return found;
-    // Ranks may have gone on for more calls than are kept, but not the neighbours of the last one.
+    // A rank may be many calls ahead of the rank with the fewest calls, so that records do not
+    // overlap. The neighbours of that rank cannot be so far ahead, because they wait for it.
     const auto last = std::ranges::min_element(known, {}, &CallRecord::number);
     return find_difference_from(static_cast<std::size_t>(last - known.begin()), known);
 }
@@ -85,7 +87,8 @@ std::string text_of(const CallDifference& difference) {
 }
 
 int CallLog::tag(int kind) const {
-    // Below 32,768, which every MPI allows. Ranks are never so many calls apart as to mix them up.
+    // The tag is below 32,768, which every MPI allows. Ranks are never so many calls apart that
+    // equal tags could be confused.
     constexpr int most_kinds = 16;
     const auto number = static_cast<int>(mine.number() % (2 * CallRecord::num_kept));
     return kind + most_kinds * (static_cast<int>(mine.latest()) + most_call_names * number);

@@ -65,10 +65,10 @@ class CallRecord {
 
     void add(CallName call) { calls_[number_++ % num_kept] = call; }
 
-    /// Returns the number of calls so far.
+    /// Returns the total number of calls.
     std::uint32_t number() const { return number_; }
 
-    /// Returns the call with a number from 0, one of those kept.
+    /// Returns the call with a number (from 0), which must be one of the latest num_kept.
     CallName call(std::uint32_t number) const { return calls_[number % num_kept]; }
     CallName latest() const { return number_ > 0 ? call(number_ - 1) : CallName::none; }
 
@@ -83,41 +83,44 @@ struct CallDifference {
     std::array<CallName, 2> calls{};
 };
 
-/// Returns the first difference between the calls of all ranks: those of rank 0 and of the lowest
-/// rank with another call, or, if there is none, of the rank with the fewest calls. Returns nullopt
-/// if calls of some rank are not known yet.
+/// Returns the first difference between the calls of all ranks: that of rank 0 and of the lowest
+/// rank with another call. If there is none, returns the first difference from the rank with the
+/// fewest calls. Returns nullopt if the calls of some rank are not known yet.
 std::optional<CallDifference> find_different_calls(std::span<const CallRecord> known);
 
 std::string text_of(const CallDifference& difference);
 
-/// The calls with a duplicate of the library's. A call starts with a meeting, in which each rank
-/// waits for all others; only then do ranks depend on each other's arguments.
+/// The collective calls on one duplicate of the library. A call starts with a meeting, in which
+/// each rank waits for all others. Only after the meeting can a rank rely on the others being in
+/// the same call.
 struct CallLog {
     enum class End : std::uint8_t {
         none,
-        differed,  ///< ranks made different calls: the next call makes another duplicate
-        failed     ///< a call that waits only for neighbours failed: likewise
+        differed,  ///< ranks made different calls; the next call makes another duplicate
+        failed     ///< a call that waits only for neighbours failed; the next call makes another
+                   ///< duplicate
     };
 
     MPI_Comm comm = MPI_COMM_NULL;  ///< the duplicate; null once it is freed
-    /// Number of the processes of `comm` and their order, never 0 in a call: the same for congruent
-    /// communicators, otherwise another one.
+    /// Identifies the processes of `comm` and their order; equal for congruent communicators only.
+    /// Never 0 in a call.
     std::uint64_t group = 0;
     CallRecord mine{};
     bool is_meeting = false;  ///< the latest call has not met the other ranks yet
     End end = End::none;
-    std::string why{};                ///< text of the error that ended it
+    std::string why{};                ///< text of the error that ended the use of the duplicate
     std::vector<CallRecord> known{};  ///< of all ranks, on rank 0
-    /// Messages under way, which no rank may ever receive.
+    /// Messages under way, which may never be received.
     CallRecord sent{};
     CallDifference verdict{};
     FailureNotice notice{};
     std::shared_ptr<LinkMessages> undelivered{};
     std::shared_ptr<CallLog> ended_before{};  ///< another log that has ended
 
-    std::vector<NeighbourLink*> links{};  ///< exchanges between neighbours that exist
+    std::vector<NeighbourLink*> links{};  ///< all exchanges between neighbours that exist
 
-    /// Notes a call that waits in the other messages of its own only.
+    /// Notes a call without a meeting, in which the rank waits only for messages of the call
+    /// itself.
     void add(CallName call) { mine.add(call); }
 
     /// Notes a call that begins with a meeting.
@@ -126,7 +129,8 @@ struct CallLog {
         is_meeting = comm != MPI_COMM_NULL;
     }
 
-    /// Returns the tag by which a kind of message meets only those of the same call.
+    /// Returns the tag of a kind of message in the current call. It differs from the tags of other
+    /// calls.
     int tag(int kind) const;
 };
 

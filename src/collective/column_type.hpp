@@ -8,7 +8,8 @@
 
 namespace rrcb {
 
-/// Components, bytes and kind of the values of a column, which must be the same on every rank.
+/// Number of components, bytes and kind of the values of a column, as one number. It must be the
+/// same on every rank.
 using ColumnType = std::uint64_t;
 
 inline ColumnType type_of(const detail::ByteColumn& column) {

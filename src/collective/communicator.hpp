@@ -11,10 +11,11 @@ namespace rrcb::mpi {
 
 /// Kind of a message between two ranks, on the duplicate of a communicator.
 ///
-/// Ranks may run ahead into the next call, so a tag distinguishes kinds. Within a kind, a call
-/// receives every message sent to it and names the sender, so that MPI keeps the order.
+/// A rank may already be in the next call, so the tag distinguishes kinds. Within a kind, a call
+/// receives every message that is sent to it and names the sender, so that MPI's order of messages
+/// is enough.
 ///
-/// In the meeting at the beginning of a call, the tags also contain the call: see CallLog::tag().
+/// In the meeting at the beginning of a call, tags also contain the call; see CallLog::tag().
 enum Tag : int {
     contribution_tag = 1,
     points_tag,
@@ -35,10 +36,11 @@ void check(int code, const char* call);
 /// Narrows a count to MPI's int; throws Error if it does not fit.
 int to_int(std::int64_t count);
 
-/// Most bytes in a message; tests lower it.
+/// Maximum number of bytes in a message. Tests lower it.
 inline std::size_t longest_message = std::numeric_limits<int>::max();
 
-/// Broadcasts any number of bytes, the same on each rank, as MPI_Bcast. Collective over `comm`.
+/// Broadcasts as MPI_Bcast, but any number of bytes, which is the same on each rank. Collective
+/// over `comm`.
 void broadcast(std::span<std::byte> bytes, int root, MPI_Comm comm);
 
 /// Returns the sum over all ranks. Collective.

@@ -18,8 +18,8 @@ namespace rrcb::mpi {
 
 namespace {
 
-/// Freed with the communicator that it is kept with, unless messages on it are left pending, whose
-/// memory then stays.
+/// The library's duplicate of a communicator, which frees it. If the use of the duplicate has ended
+/// after a failure, messages on it may be pending; then neither it nor their memory is freed.
 struct Duplicate {
     std::shared_ptr<CallLog> log = std::make_shared<CallLog>();
 
@@ -34,7 +34,7 @@ struct Duplicate {
     }
 };
 
-/// Returns a random number of this process.
+/// Returns a random number that identifies this process.
 std::uint64_t number_of_process() {
     static const std::uint64_t number = [] {
         std::random_device random;
@@ -43,7 +43,7 @@ std::uint64_t number_of_process() {
     return number;
 }
 
-/// Returns the number of the group of `self`. Collective.
+/// Returns a number that identifies the processes of `self` and their order. Collective.
 std::uint64_t make_group(Participant& self) {
     std::uint64_t here = 0;
     self.attempt([&] {
@@ -63,8 +63,8 @@ void refuse_two_groups(MPI_Comm user) {
                     "an intercommunicator has two groups; merge them by MPI_Intercomm_merge");
 }
 
-/// Returns what is kept with `user`, or null. Makes way for another duplicate if ranks made
-/// different calls with this one, or failed apart; then `old` is its log.
+/// Returns the duplicate kept with `user`, or null. If its use has ended, because ranks made
+/// different calls or failed, it is detached to make room for another one, and `old` gets its log.
 Duplicate* kept_with(MPI_Comm user, std::shared_ptr<CallLog>& old) {
     Duplicate* found = Attribute<Duplicate>::find(user);
     if (found == nullptr || found->log->end == CallLog::End::none) return found;
@@ -73,8 +73,8 @@ Duplicate* kept_with(MPI_Comm user, std::shared_ptr<CallLog>& old) {
     return nullptr;
 }
 
-/// Makes the duplicate, and keeps it. Then no message of an `old` one is needed, if there was one
-/// on every rank. Collective.
+/// Makes the duplicate and keeps it with `user`. If there was an `old` one, which all ranks then
+/// have, receives its remaining messages. Collective.
 Duplicate& make(MPI_Comm user, CallLog* old) {
     refuse_two_groups(user);
     MPI_Comm comm = MPI_COMM_NULL;

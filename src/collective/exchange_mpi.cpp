@@ -25,8 +25,8 @@ std::size_t Exchange::longest_message() const {
     return mpi::longest_message / record_bytes_ * record_bytes_;
 }
 
-/// Calls begin(rank, first, size, request) for each message of records by rank, which has the
-/// bytes of the buffer from `first` on.
+/// Calls begin(rank, first, size, request) for each message. The message to or from a rank has
+/// `size` bytes of the buffer, from `first` on.
 template <class Begin>
 void Exchange::begin_all(std::span<const RankCount> counts, Begin&& begin) {
     std::size_t first = 0;

@@ -12,25 +12,25 @@
 
 namespace rrcb {
 
-/// Memory for records.
+/// Memory for the records of an exchange.
 struct ExchangeBuffers {
     detail::Uninitialized<std::byte> outbox{};  ///< sorted by rank
-    detail::Uninitialized<std::byte> inbox{};   ///< likewise
+    detail::Uninitialized<std::byte> inbox{};   ///< sorted by rank
 };
 
 /// Sends records of one size from any rank to any rank.
 class Exchange {
   public:
-    /// Uses the `memory` of another exchange.
+    /// Uses the memory of an earlier exchange, if it is given.
     Exchange(std::size_t record_bytes, int num_ranks, ExchangeBuffers memory = {})
         : record_bytes_(record_bytes), num_ranks_(num_ranks), buffers_(std::move(memory)) {
         buffers_.outbox.clear();
         buffers_.inbox.clear();
     }
 
-    /// Takes a record for each of `destinations`; write(k, place) writes the k-th one.
+    /// Adds a record for each entry of `destinations`; write(k, place) writes the k-th record.
     ///
-    /// Not collective. Throws std::bad_alloc; then nothing has been taken.
+    /// Not collective. If it throws std::bad_alloc, no record has been added.
     template <class Write>
     void fill(std::span<const int> destinations, Write&& write) {
         RankOrder order(destinations, num_ranks_);
@@ -40,19 +40,20 @@ class Exchange {
                            std::size_t k, std::size_t place) { write(k, outbox + bytes * place); });
     }
 
-    /// Announces the records to their ranks. Allocates memory for those to this rank, and returns
-    /// their number.
+    /// Announces the number of records to their ranks. Allocates memory for the records that this
+    /// rank receives, and returns their number.
     ///
-    /// Collective as exchange_counts().
+    /// Collective in the same way as exchange_counts().
     std::size_t announce(Participant& self);
 
-    /// Sends and receives, after the ranks agreed that all have memory.
+    /// Sends and receives. Before, the ranks must have agreed that all of them have memory.
     ///
-    /// Collective: one message for each pair of ranks with records, more beyond
-    /// mpi::longest_message. Throws Error if a message fails, on this rank only.
+    /// Collective: one message for each pair of ranks with records, or more if it is longer than
+    /// mpi::longest_message. If a message fails, throws Error on this rank only.
     void run(Participant& self);
 
-    /// Calls read(source, place) for every record received: by rank, in the order written there.
+    /// Calls read(source, place) for every received record: ordered by rank, then in the order of
+    /// writing.
     template <class Read>
     void for_each(Read&& read) const {
         const std::byte* place = buffers_.inbox.data();
@@ -71,8 +72,8 @@ class Exchange {
 
     std::size_t record_bytes_;
     int num_ranks_;
-    std::vector<RankCount> to_;    ///< records for each rank that gets some
-    std::vector<RankCount> from_;  ///< records of each rank that has some for this one
+    std::vector<RankCount> to_;    ///< number of records for each rank that gets some
+    std::vector<RankCount> from_;  ///< number of records from each rank that sends some
     ExchangeBuffers buffers_;
     std::vector<MPI_Request> requests_;
 };

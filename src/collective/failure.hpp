@@ -9,18 +9,19 @@
 
 namespace rrcb {
 
-/// The failing rank if none has failed.
+/// Stands for the failing rank if no rank has failed.
 inline constexpr int no_rank = -1;
 
-/// The failing rank if a message could not name it.
+/// Stands for the failing rank if a message could not name it.
 inline constexpr int some_rank = -2;
 
-/// Error held back until the ranks have agreed on it. Does not allocate.
+/// An Error that is held back until the ranks have agreed on it. It does not allocate.
 struct Failure {
     bool failed = false;
     ErrorCode code = ErrorCode::internal;
-    std::array<char, 512> text{};  ///< cut short if it is longer; ends with a 0
-    bool may_follow = false;       ///< another rank's failure may have caused it, see compare()
+    std::array<char, 512> text{};  ///< truncated if it is longer; ends with a 0
+    bool may_follow = false;       ///< whether the failure of another rank may have caused it; see
+                                   ///< compare()
 };
 
 inline Failure failure_of(ErrorCode code, std::string_view text) {
@@ -29,7 +30,7 @@ inline Failure failure_of(ErrorCode code, std::string_view text) {
     return failure;
 }
 
-/// Runs one local step; returns the exception that it throws.
+/// Runs one local step. Returns the exception that it throws as a Failure.
 template <class Step>
 Failure attempt(Step&& step) {
     try {

@@ -6,11 +6,11 @@
 
 namespace rrcb::mpi {
 
-/// A handle of MPI that make(handle) makes; freed with the object.
+/// A handle of MPI that make(handle) creates. It is freed together with this object.
 template <class Handle, int (*free_handle)(Handle*)>
 class Owned {
   public:
-    /// Throws Error that names the `call` in make().
+    /// If make() fails, throws Error with the name of the MPI function, `call`.
     template <class Make>
     Owned(Make&& make, const char* call) {
         check(make(&handle_), call);

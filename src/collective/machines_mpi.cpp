@@ -22,10 +22,10 @@ const Machines* find(MPI_Comm comm) {
 /// The machine of this rank.
 struct MachineHere {
     int num_ranks = 1;
-    std::array<int, 2> lowest{};  ///< the two lowest ranks on it; twice the same if it has only one
+    std::array<int, 2> lowest{};  ///< the two lowest ranks on it; equal if it has only one rank
 };
 
-/// Collective.
+/// Finds the machine of this rank. Collective.
 MachineHere machine_here(Participant& self) {
     MachineHere here{1, {rank_of(self.comm), rank_of(self.comm)}};
     MPI_Comm machine = MPI_COMM_NULL;
@@ -37,7 +37,7 @@ MachineHere machine_here(Participant& self) {
     MPI_Group all = MPI_GROUP_NULL;
     self.check(MPI_Comm_group(machine, &of_machine), "MPI_Comm_group");
     self.check(MPI_Comm_group(self.comm, &all), "MPI_Comm_group");
-    // Ranks are ordered as in `comm`, so that the first are the lowest.
+    // Ranks of `of_machine` are ordered as in `comm`, so the first two are the lowest.
     const std::array first{0, std::min(1, here.num_ranks - 1)};
     self.check(MPI_Group_translate_ranks(of_machine, 2, first.data(), all, here.lowest.data()),
                "MPI_Group_translate_ranks");
@@ -51,20 +51,20 @@ MachineHere machine_here(Participant& self) {
 
 Machines machines_of(Participant& self) {
     if (const Machines* known = find(self.comm)) return *known;
-    // MPI makes a communicator only if all ranks ask for it.
+    // Creating a communicator blocks unless all ranks take part.
     if (self.is_meeting()) agree(self);
     const MachineHere here = machine_here(self);
-    // Of the first machine: its ranks, and the distance between the two lowest.
+    // Number of ranks of the first machine, and distance between its two lowest ranks.
     std::array first{here.num_ranks, here.lowest[1] - here.lowest[0]};
     check(MPI_Bcast(first.data(), 2, MPI_INT, root, self.comm), "MPI_Bcast");
     const auto [num_ranks, distance] = first;
     const int rank = rank_of(self.comm);
     Machines made{num_ranks, distance > 1};
-    // The machines are alike if the lowest rank of each is as the first machine predicts.
+    // Machines are alike if the lowest rank of each is the one that the first machine predicts.
     const int lowest = made.dealt ? rank % distance : rank / num_ranks * num_ranks;
-    // If ranks are dealt in turn, only the last machine may have fewer.
+    // If ranks are dealt in turn, only the last machine may have fewer ranks than the others.
     const bool ends_well = !made.dealt || (size_of(self.comm) + 1) % distance <= 1;
-    // Rank 0 always fits, so the ranks differ if any machine does not.
+    // Rank 0 always fits, so the values of the ranks differ if any machine does not fit.
     const bool fits = here.lowest[0] == lowest && (rank == root || ends_well);
     std::array shared{Shared{"machines", fits ? 0u : 1u}};
     Machines* kept = nullptr;

@@ -4,19 +4,20 @@
 
 namespace rrcb::mpi {
 
-/// Ranks of each machine of a communicator, if the machines are alike.
+/// Number of ranks on each machine of a communicator, if the machines are alike.
 struct Machines {
-    int num_ranks = 1;   ///< of each, the last may have fewer; 1 also if machines are not alike
-    bool dealt = false;  ///< ranks are dealt to the machines in turn; otherwise consecutive ones
+    int num_ranks = 1;   ///< of each machine; the last may have fewer. 1 if machines are not alike
+    bool dealt = false;  ///< whether ranks are dealt to the machines in turn; otherwise a machine
+                         ///< has consecutive ranks
 };
 
-/// Finds the machines if all have as many ranks, the last perhaps fewer, which are consecutive or
-/// dealt in turn.
+/// Finds the machines. They are alike if all have the same number of ranks, except that the last
+/// may have fewer, and these ranks are consecutive or dealt in turn.
 ///
-/// Collective over `self.comm`, a duplicate of the library's own, when called for the first time
-/// with it: the ranks agree if they have not met, a communicator is made and freed, with a
-/// broadcast on it, and a broadcast and a reduction over all ranks. Throws the same Error on every
-/// rank if one of them has failed; then nothing is kept.
+/// The first call with `self.comm`, a duplicate of the library, is collective: the ranks agree if
+/// they have not met, a communicator is made, used and freed, and a broadcast and a reduction over
+/// all ranks follow. If a rank has failed, throws the same Error on every rank; nothing is kept
+/// then.
 Machines machines_of(Participant& self);
 
 }  // namespace rrcb::mpi

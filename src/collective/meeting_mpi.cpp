@@ -49,8 +49,8 @@ void send(std::span<const std::byte> bytes, int to, mpi::Tag kind, Participant& 
 }
 
 void broadcast_and_meet(std::span<std::byte> bytes, Participant& self) {
-    // Rank 0 begins the broadcast after it has heard of all ranks. Until then nothing is written to
-    // the memory of the others, who may thus leave it pending.
+    // Rank 0 begins the broadcast after all ranks have reported to it. Until then nothing is
+    // written to the memory of the other ranks, so they may leave the broadcast pending.
     while (self.is_meeting() && !bytes.empty()) {
         const std::size_t size = std::min(bytes.size(), mpi::longest_message);
         MPI_Request request = MPI_REQUEST_NULL;
@@ -68,7 +68,8 @@ void broadcast_and_meet(std::span<std::byte> bytes, Participant& self) {
 void note_met(Participant& self) {
     if (!self.is_meeting()) return;
     self.log->is_meeting = false;
-    // Those of ranks that had to wait; without memory they stay for the next call.
+    // Receives the reports of ranks that had to wait. If there is no memory for them, the next call
+    // receives them.
     attempt([&] { mpi::take_reports(*self.log); });
 }
 

@@ -5,16 +5,17 @@
 
 namespace rrcb {
 
-/// Tree along which contributions are sent to rank 0. Each rank first adds those of its children.
+/// Tree along which contributions are sent to rank 0. Each rank first joins its children's
+/// contributions to its own.
 ///
-/// A rank that is a multiple of radix^k receives, for each smaller power s of the radix, the
-/// subtrees of s ranks each that begin s, 2 s, ... (radix - 1) s after it.
+/// A rank that is a multiple of radix^k receives from k levels of subtrees: for each power s = 1,
+/// radix, ... radix^(k-1), those of s ranks each that begin at distances s, 2 s, ... (radix - 1) s.
 struct MergeTree {
     int num_ranks = 1;
     int radix = 8;
 
-    /// Calls `visit(child)` for the children of a rank, in the order in which it receives them: by
-    /// rank.
+    /// Calls visit(child) for the children of a rank, in ascending order; contributions are
+    /// received in this order.
     template <class Visit>
     void for_each_child(int rank, Visit&& visit) const {
         for (std::int64_t stride = 1; stride < num_ranks && rank % (stride * radix) == 0;

@@ -14,7 +14,7 @@
 
 namespace rrcb {
 
-/// The first bytes of a message; then come the types of the columns, and the rows.
+/// First bytes of a message. The types of the columns follow, then the rows.
 struct NeighbourExchange::Header {
     std::uint64_t call_number;
     std::uint64_t version;
@@ -107,7 +107,8 @@ void NeighbourExchange::fail(const Failure& failure) {
     mpi::spread(failure, *log_);
 }
 
-/// Returns the failure with this rank in its text, if there is memory for that.
+/// Returns the failure with the number of this rank prefixed to its text, if there is memory for
+/// that.
 Failure NeighbourExchange::of_this_rank(const Failure& failure) const {
     Failure named = failure;
     rrcb::attempt([&] {
@@ -148,14 +149,15 @@ void NeighbourExchange::run() {
         if (incoming_[n].has_arrived && link_.is_over[n] == 0) compare(n);
 }
 
-/// Returns whether nothing more is to be expected of a neighbour in this call.
+/// Returns true if nothing more is expected from or to be sent to a neighbour in this call.
 bool NeighbourExchange::settle(std::size_t neighbour) {
     if (link_.is_over[neighbour] != 0) return true;
     const Incoming& incoming = incoming_[neighbour];
     int is_sent = 0;
     check(MPI_Test(&link_.outgoing->requests[neighbour], &is_sent, MPI_STATUS_IGNORE), "MPI_Test");
     if (incoming.has_arrived && is_sent != 0) return true;
-    // The next message may be of another call, if it is no notice.
+    // After the message of this call, only a notice may be received: another message belongs to the
+    // next call.
     if (!incoming.has_arrived || is_notice_next(neighbour)) receive(neighbour);
     return link_.is_over[neighbour] != 0 || (incoming.has_arrived && is_sent != 0);
 }
@@ -170,7 +172,8 @@ bool NeighbourExchange::is_notice_next(std::size_t neighbour) {
     return bytes == sizeof(FailureNotice);
 }
 
-/// Receives the next message of a neighbour, if it is there: that of this call, or a notice.
+/// Receives the next message of a neighbour if it has arrived: the message of this call, or a
+/// notice.
 void NeighbourExchange::receive(std::size_t neighbour) {
     Incoming& incoming = incoming_[neighbour];
     int is_there = 0;
@@ -190,7 +193,7 @@ void NeighbourExchange::receive(std::size_t neighbour) {
         const Failure lacks_memory =
             rrcb::attempt([&] { incoming.bytes.resize(static_cast<std::size_t>(bytes)); });
         if (lacks_memory.failed) {
-            // Cut short.
+            // There is no memory, so the message is received without its contents.
             incoming.bytes.clear();
             bytes = 0;
             note(of_this_rank(lacks_memory));

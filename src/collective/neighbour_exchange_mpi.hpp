@@ -13,12 +13,13 @@
 
 namespace rrcb {
 
-/// Exchanges one message with each of some ranks, its neighbours, in each call, which no collective
-/// call precedes. Both ranks of a pair have each other as neighbours, and make the same calls with
-/// all exchanges in the same order, so that each receives the messages of the other in order.
+/// Exchanges one message with each neighbour in every call. The neighbours are a fixed set of
+/// ranks; no collective call is needed. Both ranks of a pair must have each other as neighbours,
+/// and make the same calls with all exchanges in the same order. Each then receives the other's
+/// messages in order.
 ///
-/// A call consists of begin(), attempt() of the steps that write the messages, run(), attempt() of
-/// those that read them, and end(). If it fails, so do the neighbours; see
+/// A call consists of begin(), attempt() for the steps that write the messages, run(), attempt()
+/// for the steps that read them, and end(). If a call fails, it also fails on the neighbours; see
 /// spread_failure_mpi.hpp. The memory of messages is kept for the next call.
 class NeighbourExchange {
   public:
@@ -35,35 +36,35 @@ class NeighbourExchange {
     /// if an earlier call has failed.
     void begin(CallName call, std::uint64_t version = 0);
 
-    /// Runs a step; if it throws, the call ends with this failure, here and on the neighbours.
+    /// Runs a step. If it throws, the call ends with this failure on this rank and on the
+    /// neighbours.
     template <class Step>
     void attempt(Step&& step) {
         const Failure failure = rrcb::attempt(step);
         if (failure.failed) fail(of_this_rank(failure));
     }
 
-    /// States the columns whose rows the messages contain.
+    /// Sets the columns whose rows the messages contain.
     void set_types(std::span<const detail::ByteColumn> columns);
 
-    /// Returns the memory for `bytes` of a message with `rows` rows to a neighbour, 16-byte
-    /// aligned.
+    /// Returns 16-byte aligned memory for `bytes` of a message with `rows` rows to a neighbour.
     std::byte* message_to(std::size_t neighbour, std::size_t rows, std::size_t bytes);
 
-    /// Sends the messages and receives those of the neighbours.
+    /// Sends the messages and receives the neighbours' messages.
     void run();
 
-    /// Returns whether the message of a neighbour has arrived and is of the same call.
+    /// Returns whether the message of a neighbour has arrived and belongs to the same call.
     bool has_message(std::size_t neighbour) const { return incoming_[neighbour].is_valid; }
     std::size_t rows_from(std::size_t neighbour) const;
-    /// Returns the message of a neighbour; fails unless it has this length.
+    /// Returns the message of a neighbour. Fails unless it has this length.
     const std::byte* message_from(std::size_t neighbour, std::size_t bytes) const;
 
-    /// Returns the bytes of the messages of the latest call, sent and received.
+    /// Returns the number of bytes sent and received in the latest call.
     std::size_t num_bytes() const;
-    /// Returns the bytes of a message before its rows.
+    /// Returns the number of bytes before the rows of a message.
     static std::size_t header_bytes(std::size_t num_columns);
 
-    /// Ends the call: throws the failure of a neighbour, if there is one.
+    /// Ends the call. Throws the failure of a neighbour if there is one.
     void end();
 
   private:

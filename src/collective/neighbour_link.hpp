@@ -13,17 +13,17 @@
 
 namespace rrcb {
 
-/// The last message of a rank that has failed in a call between neighbours. By its length it
-/// differs from all others, which are multiples of 16 bytes.
+/// Last message of a rank that has failed in a call between neighbours. It is recognized by its
+/// length: all other messages are multiples of 16 bytes long.
 using FailureNotice = Failure;
 static_assert(sizeof(FailureNotice) % 16 != 0);
 
-/// Messages to neighbours, with the memory that MPI reads until they are received, which may be
-/// never.
+/// Messages to neighbours, with their memory. MPI reads this memory until the messages are
+/// received, which may never happen.
 struct LinkMessages {
     std::vector<detail::Uninitialized<std::byte>> messages{};  ///< one for each neighbour
-    std::vector<MPI_Request> requests{};                       ///< of these
-    std::shared_ptr<LinkMessages> next{};                      ///< in CallLog::undelivered
+    std::vector<MPI_Request> requests{};                       ///< one for each message
+    std::shared_ptr<LinkMessages> next{};  ///< next entry of the list CallLog::undelivered
 };
 
 /// The ranks with which this one exchanges messages outside of collective calls.

@@ -11,7 +11,7 @@ namespace rrcb {
 
 namespace {
 
-/// Bits of a key below the destination rank: those of the source rank.
+/// A key has the destination rank in its upper bits and the source rank in these lower ones.
 constexpr int source_bits = 32;
 
 }  // namespace

@@ -29,7 +29,8 @@ void RankOrder::count_each() {
     std::exclusive_scan(next_.begin(), next_.end(), next_.begin(), LocalIndex{0});
 }
 
-/// By the digits of the ranks, the lowest first; entries of one digit keep their order.
+/// Sorts by the digits of the ranks, the lowest digit first. Entries with equal digits keep their
+/// order.
 void RankOrder::sort_by_digits(int num_ranks) {
     order_.resize(ranks_.size());
     std::iota(order_.begin(), order_.end(), LocalIndex{0});

@@ -9,24 +9,24 @@
 
 namespace rrcb {
 
-/// Number of a record's subject; records of one key have one owner.
+/// Number of the subject of a record. All records with one key have the same owner.
 using Key = std::uint64_t;
 
-/// A key, the rank that owns it, and any number of doubles about it.
+/// A key, the rank that owns it, and any number of doubles as payload.
 struct Record {
     Key key = 0;
     int owner = 0;
     std::span<const double> payload{};
 };
 
-/// Reads records one after the other from doubles.
+/// Reads records one after the other from an array of doubles.
 class RecordReader {
   public:
     explicit RecordReader(std::span<const double> words) : words_(words) {}
 
     bool at_end() const { return words_.empty(); }
 
-    /// Returns the doubles of all records that were not read.
+    /// Returns the doubles of all records that have not been read.
     std::span<const double> words() const { return words_; }
 
     /// Returns the key of the next record.
@@ -53,7 +53,7 @@ class RecordReader {
     std::span<const double> words_;
 };
 
-/// Appends a record. Throws std::bad_alloc; then the record is not there.
+/// Appends a record. If it throws std::bad_alloc, the records are unchanged.
 inline void append_record(std::vector<double>& words, const Record& record) {
     const auto length = static_cast<std::uint32_t>(record.payload.size());
     const std::size_t needed = words.size() + RecordReader::head_length + length;
@@ -63,20 +63,20 @@ inline void append_record(std::vector<double>& words, const Record& record) {
     words.insert(words.end(), record.payload.begin(), record.payload.end());
 }
 
-/// Records, one after the other.
+/// Records stored one after the other.
 class Records {
   public:
     void clear() { words_.clear(); }
     bool empty() const { return words_.empty(); }
 
-    /// Allocates memory for so many bytes of records. Throws std::bad_alloc.
+    /// Allocates memory for records of this many bytes. Throws std::bad_alloc.
     void reserve_bytes(std::size_t size) { words_.reserve(size / sizeof(double)); }
 
-    /// Throws std::bad_alloc; then the record is not there.
+    /// Appends a record. If it throws std::bad_alloc, the records are unchanged.
     void append(const Record& record) { append_record(words_, record); }
 
-    /// Appends a record with the key of two others, and the payload that join(a, b, joined) appends
-    /// to `joined`. Throws std::bad_alloc; then all records here are void.
+    /// Appends a record with the common key of two others. join(a, b, joined) appends its payload
+    /// to `joined`. If it throws std::bad_alloc, none of the records here is valid any more.
     template <class Join>
     void append_joined(const Record& a, const Record& b, Join&& join) {
         append({a.key, a.owner, {}});
@@ -90,7 +90,7 @@ class Records {
     template <class Stay>
     void keep(Stay&& stay) {
         auto end = words_.begin();
-        // Before `end` are the records that stay, of those that were read.
+        // Invariant: the records before `end` are those that were read and are kept.
         for (RecordReader reader = read(); !reader.at_end();) {
             const double* begin = reader.words().data();
             if (stay(reader.next())) end = std::copy(begin, reader.words().data(), end);

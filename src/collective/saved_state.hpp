@@ -19,15 +19,15 @@ enum class StateKind : std::uint64_t {
     zoltan_handle = 4
 };
 
-/// State as words of 8 bytes, which are written or read by the same calls.
+/// Saved state as words of 8 bytes. The same calls write and read it.
 ///
-/// A head contains the format, the kind, the number of words and a checksum. Each word is reversed
-/// if the bytes come from a machine of the other byte order.
+/// A head contains the format, the kind, the number of words and a checksum. When bytes from a
+/// machine with the other byte order are read, each word is reversed.
 class SavedState {
   public:
-    /// Begins to write a state.
+    /// Starts writing a state.
     explicit SavedState(StateKind kind);
-    /// Begins to read one. Throws Error if the bytes are not a complete state of this kind.
+    /// Starts reading a state. Throws Error if the bytes are not a complete state of this kind.
     SavedState(std::span<const std::byte> bytes, StateKind kind);
 
     /// Writes or reads each value.
@@ -36,14 +36,14 @@ class SavedState {
         (one(values), ...);
     }
 
-    /// Writes or reads a count, at most `most`. Throws Error if a larger one is read.
+    /// Writes or reads a count. Throws Error if a count above `most` is read.
     template <class Count>
     void count(Count& value, std::size_t most) {
         one(value);
         require_count(static_cast<std::uint64_t>(value), most);
     }
 
-    /// Returns the number of words to read; without limit if it writes.
+    /// Returns the number of words still to be read. When writing, returns SIZE_MAX.
     std::size_t num_left() const { return reads_ ? words_.size() - next_ : SIZE_MAX; }
 
     std::vector<std::byte> bytes();

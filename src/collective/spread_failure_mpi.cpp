@@ -12,15 +12,15 @@ namespace rrcb::mpi {
 
 namespace {
 
-/// Sends the notice of a failure without waiting for it. Its memory belongs to the log, which
-/// outlives the message.
+/// Sends the notice of a failure without waiting for its delivery. The memory of the notice belongs
+/// to the log, which outlives the message.
 void send_notice(CallLog& log, int to, int tag) {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Isend(&log.notice, sizeof log.notice, MPI_BYTE, to, tag, log.comm, &request);
     if (request != MPI_REQUEST_NULL) MPI_Request_free(&request);
 }
 
-/// Returns whether no message of this rank is pending.
+/// Returns true if no message of this rank to a neighbour is pending.
 bool are_delivered(const CallLog& log) {
     for (LinkMessages* out = log.undelivered.get(); out != nullptr; out = out->next.get()) {
         int is_done = 0;
@@ -31,7 +31,8 @@ bool are_delivered(const CallLog& log) {
     return true;
 }
 
-/// Receives all messages that are there. Without memory for one, it is cut short.
+/// Receives all messages that have arrived. If there is no memory for one, it is received without
+/// its contents.
 void receive_all(MPI_Comm comm, detail::Uninitialized<std::byte>& memory) {
     for (int is_there = 1; is_there != 0;) {
         MPI_Message message = MPI_MESSAGE_NULL;

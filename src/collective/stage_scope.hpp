@@ -6,8 +6,8 @@
 
 namespace rrcb {
 
-/// Reports a stage, which lasts until the end of the scope, to the observer, if there is one. The
-/// observer runs outside of `arithmetic`.
+/// Reports a stage to the observer, if there is one; the stage lasts until the end of the scope.
+/// The observer runs with the caller's floating-point environment.
 class StageScope {
   public:
     StageScope(StageObserver* observer, Stage stage, const NonStop& arithmetic)

@@ -12,7 +12,8 @@ namespace rrcb {
 
 namespace {
 
-/// Pieces in transit in one direction if memory is short: some are packed while others are sent.
+/// Number of pieces for which each direction has memory if the limit is small: some are packed
+/// while others are sent.
 constexpr std::size_t pieces_under_way = 4;
 
 }  // namespace
@@ -29,8 +30,8 @@ Stream::Stream(std::size_t record_bytes, std::size_t limit)
     most_records_ = std::max(std::size_t{1}, bytes / record_bytes_);
 }
 
-/// Makes the pieces of a lane, in the order of the steps from this rank to the others in the
-/// direction of the messages.
+/// Divides the records of a lane into pieces. They are ordered by steps: the number of ranks from
+/// this rank to the other one, counted in the direction of the messages.
 void Stream::lay_out(std::span<const RankCount> counts, int rank, int num_ranks, Lane& lane) const {
     std::size_t first = 0;
     for (const RankCount& share : counts) {
@@ -47,7 +48,8 @@ void Stream::lay_out(std::span<const RankCount> counts, int rank, int num_ranks,
     });
 }
 
-/// Allocates memory for each piece, or for as many of the longest as fit in the limit.
+/// Allocates memory for each piece, or for as many pieces of the maximum length as the limit
+/// allows.
 void Stream::make_buffer(Lane& lane) const {
     if (lane.pieces.empty()) return;
     std::size_t bytes = 0;
@@ -92,7 +94,7 @@ void Stream::receive(const Piece& piece, Participant& self) {
         "MPI_Irecv");
 }
 
-/// Returns the lane whose oldest piece has ended; null if all have.
+/// Waits for one of the oldest pieces, and returns its lane; null if all pieces have ended.
 Stream::Lane* Stream::wait(Participant& self) {
     MPI_Request oldest[] = {receives_.oldest(), sends_.oldest()};
     int ended = MPI_UNDEFINED;

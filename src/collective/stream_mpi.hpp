@@ -10,15 +10,16 @@
 
 namespace rrcb {
 
-/// Sends records of one size between ranks that know how many they get, in pieces within a limit of
-/// memory.
+/// Sends records of one size between ranks, in pieces that keep within a limit of memory. Each rank
+/// knows how many records it receives from every other rank.
 class Stream {
   public:
-    /// The size and the limit are the same on every rank. Throws Error if the limit does not hold a
-    /// record to send and one to receive.
+    /// The size and the limit must be the same on every rank. Throws Error if the limit is less
+    /// than the memory of one record to send and one to receive.
     Stream(std::size_t record_bytes, std::size_t limit);
 
-    /// Allocates memory for the records to and from each rank, in ascending order of them.
+    /// Allocates memory for the records to and from each rank. Both lists are in ascending order of
+    /// ranks.
     ///
     /// Not collective. Throws std::bad_alloc.
     void allocate(std::span<const RankCount> to, std::span<const RankCount> from, int rank,
@@ -27,15 +28,15 @@ class Stream {
     std::size_t num_bytes() const { return sends_.buffer.size() + receives_.buffer.size(); }
     std::size_t num_messages() const { return sends_.pieces.size(); }
 
-    /// Sends and receives, after the ranks agreed that all have memory.
+    /// Sends and receives. Before, the ranks must have agreed that all of them have memory.
     ///
-    /// Collective. pack(first, count, place) writes records to send, numbered over all ranks;
-    /// unpack(first, count, place) reads received ones. Throws Error if a message fails, on this
-    /// rank only.
+    /// Collective. pack(first, count, place) writes records to send; unpack(first, count, place)
+    /// reads received ones. Records are numbered through over all ranks. If a message fails, throws
+    /// Error on this rank only.
     ///
-    /// No deadlock: a piece has the same step, from rank to rank, on both ranks, and each lane
-    /// begins and ends its pieces in the order of steps. Of all unfinished pieces, the one of the
-    /// first step is first in its lane on both ranks, so that it begins.
+    /// There is no deadlock: a piece belongs to the same step, a distance between ranks, on both of
+    /// its ranks, and each lane begins and ends its pieces in the order of steps. So the unfinished
+    /// piece of the lowest step is first in its lane on both ranks, and can begin.
     template <class Pack, class Unpack>
     void run(Participant& self, Pack&& pack, Unpack&& unpack) {
         const auto begin_all = [&] {
@@ -65,11 +66,11 @@ class Stream {
         std::size_t offset = 0;
     };
 
-    /// The pieces in one direction, some of them under way.
+    /// The pieces in one direction, some of which are under way.
     struct Lane {
         std::vector<Piece> pieces;
         std::vector<std::byte> buffer;
-        std::vector<MPI_Request> requests;  ///< at most as many as are sent at the same time
+        std::vector<MPI_Request> requests;  ///< one for each piece that may be under way
         std::size_t num_begun = 0;
         std::size_t num_ended = 0;
 
@@ -90,7 +91,7 @@ class Stream {
     Lane* wait(Participant& self);
 
     std::size_t record_bytes_;
-    std::size_t lane_bytes_;    ///< in each direction at most
+    std::size_t lane_bytes_;    ///< maximum memory of each direction
     std::size_t most_records_;  ///< in a piece
     Lane sends_;
     Lane receives_;

@@ -17,7 +17,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<CallRecord> &&
               std::is_trivially_copyable_v<CallDifference>);
 
-/// Sends a message that may never be received. Its memory must not be freed.
+/// Sends a message that may never be received. Its memory must therefore not be freed.
 template <class Message>
 void leave(const Message& message, int to, Tag tag, MPI_Comm comm) {
     MPI_Request request = MPI_REQUEST_NULL;
@@ -25,7 +25,7 @@ void leave(const Message& message, int to, Tag tag, MPI_Comm comm) {
     if (request != MPI_REQUEST_NULL) MPI_Request_free(&request);
 }
 
-/// Receives a message if one is there; returns its rank, or no_rank.
+/// Receives a message if one has arrived. Returns its source, or no_rank.
 template <class Message>
 int take(Message& message, int from, Tag tag, MPI_Comm comm) {
     int is_there = 0;
@@ -59,9 +59,9 @@ void take_reports(CallLog& log) {
 
 void Watch::look() {
     const std::chrono::duration<double> waited = Clock::now() - start_;
-    // Until then MPI gives up the processor as its user wants.
+    // In a short wait MPI's own setting decides whether the rank gives up the processor.
     if (waited < short_wait) return;
-    // The communicator of the calls was freed: only a controller goes on without it.
+    // If the communicator of the calls was freed, only a controller can still be waiting.
     if (log_.comm == MPI_COMM_NULL) return pause(waited);
     if (scope_ == Scope::all) look_for_failure(log_);
     if (waited >= patience) compare();

@@ -6,31 +6,32 @@
 
 namespace rrcb::mpi {
 
-/// After so long a wait a rank sleeps between two looks.
+/// A rank that has waited this long sleeps between two looks for its message.
 inline constexpr std::chrono::milliseconds short_wait{10};
 
-/// Gives up the processor between two looks at a message that a rank has waited for so long.
+/// Gives up the processor between two looks for a message; `waited` is the time waited so far.
 void pause(std::chrono::duration<double> waited);
 
-/// Time for which a rank waits before it suspects that ranks have made different calls; tests lower
-/// it.
+/// Time after which a waiting rank suspects that ranks have made different calls. Tests lower it.
 inline std::chrono::milliseconds patience{1000};
 
-/// Looks after a rank that waits for others in a call.
+/// Detects why a rank waits for others in a call, and throws if they can never come.
 ///
-/// A rank that has waited long sends its latest calls to rank 0, once. Ranks that made different
-/// calls all wait, so rank 0 receives the calls of all and finds the difference. It sends that to
-/// every rank, and all throw the same Error. A rank that is only late costs no more than these
-/// messages. Ranks that make no call are waited for without end.
+/// A rank that has waited long sends its latest calls to rank 0, once. If ranks made different
+/// calls, all of them wait; rank 0 then receives the calls of all and finds the difference. It
+/// sends the difference to every rank, and all throw the same Error. If a rank is only late, these
+/// few messages are the only cost. If a rank makes no call at all, the others wait without end.
 class Watch {
   public:
-    /// Calls waited for: of all ranks, or of neighbours only, which look for failures themselves.
+    /// Ranks that the call waits for: all, or only neighbours. Exchanges with neighbours look for
+    /// failures themselves.
     enum class Scope : std::uint8_t { all, neighbours };
 
-    /// The log outlives it.
+    /// The log must outlive this object.
     explicit Watch(CallLog& log, Scope scope = Scope::all) : log_(log), scope_(scope) {}
 
-    /// Looks once, then gives up the processor; does nothing in a short wait.
+    /// Looks once for differences and failures, then gives up the processor. Does nothing in a
+    /// short wait.
     ///
     /// Throws Error if calls differ, or if a call between neighbours has failed elsewhere.
     void look();
@@ -47,7 +48,7 @@ class Watch {
     bool has_reported_ = false;
 };
 
-/// Receives the reports of other ranks that are there, on rank 0.
+/// Receives on rank 0 the reports of other ranks that have arrived.
 void take_reports(CallLog& log);
 
 }  // namespace rrcb::mpi

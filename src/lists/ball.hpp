@@ -7,12 +7,12 @@
 
 namespace rrcb {
 
-/// The points within a radius, which is finite, of a centre; none if it is below 0.
+/// All points within a finite radius of a centre; no points if the radius is negative.
 class Ball {
   public:
     Ball(const Vector& centre, double radius) : centre_(centre), reach_(reach_of(radius)) {}
 
-    /// Returns a radius plus the rounding errors of a distance.
+    /// Returns the radius, enlarged by the rounding errors of a computed distance.
     static double reach_of(double radius) {
         return std::min(radius * (1 + 4 * epsilon), std::numeric_limits<double>::max());
     }
@@ -25,15 +25,16 @@ class Ball {
         return true;
     }
 
-    /// Returns true if the ball, or a greater one of the same centre with the reach `at_least`,
-    /// touches a box.
+    /// Returns true if the ball, enlarged to the radius `at_least` if that is larger, touches a
+    /// box.
     bool touches(const Box& box, double at_least, int dimension) const {
         return touches(std::max(reach_, at_least), dimension, [&](int a) {
             return std::max(box.lower[a] - centre_[a], centre_[a] - box.upper[a]);
         });
     }
 
-    /// Returns true if the ball touches a region at these distances from the centre along the axes.
+    /// Returns true if the ball touches a region whose distance from the centre along each axis is
+    /// given.
     bool touches(const Vector& apart, int dimension) const {
         return touches(reach_, dimension, [&](int a) { return apart[a]; });
     }
@@ -41,7 +42,7 @@ class Ball {
     double reach() const { return reach_; }
     const Vector& centre() const { return centre_; }
 
-    /// Returns the ball of the greater of two radii.
+    /// Returns the ball with the same centre and the larger of both radii.
     Ball widened(double radius) const {
         Ball ball = *this;
         ball.reach_ = std::max(reach_, reach_of(radius));
@@ -61,7 +62,7 @@ class Ball {
         for (int a = 0; a < dimension; ++a) {
             const double apart = apart_along(a);
             if (apart > reach) return false;
-            // In units of the reach, so that no square overflows.
+            // Computes in units of the reach, so that no square overflows.
             if (apart > 0) square += (apart / reach) * (apart / reach);
         }
         return reach >= 0 && square <= 1 + 8 * epsilon;

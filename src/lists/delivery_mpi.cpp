@@ -25,14 +25,14 @@ namespace {
 
 using detail::ByteColumn;
 
-/// One column in a message: the bytes of a point are consecutive.
+/// One column in a message. The bytes of a point are contiguous.
 struct Lane {
     const std::byte* from;
     std::byte* to;
-    std::size_t bytes;  ///< of a point
+    std::size_t bytes;  ///< number of bytes of a point
 };
 
-/// Returns the bytes of a point in all columns.
+/// Returns the number of bytes of a point in all columns.
 std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
     std::size_t bytes = 0;
     for (const ByteColumn& column : columns) {
@@ -57,8 +57,8 @@ Value of_root(Value value, const Participant& self) {
     return value;
 }
 
-/// Throws the Error that names the first column of the lowest rank that differs from the root's.
-/// Collective, called if the hashes of the columns differ.
+/// Throws the Error that names the first column of the lowest rank which differs from the root's.
+/// Collective. Called only if the hashes of the columns differ.
 void refuse_types(std::span<const ByteColumn> columns, Participant& self) {
     const std::size_t num_of_root = of_root(columns.size(), self);
     self.attempt([&] {
@@ -79,7 +79,7 @@ void refuse_types(std::span<const ByteColumn> columns, Participant& self) {
     agree(self);
 }
 
-/// Throws Error if the counts that ranks send to this one, `sent`, are not those `expected`.
+/// Throws Error unless the counts that other ranks send to this one are the `expected` ones.
 void check_agreement(std::span<const RankCount> expected, std::span<const RankCount> sent) {
     const auto differ = std::ranges::mismatch(expected, sent, [](const auto& a, const auto& b) {
         return a.rank == b.rank && a.count == b.count;
@@ -122,8 +122,9 @@ void keep(const Delivery& delivery, const Lane& lane) {
     copy_run(delivery.num_points);
 }
 
-/// Returns true if as many points as before may have the same hash: in some column the first, the
-/// middle and the last are unchanged. Structs may differ although their positions do not.
+/// Returns true if the points after the delivery may have the same hash as those before: their
+/// number is the same, and some column has the same first, middle and last rows. A column of
+/// structs counts as unchanged: its bytes may differ although the positions in it do not.
 bool is_like_before(const Delivery& delivery, std::span<const ByteColumn> columns,
                     std::span<const Lane> lanes) {
     const LocalIndex count = delivery.num_points;
@@ -140,7 +141,8 @@ bool is_like_before(const Delivery& delivery, std::span<const ByteColumn> column
     return false;
 }
 
-/// Returns whether messages to some ranks, in one piece each, are within half of the limit.
+/// Returns true if the messages to some ranks, each sent as one piece, take at most half of the
+/// limit.
 bool are_within(const TransferLimits& limits, std::span<const ByteColumn> columns,
                 std::span<const RankCount> counts) {
     std::size_t bytes = 0;
@@ -151,7 +153,7 @@ bool are_within(const TransferLimits& limits, std::span<const ByteColumn> column
 }
 
 void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, Participant& self) {
-    // In each piece of a message one column follows the other.
+    // Each piece of a message contains the rows of one column after the other.
     const auto pack = [&](std::size_t first, std::size_t count, std::byte* place) {
         for (const Lane& lane : lanes) {
             if (delivery.sent.empty()) {

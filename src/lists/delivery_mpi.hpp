@@ -11,24 +11,28 @@
 
 namespace rrcb {
 
-/// Points kept, sent and received by this rank; borrows the lists.
+/// Points that this rank keeps, sends and receives. The lists are borrowed.
 struct Delivery {
-    LocalIndex num_points = 0;              ///< that this rank holds
-    LocalIndex num_kept = 0;                ///< of these, first in the result
-    std::span<const LocalIndex> removed{};  ///< ascending; if any are kept, all others
-    std::span<const LocalIndex> sent{};     ///< sorted by rank; empty: all, in their order
-    std::span<const RankCount> to{};        ///< number for each rank, ascending
+    LocalIndex num_points = 0;  ///< points that this rank has before
+    LocalIndex num_kept = 0;    ///< points of these that it keeps; they come first in the result
+    std::span<const LocalIndex> removed{};  ///< points that it does not keep, ascending; needed if
+                                            ///< any are kept
+    std::span<const LocalIndex> sent{};  ///< points to send, sorted by rank; empty: all, in their
+                                         ///< order
+    std::span<const RankCount> to{};     ///< number of points for each rank, ascending
     std::span<const RankCount> from{};
-    std::uint64_t overtaking = 0;  ///< number of a transfer; if the same on all ranks, refused
-    bool is_in_place = false;      ///< results are the columns themselves, all of which are kept
+    std::uint64_t overtaking = 0;  ///< number of the transfer that made the plan stale; the call
+                                   ///< fails if it is the same on all ranks and not 0
+    bool is_in_place = false;  ///< whether results are the columns themselves, which keep all their
+                               ///< rows
 };
 
-/// Memory for the result of a column whose type is not known.
+/// Memory for the result of a column whose type is not known here.
 struct ByteResult {
     std::size_t value_bytes;
     std::vector<std::byte> bytes{};
 
-    /// Returns the column with this as its result.
+    /// Returns the column with this memory as its result.
     detail::ByteColumn result_of(detail::ByteColumn column) {
         column.result = this;
         column.resize = [](void* result, std::size_t num_values) {
@@ -40,13 +44,15 @@ struct ByteResult {
     }
 };
 
-/// Returns the number of points to or from all ranks.
+/// Returns the sum of the counts.
 LocalIndex total(std::span<const RankCount> counts);
 
-/// Throws Error unless ranks ascend and are below `num_ranks`, and counts add up to `total`.
+/// Throws Error unless the ranks ascend and are below `num_ranks`, and the counts add up to
+/// `total`.
 void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_ranks);
 
-/// Throws Error unless a column holds its components for each of `count` points or other `entries`.
+/// Throws Error unless a column has a row for each of `count` entries. `entries` names them in the
+/// text.
 void check_column(const detail::ByteColumn& column, LocalIndex count, std::string_view entries);
 
 /// Throws Error if two columns have the same array as their result.
@@ -54,15 +60,15 @@ void check_results(std::span<const detail::ByteColumn> columns);
 
 /// Result of deliver().
 struct Delivered {
-    bool moves = false;           ///< whether any rank sends points
-    bool fits = false;            ///< whether whole messages are within the limits on all ranks
-    bool is_like_before = false;  ///< the points that hash_of(points) reads may be as before
+    bool moves = false;  ///< whether any rank sends points
+    bool fits = false;   ///< whether on all ranks each message fits into the limits as one piece
+    bool is_like_before = false;  ///< whether hash_of(points) may be the same as before
 };
 
-/// Moves columns into their results.
+/// Moves the rows of columns into their results.
 ///
-/// Collective: exchange_counts(), one reduction and the messages. An earlier failure on one rank is
-/// thrown on all.
+/// Collective: exchange_counts(), one reduction and the messages. If a rank has failed before, all
+/// ranks throw its error.
 Delivered deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, Participant& self);
 

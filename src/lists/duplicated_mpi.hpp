@@ -11,13 +11,13 @@
 #include <span>
 #include <vector>
 
-// The public functions of these names call these, which get a duplicated communicator. If one rank
-// has failed before the call, all ranks throw its error. Collective.
+// The public functions of the same names call these functions on the duplicated communicator. All
+// are collective. If a rank has failed before, all ranks throw its error.
 
 namespace rrcb {
 
-/// Gives every rank the whole tree. Before, one rank has each cut, and the others have zeros. Holds
-/// errors back.
+/// Gives every rank the complete tree. Before, each cut is on one rank, and is zero on the others.
+/// Holds errors back.
 void join_cuts(std::span<Cut> tree, Participant& self);
 
 std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self);
@@ -36,7 +36,7 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
                  Participant& self);
 Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,
                     Participant& self);
-// These return whether all messages of the same columns fit in the limits, each in one piece.
+// These return true if all messages of the same columns fit into the limits, each as one piece.
 bool move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
 bool move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_ghosts,

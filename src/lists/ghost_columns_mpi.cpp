@@ -28,13 +28,15 @@ LocalIndex check(const GhostPlan& plan, const Participant& self) {
     return num_ghosts;
 }
 
-/// Returns the number of a transfer that may have taken points of ghosts, or 0.
+/// If the points of the ghosts may have moved since, returns the number of the transfer; otherwise
+/// 0.
 std::uint64_t overtaking(const GhostPlan& plan, MPI_Comm comm) {
     const TransferLog* log = mpi::Attribute<TransferLog>::find(comm);
     return log != nullptr && plan.stamp != 0 ? log->overtaking(plan) : 0;
 }
 
-/// Throws Error unless the groups are consistent; returns the number owned by other ranks.
+/// Throws Error unless the groups are consistent. Returns the number of groups that other ranks
+/// own.
 LocalIndex check(const Groups& groups, const Participant& self) {
     const LocalIndex num_elsewhere = check(groups.plan, self);
     const LocalIndex num_groups = groups.plan.num_points + num_elsewhere;
@@ -44,7 +46,7 @@ LocalIndex check(const Groups& groups, const Participant& self) {
     return num_elsewhere;
 }
 
-/// Copies the value of the group of each point.
+/// Gives each point the value of its group.
 void spread(const Groups& groups, const ByteResult& values, std::size_t point_bytes,
             std::byte* to) {
     for (const LocalIndex group : groups.of_points) {
@@ -67,8 +69,8 @@ Delivery delivery_of(const GhostPlan& plan) {
             .from = plan.receive};
 }
 
-/// Throws Error unless columns of the ghosts have the lengths of the plan, and the components of
-/// those of the points, which it copies to their results.
+/// Throws Error unless the columns of the ghosts have the lengths of the plan, and as many
+/// components as the columns of the points. Copies the latter to their results.
 void check_sums(const GhostPlan& plan, LocalIndex num_ghosts, std::span<const ByteColumn> of_ghosts,
                 std::span<const ByteColumn> of_points) {
     for (const ByteColumn& column : of_ghosts)
@@ -81,7 +83,8 @@ void check_sums(const GhostPlan& plan, LocalIndex num_ghosts, std::span<const By
     }
 }
 
-/// Moves columns back, without collective calls if the ranks have done so before.
+/// Sends columns of ghosts back. Needs no collective calls if the ranks have sent the same columns
+/// before.
 void send_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                std::span<const ByteColumn> of_points, const TransferLimits& limits,
                TransferReport* report, CallName call, CallName kept_call, MPI_Comm user) {

@@ -29,12 +29,12 @@ namespace rrcb {
 
 namespace {
 
-/// The ranks that hold the part at each end of the tree: those that are given, or those of
+/// The ranks that hold the part at each end of the tree: those given by the caller, or those of
 /// ranks_of_part().
 struct Holders {
     std::optional<std::span<const RankRange>> given;
     const Cuts& cuts;
-    int rank;  ///< this one
+    int rank;  ///< number of this rank
     int num_ranks;
 
     RankRange of_part(Part part) const {
@@ -43,7 +43,7 @@ struct Holders {
 
     RankRange operator()(Part end) const { return of_part(cuts.part_at(end)); }
 
-    /// Returns the ends of the parts on this rank.
+    /// Returns the ends of the tree whose parts this rank holds.
     std::vector<Part> ends_here() const {
         std::vector<Part> ends;
         for (Part end = 0; end < cuts.num_parts; ++end)
@@ -59,14 +59,15 @@ struct Holders {
     }
 };
 
-/// Input of a plan on this rank.
+/// Input of a ghost plan on this rank.
 struct GhostRequest {
     const Points& points;
     Radii radii;
     Holders holders;
     std::optional<PeriodicImages> images;
     Box box{};                             ///< of the points
-    std::optional<PartReaches> reaches{};  ///< of the parts, if their radii count
+    std::optional<PartReaches> reaches{};  ///< reaches of the parts, if parts need points within
+                                           ///< radii of their own
 
     void check(const Cuts& cuts) {
         radii.check(points.count);
@@ -79,7 +80,8 @@ struct GhostRequest {
         images->check(points, box);
     }
 
-    /// Notes the reaches of the points of this rank. A point outside its parts counts for each.
+    /// Notes the reaches of this rank's points. A point outside all parts of this rank counts for
+    /// each of them.
     void note_reaches(const Cuts& cuts) {
         const std::vector<Part> ends = holders.ends_here();
         reaches.emplace(cuts.num_parts, cuts.dimension);
@@ -98,7 +100,7 @@ struct GhostRequest {
     }
 
   private:
-    /// All points count for one part.
+    /// Notes the reaches of all points for a single part.
     void note_reaches(Part end) {
         reaches->note_radius(end, radii.greatest());
         if (!radii.each) return reaches->note_box(end, radii.same, box);
@@ -111,10 +113,10 @@ struct GhostRequest {
     }
 };
 
-/// Finds which of this rank's points other ranks need.
+/// Finds the points of this rank that other ranks need.
 class Neighbourhood {
   public:
-    /// Both outlive it.
+    /// The cuts and the request must outlive this object.
     Neighbourhood(const Cuts& cuts, const GhostRequest& request)
         : cuts_(cuts),
           request_(request),
@@ -123,7 +125,7 @@ class Neighbourhood {
                        images(), reaches()}),
           lists_(near_.ranks(), images() != nullptr) {}
 
-    /// Lists the points that this rank sends, with their shifts.
+    /// Lists the points that this rank sends, and their shifts.
     void list(GhostPlan& plan) {
         const double greatest = std::max(greatest_of_senders(), reach_);
         const QuietBoxes quiet(near_.homes(), greatest, cuts_.dimension, images());
@@ -140,7 +142,8 @@ class Neighbourhood {
         return request_.radii.needs == Needs::receiver ? -infinity : request_.radii.greatest();
     }
 
-    /// Calls visit with a constant, so that loops over the axes have no end to test.
+    /// Calls visit with the dimension as a compile-time constant, so that loops over the axes are
+    /// unrolled.
     template <class Visit>
     void with_dimension(Visit&& visit) const {
         if (cuts_.dimension == 1) return visit(std::integral_constant<int, 1>{});
@@ -148,7 +151,7 @@ class Neighbourhood {
         visit(std::integral_constant<int, 3>{});
     }
 
-    /// Notes the ranks in need of a point or its images.
+    /// Notes the ranks that need a point or one of its images.
     template <int dimension>
     void add(LocalIndex point) {
         const Ball ball(request_.points.position(point), request_.radii.of_sender(point));
@@ -171,7 +174,8 @@ class Neighbourhood {
         });
     }
 
-    /// Returns true if a ball smaller than the greatest is inside a box of this rank.
+    /// Returns true if no other rank can need a point: its ball is smaller than the largest and
+    /// inside a box of this rank.
     bool is_home_alone(const Ball& ball) const {
         if (!request_.radii.each) return false;
         const Ball wide = ball.widened(reach_);
@@ -181,12 +185,12 @@ class Neighbourhood {
 
     const Cuts& cuts_;
     const GhostRequest& request_;
-    double reach_;  ///< greatest of all parts
+    double reach_;  ///< largest reach of all parts
     NearBoxes near_;
     RankLists lists_;
 };
 
-/// Sends the shifts of ghosts to the ranks that get them. Collective.
+/// Sends the shifts of ghosts to the ranks that receive the ghosts. Collective.
 void exchange_shifts(GhostPlan& plan, Participant& self) {
     const std::vector<Shift> sent = std::exchange(plan.shifts, {});
     const std::array columns{detail::byte_column(column(sent), plan.shifts)};
@@ -194,8 +198,9 @@ void exchange_shifts(GhostPlan& plan, Participant& self) {
             nullptr, self);
 }
 
-/// Throws Error for points from before the transfer. Unless they differ from those after it by
-/// their hash, they may be these. Whose ranks have other parts than by default is not known.
+/// Throws Error if the points are those of the balance, before their transfer. A transfer may leave
+/// the hash unchanged, so points after such a transfer are accepted. If the caller gives the ranks
+/// of the parts, nothing is known and nothing is refused.
 void refuse_points_of_balance(const Cuts& cuts, const GhostRequest& request, MPI_Comm comm) {
     if (cuts.points == 0 || request.holders.given || cuts.points != hash_of(request.points)) return;
     const TransferLog* log = mpi::Attribute<TransferLog>::find(comm);
@@ -205,7 +210,7 @@ void refuse_points_of_balance(const Cuts& cuts, const GhostRequest& request, MPI
         "parts; give the points that the transfer returned");
 }
 
-/// Takes the greatest reaches of all ranks. Collective.
+/// Takes the maximum of each reach over the ranks. Collective.
 void join(PartReaches& reaches, Participant& self) {
     const std::span<double> numbers = reaches.numbers();
     self.check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), mpi::to_int(std::ssize(numbers)),
@@ -213,7 +218,7 @@ void join(PartReaches& reaches, Participant& self) {
                "MPI_Allreduce");
 }
 
-/// Collective; an earlier failure on one rank is thrown on all.
+/// Makes a ghost plan. Collective. If a rank has failed before, all ranks throw its error.
 GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
     GhostPlan plan;
     std::uint64_t bits_of_cuts = 0;

@@ -13,8 +13,9 @@ namespace {
 
 /// The groups of a rank's points.
 struct GroupsHere {
-    std::vector<Part> groups;   ///< of the parts of its points
-    std::vector<Part> origins;  ///< groups whose numbers keep the points; no_part: none
+    std::vector<Part> groups;   ///< group of the part of each point
+    std::vector<Part> origins;  ///< for each point, the group whose numbers would keep it; no_part
+                                ///< if there is none
 };
 
 GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previous,
@@ -54,8 +55,8 @@ Remap find_numbers(std::span<const Part> parts, const PreviousParts& previous,
     const auto moved = [&](Part part) { return rule.with_group(part, numbers_of_groups); };
     std::ranges::transform(parts, here.groups.begin(), moved);
     Remap remap = find_numbers(here.groups, previous, buffers.parts, self);
-    // The search counts fewer: a rank may have numbers of two groups, of which a part can only get
-    // those of its own.
+    // The search may count fewer: a rank may have numbers of two groups, but a part can only get
+    // numbers of its own group.
     std::array<GlobalCount, 2> kept{num_kept(parts, {}, previous, rule, rank),
                                     num_kept(here.groups, remap.numbers, previous, rule, rank)};
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, kept.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),

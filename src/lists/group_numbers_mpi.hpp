@@ -8,18 +8,19 @@
 
 namespace rrcb {
 
-/// Memory of one renumbering, with the parts of a group in one group, see NumberRule.
+/// Memory of one renumbering that keeps the parts of a group together, see NumberRule.
 struct GroupBuffers {
-    /// As RemapBuffers. Not collective. Throws std::bad_alloc.
+    /// Allocates as RemapBuffers. Not collective. Throws std::bad_alloc.
     GroupBuffers(const NumberRule& rule, int rank);
 
     RemapBuffers parts;
-    std::optional<RemapBuffers> groups;  ///< if there are any
-    std::vector<Part> numbers;           ///< of all parts, in that case
+    std::optional<RemapBuffers> groups;  ///< empty if there are no groups
+    std::vector<Part> numbers;           ///< numbers of all parts, if there are groups
 };
 
-/// Renumbers the groups, and then the parts of each, as find_numbers() of parts does. Collective as
-/// that; with groups twice, and one reduction.
+/// Renumbers the groups, and then the parts within each, in the way of find_numbers() for parts.
+/// Collective as that function; with groups its messages are sent twice, and one reduction is
+/// added.
 Remap find_numbers(std::span<const Part> parts, const PreviousParts& previous,
                    GroupBuffers& buffers, Participant& self);
 

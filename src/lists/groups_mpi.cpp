@@ -13,14 +13,15 @@
 #include <numeric>
 #include <utility>
 
-// The home of a key, a rank given by its hash, learns the labels that ranks have for it, and
-// answers the least one to the ranks that have another.
+// Both functions below use homes. The home of a key is a rank chosen by the key's hash. Ranks send
+// their labels of the key to its home, which returns the least label to all ranks that have a
+// larger one.
 //
-// Groups: the label is the rank, and the lowest rank of a key owns the group. The others send their
-// sums to the owner, which adds them up and notes their ranks.
+// Groups: a label is a rank, so the lowest rank with a key owns its group. The other ranks send
+// their sums to the owner, which adds them up and notes these ranks.
 //
-// Joined keys: each rank joins the keys of its points, and labels joined keys by the least. Labels
-// only fall, so the rounds end.
+// Joined keys: each rank joins the keys of each of its points, and gives joined keys the least of
+// their labels. Labels only decrease, so the rounds end.
 
 namespace rrcb {
 
@@ -30,16 +31,16 @@ namespace {
 struct LabelNotice {
     std::uint64_t key;
     std::uint64_t label;
-    std::uint64_t index;  ///< of the key on the sending rank
+    std::uint64_t index;  ///< index of the key on the sending rank
 };
 
-/// The least label of a key.
+/// Least label of a key, for a rank that has another one.
 struct LeastLabel {
     std::uint64_t index;
     std::uint64_t label;
 };
 
-/// Labels of keys, on their way to the homes of these.
+/// Labels of keys, to be sent to the homes of the keys.
 struct Labels : Outgoing<LabelNotice> {
     void add(const LabelNotice& notice, int num_ranks) {
         const auto home = detail::mix(notice.key) % static_cast<std::uint64_t>(num_ranks);
@@ -47,7 +48,7 @@ struct Labels : Outgoing<LabelNotice> {
     }
 };
 
-/// Answers the ranks whose label of a key is not the least.
+/// Returns the answers to all ranks whose label of a key is not the least one.
 Outgoing<LeastLabel> answer(std::vector<Arrived<LabelNotice>>& notices) {
     std::ranges::sort(notices, {}, [](const auto& notice) {
         return std::pair(notice.second.key, notice.second.label);
@@ -62,7 +63,8 @@ Outgoing<LeastLabel> answer(std::vector<Arrived<LabelNotice>>& notices) {
     return answers;
 }
 
-/// Returns the least labels of the keys for which this rank has another. Collective: two exchanges.
+/// Returns the least label of each key for which this rank has another label. Collective: two
+/// exchanges.
 std::vector<Arrived<LeastLabel>> least_of(const Labels& labels,
                                           std::initializer_list<Shared> arguments,
                                           Participant& self) {
@@ -72,14 +74,15 @@ std::vector<Arrived<LeastLabel>> least_of(const Labels& labels,
     return answers.send(self);
 }
 
-/// Weight and position of a group, of the points known so far.
+/// Weight and position of a group, summed over the points known so far.
 struct GroupSum {
     double weight = 0;
     std::uint64_t count = 0;
     Vector place{};
 
-    /// Adds a sum. If `moves`, the position becomes the weighted mean, or the mean of all points as
-    /// long as none has weight. It stays between both positions and does not overflow.
+    /// Adds a sum. If `moves`, the position becomes the weighted mean; as long as no point has
+    /// weight, it is the mean of all points. The new position is between both old ones, and does
+    /// not overflow.
     void add(const GroupSum& other, bool moves) {
         count += other.count;
         weight += other.weight;
@@ -96,10 +99,10 @@ struct SumNotice {
     GroupSum sum;
 };
 
-/// Groups of the points of this rank, numbered by their first points.
+/// Groups of this rank's points, numbered in the order of their first points.
 struct LocalGroups {
-    std::vector<std::uint64_t> keys;    ///< of each
-    std::vector<GroupSum> sums;         ///< of each
+    std::vector<std::uint64_t> keys;    ///< key of each group
+    std::vector<GroupSum> sums;         ///< sum of each group
     std::vector<LocalIndex> of_points;  ///< group of each point
     std::vector<LocalIndex> by_key;     ///< groups with a key, by ascending key
 
@@ -114,7 +117,8 @@ LocalGroups groups_here(const Points& points, std::span<const std::uint64_t> key
     for (LocalIndex i = 0; i < points.count; ++i)
         if (keys[i] != no_group) sorted.emplace_back(keys[i], i);
     std::ranges::sort(sorted);
-    std::vector<LocalIndex> first(points.count);  // first point with the key of each
+    std::vector<LocalIndex> first(points.count);  // for each point, the first point with the same
+                                                  // key
     for (LocalIndex i = 0; i < points.count; ++i) first[i] = i;
     for (std::size_t k = 1; k < sorted.size(); ++k)
         if (sorted[k].first == sorted[k - 1].first)
@@ -136,7 +140,8 @@ LocalGroups groups_here(const Points& points, std::span<const std::uint64_t> key
     return local;
 }
 
-/// Numbers this rank's own groups, then the others; returns the sums for their owners.
+/// Numbers the groups that this rank owns, then the others. Returns the sums to be sent to their
+/// owners.
 Outgoing<SumNotice> number_groups(const LocalGroups& local,
                                   std::span<const Arrived<LeastLabel>> owners, int num_ranks,
                                   Groups& result, std::vector<LocalIndex>& numbers) {
@@ -163,7 +168,7 @@ Outgoing<SumNotice> number_groups(const LocalGroups& local,
     return sums;
 }
 
-/// Adds the sums of other ranks to the groups of this one, and lists these ranks.
+/// Adds the sums of other ranks to the groups of this rank, and lists those ranks.
 void complete(std::span<const Arrived<SumNotice>> sums, GroupPlace place, LocalGroups& local,
               std::span<const LocalIndex> numbers, Groups& result) {
     for (const auto& [source, notice] : sums) {
@@ -229,7 +234,7 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, MPI_Com
 
 namespace {
 
-/// Keys of the points of this rank.
+/// Keys of this rank's points, of which sets are joined.
 class LocalKeys {
   public:
     LocalKeys() = default;
@@ -256,7 +261,7 @@ class LocalKeys {
         label = std::min(label, to.label);
     }
 
-    /// Returns the label of the keys of a point; no_group without keys.
+    /// Returns the label of a point's keys, or no_group if it has no keys.
     std::uint64_t label_of(std::span<const std::uint64_t> of_point) {
         const auto first = std::ranges::find_if(of_point, is_key);
         return first == of_point.end() ? no_group : label(index_of(*first));
@@ -271,7 +276,7 @@ class LocalKeys {
         while (parents_[key] != key) key = parents_[key] = parents_[parents_[key]];
         return key;
     }
-    /// Joins two sets of keys. The top of the new set is its least key, which is its label.
+    /// Joins two sets of keys. The least key becomes the top of the new set, and is its label.
     void join(std::size_t a, std::size_t b) {
         a = top_of(a);
         b = top_of(b);
@@ -279,11 +284,12 @@ class LocalKeys {
     }
 
     std::vector<std::uint64_t> keys_;    ///< ascending
-    std::vector<std::uint64_t> labels_;  ///< valid at the top of joined keys
+    std::vector<std::uint64_t> labels_;  ///< valid for the top of each set
     std::vector<std::size_t> parents_;
 };
 
-/// Lowers the labels once. Returns false if none changes on any rank. Collective.
+/// Runs one round in which labels may decrease. Returns false if no label has changed on any rank.
+/// Collective.
 bool lower_labels(LocalKeys& local, std::size_t keys_per_point, Participant& self) {
     Labels labels;
     self.attempt([&] {

@@ -20,7 +20,7 @@ using detail::ByteColumn;
 
 namespace {
 
-/// Returns the ranks of both lists except this one, ascending.
+/// Returns the ranks that occur in either list of the plan, without this rank, ascending.
 std::vector<int> other_ranks(const GhostPlan& plan, int rank) {
     std::vector<int> ranks;
     for (const std::vector<RankCount>* counts : {&plan.send, &plan.receive})
@@ -31,7 +31,7 @@ std::vector<int> other_ranks(const GhostPlan& plan, int rank) {
     return ranks;
 }
 
-/// The rows of one rank in a list by rank.
+/// The rows of one rank in a list that is sorted by rank.
 struct RowRange {
     LocalIndex first = 0;
     LocalIndex count = 0;

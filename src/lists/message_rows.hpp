@@ -9,18 +9,19 @@
 
 namespace rrcb {
 
-/// Returns the bytes of one row of a column.
+/// Returns the number of bytes of one row of a column.
 inline std::size_t row_bytes(const detail::ByteColumn& column) {
     return column.components * column.value_bytes;
 }
 
-/// Returns the bytes of a block of rows in a message; each block begins where any number may.
+/// Returns the number of bytes of a block of rows in a message. It is a multiple of the alignment
+/// of all numbers.
 inline std::size_t block_bytes(std::size_t row_bytes, std::size_t num_rows) {
     constexpr std::size_t alignment = 16;
     return (row_bytes * num_rows + alignment - 1) / alignment * alignment;
 }
 
-/// Returns the bytes of a message with a block of rows for each column.
+/// Returns the number of bytes of a message that has a block of rows for each column.
 inline std::size_t message_bytes(std::span<const detail::ByteColumn> columns,
                                  std::size_t num_rows) {
     std::size_t bytes = 0;
@@ -29,7 +30,7 @@ inline std::size_t message_bytes(std::span<const detail::ByteColumn> columns,
     return bytes;
 }
 
-/// Writes the rows of some points of each column.
+/// Writes the rows of some points, one block for each column.
 inline void pack(std::span<const detail::ByteColumn> columns, std::span<const LocalIndex> points,
                  std::byte* place) {
     for (const detail::ByteColumn& column : columns) {

@@ -38,7 +38,8 @@ void Migration::sort(std::size_t num_neighbours) {
         by_neighbour_[--first_[neighbours_[k]]] = leaving_[k];
 }
 
-/// Lists the moves to places that arriving points leave free. Returns the number of points then.
+/// Lists the rows to move into places that arriving points leave free. Returns the new number of
+/// points.
 LocalIndex Migration::place(LocalIndex num_points, LocalIndex num_arriving) {
     moves_.clear();
     if (num_arriving >= places_.size()) return num_points + num_arriving - places_.size();
@@ -69,7 +70,7 @@ bool Migration::apply(std::span<const ByteColumn> columns, LocalIndex num_points
     const auto resize = [&](const ByteColumn& column, LocalIndex number) {
         return column.resize(column.result, number * column.components);
     };
-    // Only growing may fail.
+    // Columns grow first, because only growing may fail.
     std::size_t num_grown = 0;
     try {
         for (; end > num_points && num_grown < columns.size(); ++num_grown)

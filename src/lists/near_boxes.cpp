@@ -12,10 +12,10 @@ namespace rrcb {
 
 namespace {
 
-/// Fewer rows are tested one by one.
+/// Fewer rows get no common row, and are tested one by one.
 constexpr std::size_t least_rows_below = 8;
 
-/// The places of points and their images along one axis.
+/// Intervals along one axis that contain the points or their images.
 using Intervals = std::vector<std::array<double, 2>>;
 
 Box joined(const Box& a, const Box& b) {
@@ -29,7 +29,7 @@ Box joined(const Box& a, const Box& b) {
 
 }  // namespace
 
-/// A list in the making.
+/// Builds the list of NearBoxes.
 class NearList {
   public:
     NearList(const Cuts& cuts, const NearRequest& request, NearBoxes& list)
@@ -61,8 +61,8 @@ class NearList {
     }
 
   private:
-    /// Adds the regions at or below a node with this box. Returns whether only this rank holds all
-    /// of them.
+    /// Adds the regions at or below a node, whose box is given. Returns true if only this rank
+    /// holds all of them.
     bool add(const Descent& at, const Box& box) {
         if (!is_near(box)) return false;
         if (at.is_part()) return add_end(at.first_part, box);
@@ -79,19 +79,19 @@ class NearList {
     }
 
     bool add_end(Part end, const Box& box) {
-        // A rank needs no ghosts for a part that no position belongs to.
+        // A part without any position needs no ghosts.
         if (is_region_empty(cuts_, end, box)) return true;
         const RankRange ranks = request_.ranks_of(end);
         const bool is_home = ranks.first_rank == request_.rank && ranks.count == 1;
         if (is_home && request_.images == nullptr) return true;
         const double reach =
             request_.reaches != nullptr ? Ball::reach_of(request_.reaches->of(end)) : -infinity;
-        // Until all ranks are known, the slot is the rank.
+        // The slot is preliminarily the rank, until the list of all ranks is complete.
         list_.rows_.push_back({box, reach, end, 0, ranks.first_rank, ranks.count});
         return is_home;
     }
 
-    /// Makes a row for all from `first` + 1 on, if they are many, or removes it.
+    /// If many rows follow `first`, makes `first` a common row for them; otherwise removes it.
     void join(std::size_t first) {
         std::vector<NearBoxes::Row>& rows = list_.rows_;
         const std::size_t num_below = rows.size() - first - 1;
@@ -119,7 +119,7 @@ class NearList {
     const Cuts& cuts_;
     const NearRequest& request_;
     NearBoxes& list_;
-    double reach_;  ///< greatest of all
+    double reach_;  ///< largest reach of all points
     std::array<Intervals, max_dimension> places_{};
 };
 

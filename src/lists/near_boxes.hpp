@@ -14,39 +14,40 @@ namespace rrcb {
 class PartReaches;
 class PeriodicImages;
 
-/// Points of this rank, and the holders of parts.
+/// Points of this rank, and the ranks that hold each part.
 struct NearRequest {
-    std::function<RankRange(Part end)> ranks_of;  ///< of the part at an end of the tree
-    int rank;                                     ///< this one
+    std::function<RankRange(Part end)> ranks_of;  ///< ranks with the part at an end of the tree
+    int rank;                                     ///< number of this rank
     Box points;                                   ///< contains the points of this rank
-    double radius;                                ///< greatest of them; below 0: none counts
-    const PeriodicImages* images = nullptr;       ///< valid ones, or null
-    const PartReaches* reaches = nullptr;         ///< of all parts if their radii count, or null
+    double radius;  ///< largest radius of the points; negative if their radii do not count
+    const PeriodicImages* images = nullptr;  ///< checked images, or null
+    const PartReaches* reaches = nullptr;    ///< reaches of all parts if these count, or null
 };
 
-/// Regions of parts within reach of this rank's points, in a flat list in place of the tree of
+/// Regions of parts within reach of this rank's points, as a flat list that replaces the tree of
 /// cuts.
 ///
-/// Without images it lacks the parts that only this rank holds. Parts that no position belongs to
-/// are always left out. Regions are clipped to the periodic box. In a long list rows for several
-/// regions precede these: balls that miss such a row skip them.
+/// Without images the list lacks parts that only this rank holds. It always lacks parts without any
+/// position. Regions are clipped to the periodic box. In a long list, a common row for several
+/// regions precedes their rows, so that balls which do not touch it skip them all.
 class NearBoxes {
   public:
     struct Row {
         Box box;
-        double reach = 0;             ///< of the part, see Ball::reach_of(); -infinity: none
-        Part end = no_part;           ///< of the tree; no_part in a row for several regions
-        std::int32_t num_below = 0;   ///< of the rows that follow, those for these regions
-        std::int32_t first_slot = 0;  ///< the part's ranks are consecutive entries of ranks()
+        double reach = 0;    ///< reach of the part, see Ball::reach_of(); -infinity if it has none
+        Part end = no_part;  ///< end of the tree; no_part in a common row
+        std::int32_t num_below = 0;   ///< number of following rows that a common row precedes
+        std::int32_t first_slot = 0;  ///< ranks of the part: num_slots entries of ranks() from here
+                                      ///< on
         std::int32_t num_slots = 0;
     };
 
-    /// Lists the regions. Throws std::bad_alloc. Time: for the cuts and parts within reach of the
-    /// box of the points.
+    /// Lists the regions. Throws std::bad_alloc. The time is proportional to the number of cuts and
+    /// parts within reach of the box of the points.
     NearBoxes(const Cuts& cuts, const NearRequest& request);
 
-    /// Calls visit(row) for each region that a ball touches, or that lies within the reach of its
-    /// part from the centre, by ascending ends. The ball is one of the points or their images.
+    /// Calls visit(row) for each region that the ball touches, or whose part reaches the centre, in
+    /// ascending order of ends. The ball must be that of a point of this rank or an image of it.
     template <int dimension, class Visit>
     void for_each_touched(const Ball& ball, Visit&& visit) const {
         const Row* const end = rows_.data() + rows_.size();
@@ -62,7 +63,7 @@ class NearBoxes {
     /// Returns all ranks of the listed parts, in ascending order.
     const std::vector<int>& ranks() const { return ranks_; }
 
-    /// Returns boxes of which only this rank holds all parts; they do not overlap.
+    /// Returns boxes in which only this rank holds parts. They do not overlap.
     const std::vector<Box>& homes() const { return homes_; }
 
   private:

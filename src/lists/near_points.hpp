@@ -11,18 +11,18 @@
 
 namespace rrcb {
 
-/// Lists the points that other ranks need, by the regions of their parts.
+/// Lists the points that other ranks need because of the regions of their parts.
 struct NearPoints {
     const Points& points;
     const Radii& radii;
     const NearBoxes& near;
-    const PeriodicImages* images;  ///< or null
-    const PartReaches* reaches;    ///< of all parts near, if their radii count, or null
-    int rank;                      ///< this one, which needs only images
+    const PeriodicImages* images;  ///< images of a periodic box, or null
+    const PartReaches* reaches;    ///< reaches of all near parts if these count, or null
+    int rank;                      ///< number of this rank, which needs only images of its points
     RankLists& lists;
     double reach = reaches != nullptr ? reaches->greatest() : -infinity;
 
-    /// Calls check(i, position) for each point outside the quiet boxes before it is listed.
+    /// Calls check(i, position) for each point outside the quiet boxes, before it is listed.
     template <class Check>
     void list(const QuietBoxes& quiet, Check&& check) {
         const auto list_in = [&](auto dimension) {

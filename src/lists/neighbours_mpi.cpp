@@ -20,7 +20,7 @@ using detail::SumColumn;
 
 namespace {
 
-/// Returns the ranks that are near, and those that this one is near to, ascending. Collective.
+/// Returns all ranks that are near this one or to which this one is near, ascending. Collective.
 std::vector<int> mutual(const std::vector<int>& near, Participant& self) {
     std::vector<RankCount> to;
     self.attempt([&] {

@@ -57,7 +57,7 @@ void Neighbours::State::require_ghosts(Stage least) const {
                                 : "ghosts were found, but not fetched; call fetch() before");
 }
 
-/// Exchanges the reaches of this rank's parts with the neighbours.
+/// Exchanges the reaches of parts with the neighbours.
 void Neighbours::State::exchange_reaches(const Points& points, const Radii& radii,
                                          PartReaches& reaches) {
     const std::size_t width =

@@ -19,7 +19,7 @@
 
 namespace rrcb {
 
-/// Neighbours for bindings, whose columns have no types.
+/// Access to neighbours for bindings, whose columns have no C++ types.
 struct detail::NeighbourAccess {
     static void migrate(Neighbours& neighbours, const Points& positions,
                         std::span<const ByteColumn> columns) {
@@ -39,18 +39,18 @@ struct detail::NeighbourAccess {
                     std::span<const SumColumn> columns) {
         neighbours.sum_columns(shared, columns);
     }
-    /// Makes a call fail that has not begun, here and on the neighbours. Throws Error.
+    /// Begins a call and fails at once, on this rank and on the neighbours. Throws Error.
     static void fail(Neighbours& neighbours, CallName call, const Failure& failure);
 };
 
 struct Neighbours::State {
-    /// Points or ghosts of one rank, in a list by rank.
+    /// Points or ghosts of one rank in a list that is sorted by rank.
     struct Range {
         LocalIndex first = 0;
         LocalIndex count = 0;
     };
 
-    /// State of the ghosts.
+    /// Progress of the ghosts.
     enum class Stage : std::uint8_t { none, moved, found, fetched };
 
     State(const Cuts& cuts, const NeighbourOptions& options, int rank, int num_ranks)
@@ -60,13 +60,13 @@ struct Neighbours::State {
         ghosts.needs = needs;
     }
 
-    /// Throws Error for neighbours that were moved from.
+    /// Throws Error if the neighbours have been moved from.
     static State& of(const Neighbours& neighbours);
 
-    /// Makes the exchange, and memory for a range of each neighbour.
+    /// Makes the exchange, and memory for one range of each neighbour.
     void open(std::vector<int> ranks, std::shared_ptr<CallLog> log);
 
-    /// Number that stands for this rank among those of the neighbours.
+    /// Returns the index that stands for this rank next to those of the neighbours.
     std::size_t own() const { return exchange->ranks().size(); }
     int rank_of(std::size_t n) const {
         return n == own() ? territory.rank() : exchange->ranks()[n];
@@ -77,8 +77,8 @@ struct Neighbours::State {
         return std::span(ghosts.send_indices).subspan(send[n].first, send[n].count);
     }
 
-    /// Calls visit(n, range) for each neighbour and this rank, by ascending rank, with the ghosts
-    /// from there.
+    /// Calls visit(n, range) with the range of ghosts from each neighbour and from this rank, in
+    /// ascending order of ranks.
     template <class Visit>
     void for_each_source(Visit&& visit) const {
         for (const std::size_t n : by_rank) visit(n, receive[n]);
@@ -86,7 +86,7 @@ struct Neighbours::State {
 
     void check_positions(const Points& points) const;
     void check_radii(const Points& points, const Radii& radii) const;
-    /// Throws Error unless there are ghosts at this stage or later.
+    /// Throws Error unless the ghosts have reached this stage.
     void require_ghosts(Stage least) const;
 
     /// Lists the points that other ranks need.
@@ -94,7 +94,7 @@ struct Neighbours::State {
     void exchange_reaches(const Points& points, const Radii& radii, PartReaches& reaches);
     void note_sent();
 
-    /// Notes the number of ghosts of each neighbour, count(n).
+    /// Notes the number of ghosts from each neighbour; count(n) returns it.
     template <class Count>
     void note_received(Count&& count) {
         ghosts.receive.clear();
@@ -106,7 +106,7 @@ struct Neighbours::State {
         }
     }
 
-    /// Notes the shifts of the ghosts, those of a neighbour from place(n, count).
+    /// Notes the shifts of the ghosts; place(n, count) returns those from a neighbour.
     template <class Place>
     void take_shifts(Place&& place) {
         ghosts.shifts.resize(num_ghosts);
@@ -121,7 +121,7 @@ struct Neighbours::State {
         });
     }
 
-    /// Checks lists of shared entries, and notes each entry once.
+    /// Checks the lists of shared entries, and collects each entry once.
     void list_shared(const SharedEntries& shared, std::span<const detail::SumColumn> columns);
     std::span<const LocalIndex> shared_with(const SharedEntries& shared, std::size_t n) const {
         return std::span(shared.indices).subspan(common[n].first, common[n].count);
@@ -132,25 +132,27 @@ struct Neighbours::State {
     double radius;
     Needs needs;
     std::unique_ptr<NeighbourExchange> exchange{};
-    std::vector<std::size_t> by_rank{};  ///< indices of neighbours and this rank, by rank
+    std::vector<std::size_t> by_rank{};  ///< indices of the neighbours and of this rank, in
+                                         ///< ascending order of ranks
 
     Migration migration{};
 
     GhostPlan ghosts{};
     Stage stage = Stage::none;
-    std::uint64_t num_found = 0;      ///< number of times that ghosts were found
-    std::vector<Shift> shifts{};      ///< of ghosts.send_indices, in a periodic box
-    LocalIndex num_ghosts = 0;        ///< of the latest fetch()
-    std::vector<Range> send{};        ///< of ghosts.send_indices: for each neighbour, and this rank
-    std::vector<Range> receive{};     ///< of the ghosts, likewise
-    std::optional<NearBoxes> near{};  ///< for the radii of senders
+    std::uint64_t num_found = 0;  ///< number of times that ghosts were found
+    std::vector<Shift> shifts{};  ///< of ghosts.send_indices, in a periodic box
+    LocalIndex num_ghosts = 0;    ///< of the latest fetch()
+    std::vector<Range> send{};    ///< ranges of ghosts.send_indices for each neighbour and for this
+                                  ///< rank
+    std::vector<Range> receive{};  ///< ranges of the ghosts from each neighbour and from this rank
+    std::optional<NearBoxes> near{};  ///< regions near points whose own radius counts
     std::optional<QuietBoxes> quiet{};
     std::optional<RankLists> lists{};
 
     std::vector<Range> common{};          ///< entries shared with each neighbour
     std::vector<LocalIndex> entries{};    ///< each shared entry once
-    std::vector<char> is_listed{};        ///< of all entries, 0 between calls
-    std::vector<std::byte> own_values{};  ///< of the shared entries
+    std::vector<char> is_listed{};        ///< for all entries; 0 between calls
+    std::vector<std::byte> own_values{};  ///< this rank's values of the shared entries
 
     std::vector<detail::ByteColumn> of_ghosts{};
 };

@@ -13,8 +13,8 @@
 
 namespace rrcb {
 
-/// Sends a record, made by make(k), to each of `ranks`. Calls reserve(number) before any arrives,
-/// and take(source, record) for each, by rank. Collective.
+/// Sends the record make(k) to entry k of `ranks`. Calls reserve(number) before any record is
+/// received, and then take(source, record) for each, in order of ranks. Collective.
 template <class Record, class Make, class Reserve, class Take>
 void exchange_records(std::span<const int> ranks, Make&& make, Reserve&& reserve, Take&& take,
                       std::initializer_list<Shared> arguments, Participant& self) {
@@ -36,11 +36,11 @@ void exchange_records(std::span<const int> ranks, Make&& make, Reserve&& reserve
     });
 }
 
-/// A record and its rank.
+/// A received record and the rank that sent it.
 template <class Record>
 using Arrived = std::pair<int, Record>;
 
-/// Records for other ranks.
+/// Records and the ranks to send them to.
 template <class Record>
 struct Outgoing {
     std::vector<int> ranks{};
@@ -51,7 +51,7 @@ struct Outgoing {
         records.push_back(record);
     }
 
-    /// Sends each record to its rank; returns the received ones, by rank. Collective.
+    /// Sends each record to its rank. Returns the received ones in order of ranks. Collective.
     std::vector<Arrived<Record>> send(Participant& self,
                                       std::initializer_list<Shared> arguments = {}) const {
         std::vector<Arrived<Record>> arrived;

@@ -9,20 +9,21 @@
 
 namespace rrcb {
 
-/// Distances within which the points of each part need others.
+/// Distances within which the points of each part need other points.
 ///
-/// Each part has two: the greatest radius, from the box of its points with more than half of it,
-/// and the greatest of the other radii, from the box of these. Numbered as the ends of the tree.
+/// Each part has two reaches. The first is the largest radius, with the box of all points whose
+/// radius is more than half of it. The second is the largest of the other radii, with the box of
+/// the other points. Parts are numbered as the ends of the tree.
 class PartReaches {
   public:
-    /// Throws std::bad_alloc. No part needs points so far.
+    /// Starts with parts that need no points. Throws std::bad_alloc.
     PartReaches(int num_parts, int dimension)
         : dimension_(dimension), numbers_(num_parts * width(), -infinity) {}
 
-    /// Notes a radius of this rank, before all places.
+    /// Notes the radius of a point of this rank. All radii must be noted before any box.
     void note_radius(Part end, double radius) { raise(numbers_[end * width()], radius); }
 
-    /// Notes the box of the same point, or of all points with this radius.
+    /// Notes the box of the same point, or the box of all points with this radius.
     void note_box(Part end, double radius, const Box& box) {
         const bool is_great = radius > of(end) / 2;
         double* reach = &numbers_[end * width() + (is_great ? 0 : 1 + 2 * dimension_)];
@@ -33,7 +34,7 @@ class PartReaches {
         }
     }
 
-    /// Returns the numbers of all parts, of which the ranks take the maximum.
+    /// Returns the numbers of all parts. The ranks have to take the maximum of each.
     std::span<double> numbers() { return numbers_; }
 
     /// Returns the numbers of one part.
@@ -49,7 +50,8 @@ class PartReaches {
         return greatest;
     }
 
-    /// Returns true if a part needs the centre of a ball, or the ball touches a box of its points.
+    /// Returns true if the centre of a ball is within a reach of the part, or if the ball touches a
+    /// box of the part's points.
     bool reaches(Part end, const Ball& ball) const {
         const double* great = &numbers_[end * width()];
         return reaches_from(great, ball) ||
@@ -70,8 +72,8 @@ class PartReaches {
     }
 
     int dimension_;
-    std::vector<double>
-        numbers_;  ///< of each part: twice a reach and a box, its lower ends negated
+    std::vector<double> numbers_;  ///< for each part and each of its two reaches: the reach, and a
+                                   ///< box whose lower ends are negated
 };
 
 }  // namespace rrcb

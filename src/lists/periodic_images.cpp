@@ -77,9 +77,10 @@ std::uint64_t PeriodicImages::hash() const {
 
 namespace {
 
-/// Returns a coordinate moved to that of an image. If it is in the box, its image is never in
-/// [lower, upper): rounding may bring it there, and the upper face lands on the lower one. A
-/// point that has left the box since may come in on the other side.
+/// Returns a coordinate moved to that of its image. The image of a coordinate inside the box must
+/// not be in [lower, upper), although rounding may bring it there; the image of the upper face is
+/// on the lower one. A point that has left the box since the plan was made may enter on the other
+/// side.
 template <class T>
 T image_outside(T x, const Box& box, int axis, std::int32_t shift) {
     const auto image = static_cast<T>(image_of(x, box, axis, shift));
@@ -111,13 +112,13 @@ void apply_shifts_to(std::span<T> positions, const GhostPlan& plan) {
     }
 }
 
-/// Moves one axis of the positions in a view.
+/// Moves the positions in a view along one axis.
 template <class T>
 void apply_shifts_along(std::span<const T> axis, int number, std::size_t stride,
                         const GhostPlan& plan) {
     require(axis.size() > (plan.shifts.size() - 1) * stride,
             "coordinate arrays must reach to the last ghost");
-    // The caller's arrays are not const; a view of points is.
+    // A view of points is const, but the caller's arrays are not.
     auto* x = const_cast<T*>(axis.data());
     for (const Shift& shift : plan.shifts) {
         *x = image_outside(*x, plan.periodic, number, shift[number]);

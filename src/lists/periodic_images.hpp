@@ -10,23 +10,23 @@
 
 namespace rrcb {
 
-/// Returns a coordinate shifted by some periods of a box.
+/// Returns a coordinate shifted by a number of periods of the box.
 double image_of(double x, const Box& box, int axis, std::int32_t shift);
 
-/// Images of balls in a box repeated along its finite axes.
+/// Images of balls in a box that is repeated along each axis on which it is finite.
 class PeriodicImages {
   public:
     PeriodicImages(const Box& box, int dimension);
 
-    /// Throws Error unless the box is valid, and long enough for the greatest radius.
+    /// Throws Error unless the box is valid and long enough for the largest radius.
     void check(double radius) const;
-    /// Throws Error, naming the first point outside the box. `all` is the box of the points.
+    /// Throws Error that names the first point outside the box. `all` is the box of the points.
     void check(const Points& points, const Box& all) const;
 
     const Box& box() const { return box_; }
 
-    /// Calls visit(lower, upper) for an interval along an axis and for its images within reach of
-    /// the box.
+    /// Calls visit(lower, upper) for an interval along an axis, and for all its images within
+    /// `reach` of the box.
     template <class Visit>
     void for_each_along(int axis, const std::array<double, 2>& ends, double reach,
                         Visit&& visit) const {
@@ -35,8 +35,8 @@ class PeriodicImages {
             visit(image_of(ends[0], box_, axis, shift), image_of(ends[1], box_, axis, shift));
     }
 
-    /// Calls visit(shift, centre) for the images of a ball in the box that reach it along each
-    /// axis.
+    /// Calls visit(shift, centre) for the images of a ball that come within its radius of the box
+    /// along each axis.
     template <class Visit>
     void for_each(const Ball& ball, Visit&& visit) const {
         Shift first{};
@@ -59,7 +59,8 @@ class PeriodicImages {
   private:
     bool is_periodic(int axis) const;
 
-    /// Returns the first and the last shift of an interval along an axis within reach of the box.
+    /// Returns the first and the last shift with which an interval along an axis is within reach of
+    /// the box.
     std::pair<std::int32_t, std::int32_t> shifts_along(int axis, double lower, double upper,
                                                        double reach) const {
         std::pair<std::int32_t, std::int32_t> shifts{};

@@ -16,38 +16,39 @@ namespace rrcb {
 
 namespace {
 
-/// Notice of one point to its importing rank.
+/// Notice of one point, for the rank that imports it.
 struct Notice {
     std::uint64_t index;
     std::int32_t part;
     std::int32_t unused = 0;
 };
 
-/// Returns the destination among the ranks of the part: this rank if the point can stay, else one
-/// chosen by this rank's number, so that points spread.
+/// Returns the rank to which a point of the part goes. If this rank holds the part, the point
+/// remains; otherwise this rank's number chooses among the ranks of the part, so that points are
+/// spread over them.
 int destination_of(Part part, int num_parts, int rank, int num_ranks) {
     const RankRange ranks = ranks_of_part(part, num_parts, num_ranks);
     if (ranks.contains(rank)) return rank;
     return ranks.first_rank + rank % ranks.count;
 }
 
-/// Returns the first rank of a part if there are more ranks than parts. Ranks that are left over
-/// go to the parts just before the last one, one to each.
+/// Returns the first rank of a part if there are more ranks than parts. Left-over ranks go to the
+/// parts just before the last one, one to each.
 int first_rank_of(Part part, int num_parts, int num_ranks) {
     if (part == num_parts) return num_ranks;
     const int left_over = num_ranks % num_parts;
     return part * (num_ranks / num_parts) + std::max(0, part + left_over + 1 - num_parts);
 }
 
-/// Throws Error unless each part is one of `num_parts`.
+/// Lists the points to send. Throws Error unless each part is below `num_parts`.
 void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Plan& plan) {
     require_parts(num_parts);
     const int rank = mpi::rank_of(comm);
     const int num_ranks = mpi::size_of(comm);
-    // Most points keep their rank.
+    // Most points remain on their rank, so this case is tested first.
     const auto [first, end] = parts_on(rank, num_parts, num_ranks);
     const auto num_here = static_cast<std::uint32_t>(end - first);
-    // Consecutive points mostly have one part, and destination_of() divides.
+    // Consecutive points mostly have the same part, which saves the divisions of destination_of().
     Part part = -1;
     int destination = rank;
     for (LocalIndex i = 0; i < parts.size(); ++i) {

@@ -12,7 +12,7 @@ namespace rrcb {
 
 namespace {
 
-/// Throws Error unless there is a size for each part.
+/// Throws Error unless there is a size for each part, or none at all.
 void check_part_sizes(std::span<const double> part_weights, std::span<const double> part_sizes) {
     require(part_sizes.empty() || part_sizes.size() == part_weights.size(),
             "part_sizes must hold one entry per part, or none for equal parts");

@@ -24,8 +24,8 @@ void check_arguments(const Points& points, std::span<const Part> parts, int num_
     check_parts(parts, num_parts);
 }
 
-/// Adds up numbers over all ranks. Throws on all ranks if one has failed, or their arguments
-/// differ. Collective: an agreement and a reduction.
+/// Adds up numbers over all ranks. If a rank has failed or arguments differ, throws on all ranks.
+/// Collective: an agreement and a reduction.
 void add_up(std::span<double> sums, const Points& points, int num_parts, Participant& self) {
     agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}, weights_given(points)});
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE,
@@ -61,7 +61,7 @@ std::vector<double> part_weights(const Points& points, const Balance& balance, M
 
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       Participant& self) {
-    std::array<double, 2> sums{};  // weight that moves, all weight
+    std::array<double, 2> sums{};  // weight that moves, total weight
     self.attempt([&] {
         check_arguments(points, parts, num_parts);
         const int rank = mpi::rank_of(self.comm);

@@ -13,17 +13,18 @@ namespace rrcb {
 
 namespace {
 
-/// Returns a coordinate above which every x, by as few as possible, has x - face > reach. `scale`
-/// bounds the operands.
+/// Returns a bound such that every x above it has x - face > reach in rounded arithmetic. The bound
+/// is only a few doubles larger than necessary. `scale` bounds the size of the operands.
 double beyond(double face, double reach, double scale) {
     if (face == -infinity) return -infinity;
     const double margin = 4 * std::numeric_limits<double>::epsilon() * scale;
     const double x = std::nextafter(face + reach + margin, infinity);
-    // Differences ascend with x, also rounded ones.
+    // A rounded difference never decreases while x increases.
     return x - face > reach ? x : infinity;
 }
 
-/// Returns the same for points whose images by one period up, if any, are beyond the box.
+/// Returns the bound above which the images of points, shifted up by one period, are beyond reach
+/// of the box. Returns -infinity if the axis is not periodic.
 double beyond_images(double reach, const Box& box, int axis) {
     const double lower = box.lower[axis];
     const double upper = box.upper[axis];
@@ -41,7 +42,7 @@ Box mirrored(const Box& box) {
     return mirror;
 }
 
-/// Returns the lower ends of a quiet box.
+/// Returns the lower ends of a quiet box in the box `home`.
 Vector lower_of(const Box& home, double reach, int dimension, const Box& periodic) {
     Vector lower{};
     for (int a = 0; a < dimension; ++a)

@@ -13,14 +13,15 @@ namespace rrcb {
 
 class PeriodicImages;
 
-/// Boxes of this rank less a radius: a ball of at most that radius about a point in one of them
-/// touches no region of another rank, and no image of the point is within it of the periodic box.
+/// Boxes of this rank, shrunk by a radius. If a point is in one of them, a ball of at most that
+/// radius around it touches no region of another rank, and no image of the point is within the
+/// radius of the periodic box.
 ///
-/// Most points are in them, which takes a few comparisons of their coordinates.
+/// Most points are in these boxes, which is found with a few comparisons of their coordinates.
 class QuietBoxes {
   public:
-    /// Takes boxes of which this rank has all parts, see NearBoxes::homes(), and the greatest
-    /// radius; below 0: nothing is near. `images` may be null.
+    /// Takes boxes in which only this rank holds parts, see NearBoxes::homes(), and the largest
+    /// radius. A negative radius means that no other rank is near. `images` may be null.
     QuietBoxes(std::span<const Box> homes, double radius, int dimension,
                const PeriodicImages* images = nullptr);
 
@@ -35,12 +36,12 @@ class QuietBoxes {
     }
 
   private:
-    /// Writes the points from `first` to before `last` that are in none of the boxes; returns their
+    /// Writes the points from `first` to `last` - 1 that are in none of the boxes. Returns their
     /// number.
     LocalIndex list_outside(const Points& points, LocalIndex first, LocalIndex last,
                             LocalIndex* outside) const;
 
-    std::vector<Box> boxes_;  ///< open
+    std::vector<Box> boxes_;  ///< without their faces
 };
 
 }  // namespace rrcb

@@ -14,7 +14,7 @@
 
 namespace rrcb {
 
-/// Distances at which points are needed: one for all, or one for each.
+/// Distances within which points are needed: the same for all, or one for each point.
 struct Radii {
     double same = 0;
     std::optional<std::span<const double>> each{};
@@ -27,9 +27,10 @@ struct Radii {
         return each->empty() ? 0 : *std::ranges::max_element(*each);
     }
 
-    /// Returns whether parts need the points within radii of their own.
+    /// Returns whether parts need other points within radii of their own points.
     bool are_of_receivers() const { return needs != Needs::sender; }
-    /// Returns the distance at which other ranks need a point because of its own radius.
+    /// Returns the distance within which other ranks need a point because of the radius of that
+    /// point.
     double of_sender(LocalIndex point) const {
         return needs == Needs::receiver ? -infinity : of(point);
     }
@@ -47,7 +48,7 @@ struct Radii {
         require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");
     }
 
-    /// Returns the one radius, as an argument to compare.
+    /// Returns the common radius, as an argument for agree().
     Shared shared() const {
         return {"the radius", std::bit_cast<std::uint64_t>(same + 0.0), !each};
     }

@@ -8,15 +8,15 @@
 
 namespace rrcb {
 
-/// Points for each of some ranks, and their shifts in a periodic box.
+/// Lists of points for some ranks, with their shifts in a periodic box.
 class RankLists {
   public:
-    /// Takes ascending ranks. Throws std::bad_alloc.
+    /// Makes empty lists for ranks, which must ascend. Throws std::bad_alloc.
     RankLists(std::span<const int> ranks, bool has_shifts) : has_shifts_(has_shifts) {
         for (const int rank : ranks) lists_.push_back({rank});
     }
 
-    /// Empties the lists, and keeps their memory.
+    /// Empties the lists but keeps their memory.
     void clear() {
         for (List& list : lists_) {
             list.points.clear();
@@ -24,14 +24,14 @@ class RankLists {
         }
     }
 
-    /// Begins with a point, or an image of it. Points come in ascending order.
+    /// Sets the point, or the image of it, to be added next. Points must come in ascending order.
     void begin(LocalIndex point, const Shift& shift) {
         ++number_;
         point_ = point;
         shift_ = shift;
     }
 
-    /// Adds the point to the list of a rank, once.
+    /// Adds the point to the list of a rank, unless it is there already.
     void add(std::int32_t slot) {
         List& list = lists_[slot];
         if (list.latest == number_) return;
@@ -42,7 +42,7 @@ class RankLists {
 
     int rank_of(std::int32_t slot) const { return lists_[slot].rank; }
 
-    /// Writes the lists one after the other, without those that are empty.
+    /// Writes all lists that are not empty into the plan, one after the other.
     void write(GhostPlan& plan) const {
         plan.send.clear();
         plan.send_indices.clear();

@@ -21,7 +21,7 @@ namespace rrcb {
 
 namespace {
 
-/// Adds up the counts of equal origins. Both lists ascend by origin.
+/// Merges two lists that ascend by origin, and adds up the counts of equal origins.
 void join_overlaps(std::span<const double> a, std::span<const double> b,
                    std::vector<double>& joined) {
     while (!a.empty() || !b.empty()) {
@@ -41,7 +41,8 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
         return rule.is_in_group(part, origin) ? origin : no_origin;
     };
     std::vector<Overlap> overlaps;
-    // A table if it is no longer than the list of points: a map would take most of the call.
+    // Uses a table if it is no longer than the list of points. A map would take most of the call's
+    // time.
     if (rule.by_rank && rule.num_parts <= std::ssize(parts)) {
         std::vector<GlobalCount> of_parts(rule.num_parts);
         for (const Part part : parts) ++of_parts[part];
@@ -60,8 +61,9 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
     return overlaps;
 }
 
-/// Limits the search to overlaps with their present number and the largest others: 16 for each
-/// part per rank plus 65,536 on all ranks. The others lose their origin.
+/// Limits the overlaps of this rank to 16 for each part that a rank has, plus its share of 65,536.
+/// Overlaps that keep their present number and the largest others remain; the points of the rest
+/// lose their origin.
 void limit_overlaps(const NumberRule& rule, std::vector<Overlap>& overlaps) {
     const auto parts_per_rank = static_cast<std::size_t>((rule.num_parts - 1) / rule.num_ranks + 1);
     const std::size_t limit =
@@ -102,8 +104,8 @@ void hand_in(std::span<const Part> parts, const PreviousParts& previous, RemapBu
         buffers.messages.run(buffers.told, Butterfly::to_owners, {}, self);
 }
 
-/// Writes the new numbers and the counts of points: all, kept by the old numbers, kept by the new
-/// ones. On rank 0.
+/// On rank 0, decides the new numbers. Writes them, and three counts: all points, points kept by
+/// the old numbers, points kept by the new ones.
 void decide(const NumberRule& rule, const Records& told, std::span<GlobalCount> decision) {
     std::vector<Overlap> overlaps;
     told.for_each([&](const Record& record) {
@@ -133,7 +135,8 @@ Remap make_summary(std::span<const GlobalCount, 3> sums) {
     return summary;
 }
 
-/// Returns the result of too many parts, with these numbers. Collective: one reduction.
+/// Returns the result for more parts than are renumbered: `numbers` are the old ones. Collective:
+/// one reduction.
 Remap unchanged(std::span<const Part> parts, const PreviousParts& previous, const NumberRule& rule,
                 std::vector<Part>&& numbers, Participant& self) {
     std::array<GlobalCount, 3> sums{
@@ -228,7 +231,7 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
         Shared{"shape.group_size", static_cast<std::uint64_t>(shape.group_size)},
         Shared{"shape.dealt", static_cast<std::uint64_t>(shape.dealt)}};
     agree(self, shared);
-    // A rank without points may lack `previous`, but must use the same rule.
+    // A rank without points may come without `previous`, but must use the same rule as the others.
     rule.by_rank = shared[0].value == 0;
     if (!buffers) return unchanged(parts, previous, rule, std::move(same), self);
     buffers->parts.rule.by_rank = rule.by_rank;

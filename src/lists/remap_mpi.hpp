@@ -12,13 +12,13 @@
 
 namespace rrcb {
 
-/// Returns a hash of lists, which must be the same on every rank.
+/// Returns a hash of the lists, which must be equal on all ranks.
 std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts);
 
-/// Earlier parts of the points. If none are given, points are to be kept on their rank.
+/// Earlier parts of the points. Without a value, points should remain on their rank.
 using PreviousParts = std::optional<std::span<const Part>>;
 
-/// Origins of the points of a rank.
+/// The origin of each point of a rank: its earlier part, or the rank.
 class Origins {
   public:
     /// `previous` must outlive it.
@@ -28,7 +28,8 @@ class Origins {
         if (by_rank_ && first < end) own_ = rank;
     }
 
-    /// Returns this rank if origins are ranks and some number keeps its points, else no_origin.
+    /// Returns this rank if origins are ranks and this rank has a number to keep its points;
+    /// otherwise no_origin.
     std::int32_t own() const { return own_; }
 
     std::int32_t of(std::size_t point) const {
@@ -44,12 +45,12 @@ class Origins {
     std::int32_t own_ = no_origin;
 };
 
-/// Returns the number of points of this rank that numbers keep at their origin; of `numbers` that
-/// are empty, those of the parts themselves.
+/// Returns how many points of this rank remain at their origin with the given numbers of parts. If
+/// `numbers` is empty, each part has its own number.
 GlobalCount num_kept(std::span<const Part> parts, std::span<const Part> numbers,
                      const PreviousParts& previous, const NumberRule& rule, int rank);
 
-/// More parts keep their numbers, which limits the memory and the time of rank 0.
+/// Parts are not renumbered if there are more of them, which limits the memory and time of rank 0.
 inline constexpr int most_renumbered = 1 << 17;
 
 /// Memory of one renumbering, allocated before the ranks agree.
@@ -64,10 +65,10 @@ struct RemapBuffers {
     std::vector<GlobalCount> decision;  ///< numbers and sums that rank 0 sends
 };
 
-/// Renumbers as the public functions do, from checked arguments.
+/// Renumbers as the public functions do; the arguments must have been checked.
 ///
-/// Ranks without points may lack `previous`. Collective: one pass to rank 0 and one broadcast.
-/// Throws on all ranks a failure on one, also from before the call.
+/// Ranks without points may come without `previous`. Collective: one pass to rank 0 and one
+/// broadcast. If a rank has failed, before or here, all ranks throw its error.
 Remap find_numbers(std::span<const Part> parts, const PreviousParts& previous,
                    RemapBuffers& buffers, Participant& self);
 

@@ -13,7 +13,7 @@ inline void copy_bytes(const std::byte* from, std::size_t bytes, std::byte* to) 
     if (bytes > 0) std::memcpy(to, from, bytes);
 }
 
-/// Calls by(bytes) with a constant number of bytes if it is a common one, which is faster.
+/// Calls by(bytes). Common numbers of bytes are passed as compile-time constants, which is faster.
 template <class By>
 void with_row_bytes(std::size_t bytes, By&& by) {
     switch (bytes) {
@@ -28,7 +28,7 @@ void with_row_bytes(std::size_t bytes, By&& by) {
     }
 }
 
-/// Copies the rows of some points, each of `row_bytes`.
+/// Copies the rows of some points. Each row has `row_bytes` bytes.
 inline void gather(const std::byte* from, std::size_t row_bytes, std::span<const LocalIndex> points,
                    std::byte* to) {
     with_row_bytes(row_bytes, [&](auto bytes) {

@@ -19,7 +19,7 @@ void store(SavedState& state, Cuts& cuts) {
     state.count(num_cuts, state.num_left() / 3);
     cuts.tree.resize(num_cuts);
     for (Cut& cut : cuts.tree) state.each(cut.axis, cut.divides, cut.at);
-    if (state.num_left() == 0) return;  // of version 0.2
+    if (state.num_left() == 0) return;  // saved by version 0.2
     std::size_t num_numbers = cuts.numbers.size();
     state.count(num_numbers, state.num_left());
     cuts.numbers.resize(num_numbers);

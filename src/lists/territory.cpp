@@ -80,8 +80,8 @@ std::vector<int> Territory::near_ranks() const {
         const NearBoxes near(cuts_, {ranks_of, rank_, region, reach_, images()});
         ranks.insert(ranks.end(), near.ranks().begin(), near.ranks().end());
     }
-    // A rank without regions has the ranks before and after it as neighbours, so that errors reach
-    // all ranks, see Neighbours.
+    // A rank without regions gets the ranks before and after it as neighbours, so that errors still
+    // reach all ranks; see Neighbours.
     if (regions_.empty() && rank_ > 0) ranks.push_back(rank_ - 1);
     if (regions_.empty() && rank_ + 1 < num_ranks_) ranks.push_back(rank_ + 1);
     std::ranges::sort(ranks);
@@ -99,7 +99,7 @@ int Territory::owner_of(const Vector& position) const {
     const Part end = tree_.entries()[static_cast<std::size_t>(tree_.end_of(position.data()))];
     const RankRange ranks = ranks_of_end(end);
     if (ranks.contains(rank_)) return rank_;
-    // Points of a place that a cut divides may be on either side.
+    // If a cut divides coincident points, those at this position may be on either side.
     bool is_here = false;
     tree_.visit_touching({position, position},
                          [&](Part other) { is_here |= ranks_of_end(other).contains(rank_); });

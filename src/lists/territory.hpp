@@ -16,10 +16,10 @@
 
 namespace rrcb {
 
-/// The parts of this rank, and those near them.
+/// The parts of this rank, and the parts near them.
 class Territory {
   public:
-    /// Copies the cuts. Throws Error for cuts or options that are not valid.
+    /// Copies the cuts. Throws Error if the cuts or options are not valid.
     Territory(const Cuts& cuts, const NeighbourOptions& options, int rank, int num_ranks);
     Territory(const Territory&) = delete;
     Territory& operator=(const Territory&) = delete;
@@ -28,36 +28,36 @@ class Territory {
     const PeriodicImages* images() const { return images_ ? &*images_ : nullptr; }
     int rank() const { return rank_; }
 
-    /// Ends of the tree at the parts of this rank that have a region, ascending.
+    /// Returns the ends of the tree whose parts are on this rank and have a region, ascending.
     std::span<const Part> ends() const { return ends_; }
 
     /// Returns the other ranks with parts within reach of those of this rank, ascending.
     std::vector<int> near_ranks() const;
 
-    /// Returns the regions near the points of this rank. `reaches` may be null.
+    /// Returns the regions near this rank's points. `reaches` may be null.
     NearBoxes near_boxes(const PartReaches* reaches) const;
 
-    /// Calls visit(i) for each point that may be outside the parts of this rank, in ascending
-    /// order.
+    /// Calls visit(i) for each point that may be outside this rank's parts, in ascending order.
     template <class Visit>
     void for_each_outside(const Points& points, Visit&& visit) const {
         inside_->for_each_outside(points, visit);
     }
 
-    /// Returns the rank that owns a position, this one if it can.
+    /// Returns the rank that owns a position. If several ranks may own it, prefers this rank.
     int owner_of(const Vector& position) const;
 
-    /// Notes the reaches of the points of this rank. A point outside its parts counts for each.
+    /// Notes the reaches of this rank's points. A point outside all parts of this rank counts for
+    /// each of them.
     void note_reaches(const Points& points, const Radii& radii, PartReaches& reaches) const;
 
-    /// Returns whether a position is in the closed regions of this rank.
+    /// Returns whether a position is in a region of this rank or on its boundary.
     bool is_at_home(const Vector& position) const;
 
-    /// Returns whether a point with this radius is so near the regions of this rank that only
-    /// neighbours can need it.
+    /// Returns whether a point is so near the regions of this rank that only neighbours can need it
+    /// within this radius.
     bool is_within_reach(const Vector& position, double radius) const;
 
-    /// Throws Error for a point that is not finite, or outside the periodic box.
+    /// Throws Error if the point is not finite or outside the periodic box.
     void check_position(const Points& points, LocalIndex point) const;
 
     /// Returns "point I (the first is 0) at (X, Y)".
@@ -75,8 +75,8 @@ class Territory {
     double reach_;
     std::optional<PeriodicImages> images_{};
     std::vector<Part> ends_{};
-    std::vector<Box> regions_{};  ///< of these
-    Box all_{};                   ///< of the regions
+    std::vector<Box> regions_{};  ///< regions of these ends
+    Box all_{};                   ///< box around all regions
     PackedTree tree_;
     std::optional<QuietBoxes> inside_{};
 };

@@ -10,20 +10,21 @@
 
 namespace rrcb {
 
-/// Returns a number greater than any before, in this process.
+/// Returns a number that is larger than all earlier ones in this process.
 inline std::uint64_t next_stamp() {
     static std::atomic<std::uint64_t> stamp{0};
     return ++stamp;
 }
 
-/// The latest transfers of points with a communicator, as seen on this rank.
+/// The latest transfers of points with a communicator, as seen by this rank.
 ///
-/// They may be of any points. Ghosts are stale if one by a plan made since took as many points as
-/// they have on every rank, and no older plan brought as many back later.
+/// A transfer may belong to any points, so only the number of points links it to ghosts. Ghosts are
+/// stale if a plan that was made after them has moved as many points as they were made for, unless
+/// an older plan has brought this number of points back later.
 class TransferLog {
   public:
-    /// Notes a transfer; the same calls on every rank. `is_like_before`: its result here may have
-    /// the hash of the points before.
+    /// Notes a transfer. Every rank must make the same calls. `is_like_before` means that the
+    /// result on this rank may have the same hash as the points before.
     void add(const Plan& plan, bool moves, bool is_like_before) {
         ++number_;
         if (!moves || plan.stamp == 0) return;
@@ -39,14 +40,15 @@ class TransferLog {
     /// Returns the number of transfers, the same on every rank.
     std::uint64_t number() const { return number_; }
 
-    /// Returns true if so many points, after a transfer, may have the hash of those before.
+    /// Returns true if a transfer led to this number of points, and their hash may be the same as
+    /// before it.
     bool are_like_before(LocalIndex num_points) const {
         return std::ranges::any_of(transfers_, [&](const Transfer& transfer) {
             return transfer.is_like_before && transfer.after == num_points;
         });
     }
 
-    /// Returns the number of the latest transfer that may have taken the points of ghosts, or 0.
+    /// Returns the number of the latest transfer that made the ghosts stale, or 0.
     std::uint64_t overtaking(const GhostPlan& ghosts) const {
         std::uint64_t back = 0;
         std::uint64_t taken = 0;

@@ -37,7 +37,7 @@ void check_lists(const Plan& plan, int num_ranks) {
 
 namespace {
 
-/// Lists of a transfer that outlive it.
+/// Lists that a Delivery borrows during a transfer.
 struct TransferLists {
     std::vector<LocalIndex> sent;
     std::vector<RankCount> to;
@@ -45,7 +45,7 @@ struct TransferLists {
     TransferLog* log = nullptr;
 };
 
-/// Makes the lists. Throws Error if the plan is inconsistent.
+/// Makes the lists of a transfer. Throws Error if the plan is inconsistent.
 Delivery make_lists(const Plan& plan, TransferLists& lists, Participant& self) {
     const int num_ranks = mpi::size_of(self.comm);
     mpi::require_group(plan.group, "the plan", self);
@@ -63,7 +63,7 @@ Delivery make_lists(const Plan& plan, TransferLists& lists, Participant& self) {
     return {plan.num_points, num_kept, plan.export_indices, lists.sent, lists.to, lists.from};
 }
 
-/// Removes rows: moves the last ones, ascending, to the places of removed ones.
+/// Removes rows: the last rows, in ascending order, move to the places of removed ones.
 void remove_rows(std::byte* rows, std::size_t row_bytes, LocalIndex num_left,
                  std::span<const LocalIndex> removed) {
     auto last = std::ranges::lower_bound(removed, num_left);
@@ -113,7 +113,7 @@ void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns
         remove_rows(rows, column.components * column.value_bytes, num_left, plan.export_indices);
         column.resize(column.result, num_left * column.components);
     }
-    // The points before are no more.
+    // The columns no longer contain the points before, so they cannot be compared.
     lists.log->add(plan, delivered.moves, true);
 }
 

@@ -16,22 +16,23 @@ namespace rrcb {
 
 namespace {
 
-/// Point of the sample, which every rank gets.
+/// Point of the sample. Every rank receives all of the sample.
 struct Sample {
     Vector x{};
-    double radius = std::numeric_limits<double>::quiet_NaN();  ///< of the points that it needs
+    /// distance within which it needs other points
+    double radius = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Point near a point of the sample, to be sent to the rank of the latter.
+/// Point near a point of the sample, to be sent to the rank of the sample point.
 struct Neighbour {
-    std::uint64_t sample;  ///< number on its rank
+    std::uint64_t sample;  ///< number of the sample point on its rank
     std::uint64_t index;
     std::uint64_t id;
     Shift shift;
     std::int32_t unused = 0;
 };
 
-/// Points of a rank in about as many cells of their box, to find those near a position.
+/// A rank's points in cells, about as many as points, for finding those near a position.
 class CellList {
   public:
     explicit CellList(const Points& points) : box_(bounding_box(points)) {
@@ -42,7 +43,7 @@ class CellList {
         std::ranges::sort(cells_);
     }
 
-    /// Calls visit(point) for all points at most `reach` away along each axis, and some others.
+    /// Calls visit(point) for all points within `reach` along each axis, and for some others.
     template <class Visit>
     void for_each_near(const Vector& x, double reach, Visit&& visit) const {
         const auto at = [&](double by) { return cell_of({x[0] + by, x[1] + by, x[2] + by}); };
@@ -81,7 +82,7 @@ struct VerifyRequest {
     const VerifyOptions& options;
     Radii radii;
     PeriodicImages images;
-    std::vector<LocalIndex> chosen{};  ///< sample of this rank
+    std::vector<LocalIndex> chosen{};  ///< points of this rank in the sample
 
     std::uint64_t id_of(LocalIndex i) const { return options.ids ? (*options.ids)[i] : i; }
 
@@ -98,7 +99,8 @@ struct VerifyRequest {
                 "ids_before needs ids to compare with");
     }
 
-    /// Returns the sample of this rank and room for those of others, `count` for each.
+    /// Returns `count` samples for each rank: those of this rank are set, the others are to be
+    /// received.
     std::vector<Sample> choose(std::size_t count, int rank, int num_ranks) {
         std::vector<LocalIndex> all(points.count);
         std::iota(all.begin(), all.end(), LocalIndex{0});
@@ -112,7 +114,8 @@ struct VerifyRequest {
         return samples;
     }
 
-    /// Finds the points of this rank near the samples, by all pairs of neighbouring cells.
+    /// Finds the points of this rank near the samples, by comparing all pairs in neighbouring
+    /// cells.
     Outgoing<Neighbour> neighbours_of(std::span<const Sample> samples, std::size_t num_each,
                                       int rank) const {
         const CellList cells(points);
@@ -153,7 +156,7 @@ struct VerifyRequest {
     }
 };
 
-/// Gives every rank the samples of all. Collective.
+/// Gives every rank the samples of all ranks. Collective.
 std::vector<Sample> share_samples(VerifyRequest& request, std::size_t& num_each,
                                   Participant& self) {
     const int num_ranks = mpi::size_of(self.comm);
@@ -176,7 +179,7 @@ std::vector<Sample> share_samples(VerifyRequest& request, std::size_t& num_each,
     return samples;
 }
 
-/// Compares ghosts with the neighbours of this rank's samples. Collective.
+/// Compares the ghosts with the true neighbours of this rank's samples. Collective.
 void compare_ghosts(const VerifyRequest& request, std::span<const Arrived<Neighbour>> neighbours,
                     Verification& seen, Participant& self) {
     const GhostPlan& plan = request.plan;
@@ -219,8 +222,8 @@ void compare_ghosts(const VerifyRequest& request, std::span<const Arrived<Neighb
     });
 }
 
-/// Compares the ids of all ranks, now and, if any rank has some, before a transfer: those of one
-/// number are a group. Collective.
+/// Compares the ids of all ranks after a transfer with those before it, if any rank has given the
+/// latter. Equal ids form a group. Collective.
 void compare_ids(const VerifyOptions& options, bool has_before, Verification& seen,
                  Participant& self) {
     constexpr std::size_t num_sums = 3;  // points now and before, and ranks of those now

@@ -11,11 +11,13 @@ namespace rrcb {
 
 namespace {
 
-/// Doubles in the head of a block: the number of cells, the exponent of the lattice, or of lean
-/// weights, the unit of the weights, and the doubles of lean cells, 0 if they are of a lattice.
+/// Number of doubles in the head of a block: the number of cells; the exponent of the lattice or of
+/// lean weights; the unit of the weights; and the number of doubles of lean cells, or 0 for cells
+/// of a lattice.
 constexpr std::size_t head_length = 4;
 
-/// Doubles of one cell: number, count, weight, then mean and deviation per axis.
+/// Appends one cell as doubles: its number, count and weight, then the mean and the deviation along
+/// each axis.
 void append_cell(const CellMoments& cell, int dimension, std::vector<double>& records) {
     records.insert(records.end(), {static_cast<double>(cell.cell),
                                    static_cast<double>(cell.moments.count), cell.moments.weight});
@@ -34,8 +36,9 @@ CellMoments take_cell(std::span<const double>& records, int dimension) {
     return cell;
 }
 
-/// Returns the box of a merged cell: the cube of its mean, or the extent of a uniform density with
-/// its moments if that is larger, as merged cells may reach far out of the cube.
+/// Returns the box of a merged cell: the cube that contains its mean, widened to the extent of a
+/// uniform density with its moments. The latter is needed because merged cells may reach far beyond
+/// the cube.
 Box box_of_merged(const Moments& moments, int dimension, int exponent) {
     constexpr double largest = std::numeric_limits<double>::max();
     const Vector cube = cube_of(moments.mean, dimension, exponent);
@@ -58,7 +61,7 @@ void append_mesh(const SupportMesh& mesh, std::vector<double>& records) {
     append_vector(mesh.frame.upper, mesh.dimension, records);
 }
 
-/// Reads a mesh, or the part of it that the boxes of its cells need.
+/// Reads as much of a mesh as is needed for the boxes of its cells.
 SupportMesh take_mesh(std::span<const double>& records, int dimension) {
     Box box;
     box.lower = take_vector(records, dimension);
@@ -162,7 +165,8 @@ std::size_t num_cubes(std::span<const CellMoments> cells, int dimension, int exp
     return static_cast<std::size_t>(std::unique(cubes.begin(), cubes.end()) - cubes.begin());
 }
 
-/// Returns half the longest edge of the box of the means; does not overflow for any coordinates.
+/// Returns half the longest edge of the box around the means. Does not overflow for any
+/// coordinates.
 double half_extent(std::span<const CellMoments> cells, int dimension) {
     double longest = 0;
     for (int a = 0; a < dimension; ++a) {
@@ -175,9 +179,9 @@ double half_extent(std::span<const CellMoments> cells, int dimension) {
     return longest;
 }
 
-/// Finds the finest lattice coarse enough. The search starts at the edge at which points
-/// that fill their cube have about as many cells as wanted; other points leave most of the lattice
-/// empty.
+/// Returns the exponent of the finest lattice on which at most `most` cells are left. The search
+/// starts at the edge length with which points that fill a cube have about this number of cells;
+/// other points leave most of the lattice empty, and need longer edges.
 int finest_exponent(const CellSet& set, int dimension, std::size_t most) {
     const int lowest = std::max(set.exponent, last_digit(set.cells, dimension));
     const double half = half_extent(set.cells, dimension);

@@ -17,7 +17,7 @@ void join(Box& mine, const Box& next) {
     }
 }
 
-/// Keeps the first difference in the order of the ranks.
+/// Keeps the first difference in order of ranks.
 void join_differences(Summary& mine, const Summary& next) {
     if (mine.differing_rank != no_rank) return;
     mine.difference = next.difference;
@@ -39,8 +39,8 @@ void coarsen_records(Contribution& all, int dimension, std::size_t most) {
     all.summary.num_cells = static_cast<std::int64_t>(merged.cells.size());
 }
 
-/// Returns true if the points are so few that each is a cell of its own: no more than a few for
-/// each part, and than merging leaves, were all ranks to hold as many.
+/// Returns true if the points are so few that each one is sent as a cell. If all ranks had as many
+/// points, there would be at most a few for each part, and no more than merging leaves.
 bool are_cells(LocalIndex num_points, int num_ranks, const Options& options) {
     constexpr std::size_t points_per_part = 4;
     const std::size_t most = points_per_part * static_cast<std::size_t>(options.num_parts);
@@ -48,7 +48,7 @@ bool are_cells(LocalIndex num_points, int num_ranks, const Options& options) {
            num_points * static_cast<std::size_t>(num_ranks) <= std::min(most, most_cells(options));
 }
 
-/// Returns the points as cells of the lattice on which no two of them merge.
+/// Returns the points as cells of a lattice that is so fine that no two different positions merge.
 CellSet cells_of_points(PointPasses& points) {
     const PointSample all = points.sample(points.count());
     CellSet set;
@@ -115,7 +115,7 @@ void absorb(Contribution& mine, const Summary& next, std::span<const double> dou
     const auto before = doubles.first(doubles.size() - totals.size());
     const std::span<const double> extents = before.last(next.num_extent_doubles);
     const auto cells = before.first(before.size() - extents.size());
-    // Other lengths come from a rank with other options.
+    // A different length means that the rank has other options; that is reported later.
     if (mine.part_totals.size() == totals.size())
         std::ranges::transform(totals, mine.part_totals, mine.part_totals.begin(), std::plus<>());
     mine.extents.insert(mine.extents.end(), extents.begin(), extents.end());

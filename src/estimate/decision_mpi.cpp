@@ -29,11 +29,13 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the least imbalance of points of one weight in parts of these relative sizes: each point
-/// beyond the whole numbers of the shares goes to the part it makes the least too heavy.
+/// Returns the least possible imbalance of points of equal weight in parts of these relative sizes.
+/// Each part first gets the whole number in its share; each remaining point goes to the part which
+/// it makes least too heavy.
 double least_imbalance_by_count(GlobalCount num_points, std::span<const double> part_sizes) {
     const double unit = static_cast<double>(num_points) / sum_of(part_sizes);
-    using NextPoint = std::pair<double, double>;  // relative weight of a part with it, and the size
+    using NextPoint = std::pair<double, double>;  // relative weight of a part with one more point,
+                                                  // and its size
     std::priority_queue<NextPoint, std::vector<NextPoint>, std::greater<>> next;
     GlobalCount num_left = num_points;
     for (const double size : part_sizes) {
@@ -51,7 +53,7 @@ double least_imbalance_by_count(GlobalCount num_points, std::span<const double> 
     return std::max(1.0, least);
 }
 
-/// Returns a lower bound of the imbalance of any partition.
+/// Returns a lower bound of the imbalance of all partitions.
 double least_imbalance(const Verdict& verdict, int num_parts, std::span<const double> part_sizes) {
     const GlobalCount count = verdict.num_points;
     if (count == 0) return 1;
@@ -65,7 +67,7 @@ double least_imbalance(const Verdict& verdict, int num_parts, std::span<const do
     return std::max(1.0, verdict.balanced_heaviest() / verdict.balanced_weight() * parts);
 }
 
-/// Returns the arrays of the answer, as bytes.
+/// Returns the arrays of a decision as bytes.
 std::array<std::span<std::byte>, 6> arrays_of(Decision& decision) {
     const auto bytes = [](auto& array) { return std::as_writable_bytes(std::span(array)); };
     const Verdict& verdict = decision.verdict;
@@ -90,7 +92,7 @@ std::size_t num_bytes(Decision& decision) {
     return length;
 }
 
-/// Writes the arrays into the message, behind the verdict.
+/// Writes the arrays into the message, after the verdict.
 void pack(Decision& decision, std::span<std::byte> message) {
     auto to = message.begin() + sizeof(Verdict);
     for (const auto array : arrays_of(decision)) to = std::ranges::copy(array, to).out;
@@ -104,15 +106,15 @@ void unpack(Decision& decision, std::span<const std::byte> message) {
     }
 }
 
-/// Bytes of the first message from rank 0, for any options.
+/// Number of bytes of the first message from rank 0, for any options.
 constexpr std::size_t head_length = 2048;
 
-/// Allocates memory for the message with this many bytes of arrays.
+/// Allocates memory for a message with this many bytes of arrays.
 void make_message(std::size_t arrays, Decision& decision) {
     decision.message.resize(std::max(head_length, sizeof(Verdict) + arrays));
 }
 
-/// Takes what the ranks hold as the decision.
+/// Decides that the ranks keep their points.
 void keep(Decision& decision) {
     decision.verdict.answer = Answer::kept;
     if (!decision.held) return;
@@ -121,8 +123,8 @@ void keep(Decision& decision) {
     decision.parts = std::move(decision.held->parts);
 }
 
-/// Computes the imbalance of the parts of earlier cuts, whose points the ranks have counted; it is
-/// endless if limits forbid the cuts.
+/// Computes the imbalance of the parts of earlier cuts, whose points the ranks have counted. It is
+/// infinite if the limits of cuts rule these cuts out.
 void weigh_parts(const Contribution& all, const Options& options, Decision& decision) {
     if (all.summary.num_points == 0) return;
     const std::size_t num_parts = decision.part_weights.size();
@@ -135,8 +137,8 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
         are_allowed ? imbalance(decision.part_weights, options.part_sizes) : not_kept;
 }
 
-/// Reads the ranks' present parts from the extents of their points; nullopt if they are no
-/// bisection of so many parts, or if some rank does not hold a part.
+/// Reads the parts that the ranks hold now from the extents of their points. Returns nullopt if
+/// they are not a bisection into this number of parts, or if some rank holds no part.
 std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
                                   const Options& options) {
     std::vector<PointSummary> extents = read_extents(all.extents, estimate.dimension);
@@ -147,10 +149,11 @@ std::optional<KeptTree> read_held(const Contribution& all, const Cuts& estimate,
     return read_kept_tree(extents, estimate, options);
 }
 
-/// Bisects the cells of all ranks, and reads what the ranks hold. If that is a bisection, the cuts
-/// are across its axes; otherwise points at rest might turn in every call. Cuts across other axes
-/// come as well, for points to be counted near them, because the estimate depends on what the ranks
-/// hold: always if the present parts are uneven, otherwise if they seem to be better.
+/// Bisects the cells of all ranks, and reads the parts that the ranks hold now. If these are a
+/// bisection, the returned cuts are across its axes; otherwise the cuts of resting points might
+/// turn in every call. Cuts across other axes are put into `decision.turned` as alternative: always
+/// if the present parts are uneven, otherwise only if they seem to be better. Points near both are
+/// then counted, because the estimate itself depends on which ranks hold the points.
 Bisection make_cuts(const Contribution& all, const Options& options, Decision& decision) {
     constexpr double enough = 0.85;
     const StatisticalDomain domain = build_domain(all, decision.cuts.dimension);
@@ -293,7 +296,7 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
 }
 
 void broadcast(Decision& decision, Participant& self) {
-    // A rank without memory for the message throws after its head.
+    // A rank without memory for the message still receives its head, and throws afterwards.
     std::array<std::byte, head_length> spare{};
     Verdict& verdict = decision.verdict;
     std::span<std::byte> message = decision.message;
@@ -306,7 +309,7 @@ void broadcast(Decision& decision, Participant& self) {
     broadcast_and_meet(head, self);
     std::memcpy(&verdict, head.data(), sizeof verdict);
     fail_together(verdict.failing_rank, self);
-    // All ranks now know the length of the message.
+    // The head contains the length of the message, so all ranks know it now.
     const std::size_t length = std::max(head_length, num_bytes(decision));
     mpi::broadcast(message.first(length).subspan(head_length), root, self.comm);
     unpack(decision, message);

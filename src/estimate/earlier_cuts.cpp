@@ -10,7 +10,7 @@ namespace rrcb {
 
 namespace {
 
-/// Leaves nothing in parts of size 0, and makes the cut a plane if the options ask for planes.
+/// Changes a cut so that parts of size 0 get nothing, and to a plane if the options ask for planes.
 void fit(const Options& options, const Descent& at, Cut& cut) {
     const int axis = cut.axis;
     double value = cut.at[axis];

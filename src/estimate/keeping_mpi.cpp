@@ -19,9 +19,10 @@ namespace rrcb {
 
 namespace {
 
-/// Returns how near a position is to the cuts above it in the tree. A cut adds 1 if the position is
-/// on it, less with the distance, and 0 beyond `reach`. If points form even layers, the sum over
-/// all points changes little while a cut moves between two layers.
+/// Returns how near a position is to the cuts above it in the tree. Each cut adds 1 if the position
+/// is on it, less with growing distance, and 0 beyond `reach`. Because the weight decreases
+/// gradually, the sum over points in regular layers changes little while a cut moves between two
+/// layers.
 double nearness(const Cuts& cuts, const Vector& position, double reach) {
     double sum = 0;
     for (Descent at = root_of(cuts); !at.is_part();) {
@@ -33,8 +34,8 @@ double nearness(const Cuts& cuts, const Vector& position, double reach) {
     return sum;
 }
 
-/// Returns the distance from a cut within which has_far_fewer_near() counts: some spacings of
-/// points that fill their box. It is the same whichever ranks hold the points.
+/// Returns the reach for has_far_fewer_near(): a few spacings of points that fill their box. It
+/// does not depend on which ranks hold the points.
 double wide_reach(const Box& box, std::int64_t num_points) {
     constexpr double spacings = 6;
     double sum = 0;
@@ -49,7 +50,7 @@ double wide_reach(const Box& box, std::int64_t num_points) {
     return 2 * spacings * std::exp((sum - std::log(static_cast<double>(num_points))) / num_axes);
 }
 
-/// Returns true if far fewer points are near the cuts `turned` than near `held`. Collective: a
+/// Returns true if far fewer points are near the cuts `turned` than near `held`. Collective: one
 /// reduction.
 bool has_far_fewer_near(const Cuts& turned, const Cuts& held, double reach, PointPasses& points,
                         Participant& self) {
@@ -83,7 +84,7 @@ bool turns(Decision& decision, const Cuts& held, PointPasses& points, Participan
 }
 
 bool reads_kept_tree(const Options& options, int num_ranks) {
-    // As many as rank 0 divides by default.
+    // The same limit up to which rank 0 divides by default.
     return num_ranks > 1 && num_ranks <= Tuning{}.central_parts && options.num_parts == num_ranks &&
            !are_cuts_limited(options);
 }
@@ -94,7 +95,7 @@ bool keeps_at_once(double kept, const Options& options) {
 
 namespace {
 
-/// A node of the tree: its weight, and how much heavier than by its share the heavier side is,
+/// Weight of a node, and how far its cut is from its target: the excess weight of the heavier side
 /// times the share of the other side.
 struct NodeWeight {
     double all;
@@ -124,7 +125,8 @@ bool are_as_exact(std::span<const double> kept, std::span<const double> found, c
         if (at.is_part()) return true;
         const NodeWeight now = weight_at(at, kept, options);
         const NodeWeight then = weight_at(at, found, options);
-        // The order of the points decides how near a division of coincident ones comes.
+        // If a cut divides coincident points, the order of the points limits how near the target it
+        // can come.
         const double of_order = cuts.tree[at.node].divides != 0 ? heaviest / 2 : 0;
         return now.excess <= then.excess + of_order + rounding * std::max(now.all, then.all) &&
                self(self, at.lower()) && self(self, at.upper());
@@ -133,13 +135,15 @@ bool are_as_exact(std::span<const double> kept, std::span<const double> found, c
 }
 
 bool is_worth_moving(double kept, double offered, const Options& options) {
-    // NaN, if nothing was counted, raises no exception in these comparisons.
+    // `offered` is NaN if nothing was counted; these comparisons then raise no floating-point
+    // exception.
     constexpr double rounding = 1e-12;
     const double tolerance = options.imbalance_tolerance;
     if (kept > tolerance && std::islessequal(offered, tolerance)) return true;
     const bool gains = std::isgreater(kept - offered, std::max((tolerance - 1) / 20, rounding));
     const bool is_half = std::islessequal(offered - 1, (kept - 1) / 2);
-    // A search finds the best imbalance. An estimate depends on chance.
+    // A search finds the best imbalance, so any gain counts. The imbalance of an estimate varies by
+    // chance.
     return gains && (is_half || (kept > tolerance && is_refined(options)));
 }
 

@@ -18,7 +18,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the cut in the middle between two positions, `last` below it and `first` above.
+/// Returns the cut in the middle between two positions: `last` is below it, `first` above.
 Cut cut_between_positions(const Vector& last, const Vector& first, int axis, int dimension) {
     Cut cut = plane(axis, first[axis]);
     for (int k = 0; k < dimension; ++k) {
@@ -49,20 +49,21 @@ class Reader {
     }
 
   private:
-    /// Reads the points of a group of ranks, named by the ends of the tree that are theirs by
-    /// number, as the parts of a node. `expected`: all cuts above are across the axes of the
-    /// estimate.
+    /// Reads the points of a group of ranks as the parts of a node. `ends` are the ends of the tree
+    /// whose parts have the numbers of these ranks. `expected` means that all cuts above are across
+    /// the axes of the estimate. Returns false if the points are not a bisection.
     bool read_node(const Descent& at, std::span<Part> ends, bool expected) {
         if (at.is_part()) return settle(at.first_part, ends.front());
         const int usual = estimate_.tree[at.node].axis;
         const int num_below = at.lower().num_parts;
         if (!has_size(at.lower()) || !has_size(at.upper())) {
-            // All points belong to the parts with a size above 0.
+            // One side has only parts of size 0, so all points belong to the other side.
             kept_.cuts.tree[at.node] = plane(usual, has_size(at.lower()) ? infinity : -infinity);
             return read_node(at.lower(), ends.first(num_below), expected) &&
                    read_node(at.upper(), ends.subspan(num_below), expected);
         }
-        // By number first: another order of the ranks that divides the same boxes moves points.
+        // Divides the ranks by number first: if only their order differs, points would move
+        // although the boxes are the same.
         for (const bool by_number : {true, false}) {
             for (int k = 0; k < estimate_.dimension; ++k) {
                 const auto axis = static_cast<int>(ordering_axis(usual, k));
@@ -75,8 +76,8 @@ class Reader {
         return false;
     }
 
-    /// Cuts a node across an axis between groups of ranks, by number or by position. Returns false
-    /// if no cut is allowed.
+    /// Cuts a node across an axis between two groups of ranks, divided by number or by position.
+    /// Returns false if no cut is allowed.
     bool cut_across(int axis, const Descent& at, bool as_expected, bool by_number,
                     std::span<Part> ends) {
         const int num_below = at.lower().num_parts;
@@ -89,15 +90,15 @@ class Reader {
         return cut.has_value();
     }
 
-    /// Returns true if a cut of these points may be across an axis.
+    /// Returns true if a cut through these points may be across an axis.
     bool may_cross(int axis, int usual, bool as_expected, const PointSummary& all) const {
         const AxisOrder& order = options_.axes.order;
         if (order.is_given() || order.is_grouped()) return axis == usual;
         if (!order.is_longest())
             return std::ranges::count(allowed_axes(order, estimate_.dimension), axis) > 0;
         if (as_expected) return true;
-        // Less strict than for a new cut, whose extents are estimated; otherwise cuts might turn in
-        // every call.
+        // This is less strict than for a new cut, whose extents are estimated. Otherwise cuts might
+        // turn in every call.
         constexpr double enough = 0.8;
         const auto half_extent = [&](int a) { return all.last[a][a] / 2 - all.first[a][a] / 2; };
         for (int other = 0; other < estimate_.dimension; ++other)
@@ -105,9 +106,9 @@ class Reader {
         return true;
     }
 
-    /// Returns the cut between two groups of ranks, in the middle of the gap if there is one;
-    /// nullopt if no cut is allowed. Of coincident points that it divides those of lower ranks are
-    /// below.
+    /// Returns the cut between two groups of ranks, in the middle of the gap between them if there
+    /// is one; nullopt if no cut is allowed. If the cut divides coincident points, those of lower
+    /// ranks are below.
     std::optional<Cut> cut_between(const PointSummary& below, const PointSummary& above, int axis,
                                    bool by_number) const {
         if (below.count == 0) return plane(axis, -infinity);
@@ -130,8 +131,8 @@ class Reader {
 
     const PointSummary& extent_at(Part end) const { return extents_[estimate_.part_at(end)]; }
 
-    /// Puts the ranks with the first points across an axis to the beginning of sorted ends.
-    /// Coincident points are in the order of their ranks. Ranks without points stay on their side.
+    /// Reorders sorted ends so that the ranks whose points come first across an axis are at the
+    /// beginning. Coincident points are ordered by rank. Ranks without points remain on their side.
     void divide_across(int axis, int num_below, std::span<Part> ends) const {
         const PositionOrder is_before(axis, 0, estimate_.dimension);
         const auto has_points = [&](Part end) { return extent_at(end).count > 0; };
@@ -160,7 +161,7 @@ class Reader {
         return std::ranges::any_of(sizes, [](double size) { return size > 0; });
     }
 
-    /// Gives the points of a rank their part; returns false if the part must stay empty.
+    /// Gives the points of a rank their part. Returns false if the part must be empty but is not.
     bool settle(Part part, Part end) {
         const PointSummary& extent = extent_at(end);
         kept_.parts[estimate_.part_at(end)] = part;

@@ -23,15 +23,17 @@ double share_of(std::byte code) {
     return std::to_integer<int>(code) / steps;
 }
 
-/// Computes with half extents, which do not overflow for any coordinates.
+/// Returns the code of a mean. Computes with half extents, which do not overflow for any
+/// coordinates.
 std::byte code_of_mean(double mean, double lower, double upper) {
     const double half = upper / 2 - lower / 2;
     return half > 0 ? code_of((mean / 2 - lower / 2) / half) : std::byte{0};
 }
 
-/// Codes from here on are in proportion to the root of a deviation, those below to its logarithm.
+/// Codes from here on are proportional to the square root of a deviation, smaller codes to its
+/// logarithm.
 constexpr int first_root = 64;
-constexpr double logarithm_step = 0.6;  // base 2
+constexpr double logarithm_step = 0.6;  // of the logarithm to base 2
 
 double share_of_deviation(int code) {
     constexpr double steps_below = first_root / steps;
@@ -51,8 +53,8 @@ std::byte code_of_deviation(double deviation, double lower, double upper) {
         static_cast<int>(std::max(1.0, std::round(first_root + steps_down))));
 }
 
-/// Returns the mean of a cell. If it is on a face although the deviation is not 0, it is moved to
-/// the mean of a uniform density touching the face.
+/// Returns the mean of a cell. A mean on a face, with a deviation above 0, is moved inwards to the
+/// mean of a uniform density that touches the face.
 double mean_of(std::byte code, double deviation, double lower, double upper) {
     const double share = share_of(code);
     if (share > 0 && share < 1) return std::lerp(lower, upper, share);
@@ -61,7 +63,8 @@ double mean_of(std::byte code, double deviation, double lower, double upper) {
     return share > 0 ? upper - inside : lower + inside;
 }
 
-/// Appends seven bits in each byte; the upper bit is set in all but the last.
+/// Appends a number with seven bits in each byte. The upper bit is set in all bytes except the
+/// last.
 void append_number(std::size_t number, std::vector<std::byte>& bytes) {
     for (; number >= 128; number /= 128) bytes.push_back(std::byte(number % 128 + 128));
     bytes.push_back(std::byte(number));

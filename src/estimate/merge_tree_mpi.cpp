@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_doubles = 8192;  // doubles in a message
 
-/// First message of a rank: its summary, and as much of its records as fits.
+/// First message of a rank: its summary, and as many of its records as fit.
 struct FirstMessage {
     Summary summary;
     std::array<double, most_doubles> records;
@@ -26,7 +26,7 @@ struct FirstMessage {
 };
 static_assert(std::is_trivially_copyable_v<Summary> && sizeof(Summary) % sizeof(double) == 0);
 
-/// Sends the summary with all doubles: cells, extents and totals.
+/// Sends the summary and all doubles: cells, extents and totals.
 void send_up(Contribution& mine, int to, Participant& self) {
     Summary& summary = mine.summary;
     std::vector<double>& doubles = mine.records;
@@ -52,7 +52,7 @@ void send_up(Contribution& mine, int to, Participant& self) {
 }
 
 /// Receives and adds the contribution of a child. Without memory it still receives all messages,
-/// because the sender waits.
+/// because the child waits for that.
 void receive_up(Contribution& mine, int child, int dimension, std::size_t most, Participant& self) {
     FirstMessage first;
     receive(std::as_writable_bytes(std::span(&first, 1)), child, mpi::contribution_tag, self);

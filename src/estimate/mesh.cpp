@@ -12,9 +12,10 @@ namespace rrcb {
 namespace {
 
 constexpr std::size_t sample_size = 512;
-constexpr std::size_t left_out = sample_size / 64;  // at each end: more than strays are
+constexpr std::size_t left_out = sample_size / 64;  // points left out at each end of the sample;
+                                                    // more than there are strays
 
-/// Ends of most of the points along an axis.
+/// Interval along an axis that contains most of the points.
 struct Layers {
     double lower;
     double upper;
@@ -38,10 +39,11 @@ Layers span_of(const PointSample& sample, int axis) {
     return {*first, *last};
 }
 
-/// Frames the layers of a mesh along an axis, if they become much narrower.
+/// Limits the inner layers of a mesh along an axis to the span of most points, if they become much
+/// narrower.
 void frame_axis(const Layers& span, std::size_t axis, SupportMesh& mesh) {
     constexpr double much = 4;
-    constexpr double margin = 0.25;  // of half the span: holds the rest of a ball
+    constexpr double margin = 0.25;  // share of half the span that includes the rest of a ball
     const Layers whole{mesh.box.lower[axis], mesh.box.upper[axis]};
     const int inner_layers = mesh.cells[axis] - 2;
     if (inner_layers < 2 || !(span.half() * much < whole.half())) return;
@@ -57,25 +59,28 @@ void frame_axis(const Layers& span, std::size_t axis, SupportMesh& mesh) {
     mesh.cells_per_length[axis] = cells_per_length;
 }
 
-/// Cells per axis with which an estimate errs by about a percent for a few hundred parts.
+/// Number of cells per axis with which the error of an estimate is about one percent for a few
+/// hundred parts.
 double fine_cells(int dimension) {
     return dimension == 1 ? 128 : dimension == 2 ? 22 : 10;
 }
 
-/// Cells per axis beyond which more cells cost more than they gain, for any number of points.
+/// Number of cells per axis above which more cells cost more than they gain, whatever the number of
+/// points.
 double most_cells_per_axis(int dimension) {
     return dimension == 1 ? 400 : dimension == 2 ? 42 : 15;
 }
 
-/// Returns a whole number of cells, at least 1. The root of a cube may be rounded to below it.
+/// Returns a whole number of cells, at least 1. Allows for the third root of a cube being rounded
+/// down.
 int whole_cells(double cells) {
     constexpr double above_rounding = 1 + 1e-12;
     return static_cast<int>(std::max(1.0, std::floor(cells * above_rounding)));
 }
 
-/// Returns a mesh whose cells are one or more cells of the grid that limits the cuts: the weight
-/// between the lines is then known, which saves 7 % of the rounds. Returns nullopt if the numbers
-/// do not allow it.
+/// Returns a mesh each of whose cells covers one or more cells of the grid that limits the cuts.
+/// The weight between grid lines is then known, which saves 7 % of the rounds. Returns nullopt if
+/// the sizes of the grid do not allow it.
 std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Options& options) {
     SupportMesh mesh = make_support_mesh(box, dimension, 1);
     const auto limits = axis_limits(options);
@@ -98,9 +103,9 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
     return mesh;
 }
 
-/// Makes a mesh whose layers resolve most of the points, however far a few of them are: along an
-/// axis on which a sample of the points spans far less than their box, the layers divide the span
-/// of the sample without its ends, and a margin; the outermost two reach to the box.
+/// Makes a mesh whose layers resolve most of the points, however far away a few points are. If a
+/// sample of the points spans far less than their box along an axis, the layers divide the span of
+/// the sample, without its extremes and with a margin. The two outermost layers reach to the box.
 SupportMesh framed_mesh(PointPasses& points, const Box& box, int cells_per_axis) {
     SupportMesh mesh = make_support_mesh(box, points.dimension(), cells_per_axis);
     if (points.count() < sample_size) return mesh;

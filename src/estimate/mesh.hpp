@@ -6,12 +6,13 @@
 
 namespace rrcb {
 
-/// Returns the cells per axis of a rank's mesh if the options leave it open: several for each part,
-/// at little cost compared with the points, and not nearly empty.
+/// Returns the number of cells per axis of a rank's mesh if the options do not set it: several
+/// cells for each part, few enough to cost little compared with the points and not to be nearly
+/// empty.
 int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options);
 
-/// Returns the support mesh of the options over the box of the points, of which it reads a few
-/// hundred. It resolves most of them, however far a few are. Not collective.
+/// Returns the support mesh of the options over the box of the points. It resolves most of the
+/// points, however far away a few are; for this it reads a few hundred of them. Not collective.
 SupportMesh mesh_by_options(PointPasses& points, const Box& box, const Options& options);
 
 }  // namespace rrcb

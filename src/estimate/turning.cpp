@@ -41,8 +41,8 @@ std::vector<Part> numbers_of_groups(const NumberRule& rule, std::span<const Over
     return greedy_numbers(rule.of_groups(), of_groups);
 }
 
-/// Returns the number of each part, by which most weight stays in its group, and of that in its
-/// part.
+/// Returns the number of each part with which most weight remains in its group and, within the
+/// group, in its part.
 std::vector<Part> best_numbers(const NumberRule& rule, std::vector<Overlap>& overlaps) {
     if (rule.shape.group_size == 1) return greedy_numbers(rule, overlaps);
     const std::vector<Part> groups = numbers_of_groups(rule, overlaps);
@@ -57,14 +57,14 @@ std::vector<Part> best_numbers(const NumberRule& rule, std::vector<Overlap>& ove
     return result;
 }
 
-/// Returns the ghosts of one step at cuts with this weight near them, as a share of all points: a
-/// cut-off radius of two spacings is assumed, about that of most codes.
+/// Returns the number of ghosts in one step, as a share of all points, if the cuts have this weight
+/// near them. Assumes a cut-off radius of two mean spacings, which is about that of most codes.
 double ghosts_of(double near_weight, double weight, const StatisticalDomain& domain,
                  GlobalCount num_points) {
     constexpr double spacings = 2;
     const double of_patch =
         static_cast<double>(num_points) / static_cast<double>(domain.patches.size());
-    // In units of half a side of a patch, as near_share.
+    // The spacing is in half sides of a patch, as near_share is.
     const double spacing = 2 / std::pow(std::max(of_patch, 1.0), 1.0 / domain.dimension);
     return near_weight / weight * spacings * spacing / near_share;
 }
@@ -102,7 +102,8 @@ double keep_numbers(const StatisticalDomain& domain, std::span<const double> par
 
 Bisection bisect_along(const StatisticalDomain& domain, const Contribution& all,
                        const Options& options, const Cuts& earlier) {
-    constexpr double ghosts_of_a_move = 10;  // that cost as much
+    constexpr double ghosts_of_a_move = 10;  // number of ghosts that cost as much as moving one
+                                             // point
     constexpr double haste = 3;
     const bool with_brackets = is_refined(options);
     const std::vector<int> axes = axes_of(earlier.tree);
@@ -120,7 +121,7 @@ Bisection bisect_along(const StatisticalDomain& domain, const Contribution& all,
     const double saved = ghosts_of(near_along - near_free, weight, domain, all.summary.num_points);
     const double debt = earlier.debt + options.axes.steps / ghosts_of_a_move * saved;
     along.cuts.debt = debt;
-    // A cut that turns moves half a part at least.
+    // A cut that turns moves at least half a part, so a smaller debt cannot pay for it.
     if (!(haste * debt * options.num_parts > 0.5)) return along;
     const double moved_along = keep_numbers(domain, options.part_sizes, earlier, along.cuts);
     const double moved_free = keep_numbers(domain, options.part_sizes, earlier, free.cuts);

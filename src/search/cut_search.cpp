@@ -17,14 +17,14 @@ std::size_t axis_index(const CutSearch& search, int tied) {
     return ordering_axis(search.cut.axis, tied);
 }
 
-/// Ends the search with a coordinate on its axis.
+/// Ends the search with a coordinate on the current axis.
 void finish(CutSearch& search, double value, double below) {
     search.cut.at[axis_index(search, search.tied)] = value;
     search.stage = CutSearch::done;
     search.found_below = below;
 }
 
-/// Points at one position, and the points below.
+/// Coincident points, and the points below them.
 struct Ties {
     GlobalCount begin = 0;  ///< number of the points below
     GlobalCount count = 0;
@@ -32,15 +32,15 @@ struct Ties {
     double weight = 0;
 };
 
-/// Ends among inseparable points: divides them, or leaves all of them on the side with
-/// the smaller excess.
+/// Ends the search at inseparable points. Divides them if that is allowed; otherwise leaves all of
+/// them on the side with the smaller excess.
 void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
                        const Ties& ties) {
     const double above = ties.below + ties.weight;
     const bool is_below =
         target.excess(ties.below, ties.begin) >= target.excess(above, ties.begin + ties.count);
     search.coincident = 1;
-    // A cut at a position is below it: the position is the first one above the cut.
+    // A cut at a position is just below it: this position belongs to the upper side.
     for (int k = search.tied; k < search.num_axes; ++k) {
         const std::size_t axis = axis_index(search, k);
         search.cut.at[axis] = position[axis];
@@ -55,8 +55,8 @@ void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector&
     }
 }
 
-/// Goes on along the next axis if all candidates have the coordinate `value` on this one; ends if
-/// they share all of them.
+/// All candidates have the coordinate `value` on the current axis. Continues along the next axis,
+/// or ends the search if there is none.
 void break_tie(CutSearch& search, const CutTarget& target, std::span<const double> extents,
                double value, double weight) {
     search.cut.at[axis_index(search, search.tied)] = value;
@@ -70,8 +70,7 @@ void break_tie(CutSearch& search, const CutTarget& target, std::span<const doubl
     search.by_bits = 0;
 }
 
-/// Goes on with the candidates in the chosen slot, of which the histogram has the weight and their
-/// count.
+/// Continues with the candidates in the chosen slot of the histogram.
 void narrow(CutSearch& search, const CutTarget& target, const HistogramLayout& layout,
             std::span<const double> histogram) {
     const int axis = current_axis(search);
@@ -80,10 +79,11 @@ void narrow(CutSearch& search, const CutTarget& target, const HistogramLayout& l
     const Bins bins = bins_of(search, layout);
     const int slot = search.chosen;
     const double upper = slot > layout.num_bins ? behind : std::min(bins.edge(slot), behind);
-    // By round-off the slot may be empty, and the extent above it.
+    // Because of round-off the slot may be empty, and the points above it.
     const double lower =
         std::min(upper, slot == 0 ? smallest : std::max(bins.edge(slot - 1), smallest));
-    // The cut must not be among some of the candidates: another count finds their weight.
+    // If a limit is inside the slot, the cut must not be among the candidates beyond it. The
+    // bracket is therefore cut off at the limits, and counted once more.
     const bool is_limited =
         search.tied == 0 && (lower < target.places.first || upper > target.places.last);
     const bool were_candidates =
@@ -91,19 +91,19 @@ void narrow(CutSearch& search, const CutTarget& target, const HistogramLayout& l
     const bool is_few = target.num_candidates <= most_gathered;
     if (were_candidates && !is_limited && !is_few && std::nextafter(lower, infinity) >= upper)
         return break_tie(search, target, histogram, lower, weights_in(histogram, layout)[slot]);
-    // The first two counts use bins of equal width. Candidates that are still undecided are
-    // unevenly spread, so later bins hold equal numbers of doubles.
+    // The first two counts use bins of equal width. If candidates are still undecided after them,
+    // their spacing is uneven, so later bins contain equal numbers of doubles.
     search.by_bits = were_candidates ? 1 : 0;
     search.lower = is_limited ? std::max(lower, target.places.first) : lower;
     search.upper = is_limited ? std::min(upper, target.places.last) : upper;
     if (!is_limited && is_few) search.stage = CutSearch::gathering;
 }
 
-/// Slot of the histogram with the cut, and the points below it.
+/// The slot of the histogram that contains the cut, and the points below it.
 struct Chosen {
     int slot = 0;
-    double below = 0;       ///< their weight
-    GlobalCount count = 0;  ///< their number
+    double below = 0;       ///< weight of these points
+    GlobalCount count = 0;  ///< number of these points
 };
 
 /// Returns the slot for a target, given the weight and the number of points in each slot.
@@ -111,9 +111,9 @@ Chosen choose(const CutTarget& target, std::span<const double> weights,
               std::span<const double> counts) {
     Chosen chosen{0, target.weight_before, target.count_before};
     const int last = static_cast<int>(weights.size()) - 1;
-    // All below the candidates and in the slots before this one weighs less than the target. So the
-    // target is in this slot, or by round-off behind all slots, and the last one is taken. With few
-    // points, their number may move the cut to another slot.
+    // The weight below the candidates and in all slots before this one is less than the target. So
+    // the target is in this slot; because of round-off it may be beyond all slots, and then the
+    // last one is taken. If there are few points, their number may also decide on the slot.
     while (chosen.slot < last) {
         const double next = chosen.below + weights[chosen.slot];
         const auto count = chosen.count + static_cast<GlobalCount>(counts[chosen.slot]);
@@ -124,7 +124,8 @@ Chosen choose(const CutTarget& target, std::span<const double> weights,
     return chosen;
 }
 
-/// Ends a limited search: at the first or the last allowed place if the target is beyond it.
+/// Ends a limited search at the first or last allowed position if the target is beyond it. Returns
+/// false if it is not.
 bool finish_at_limit(CutSearch& search, const CutTarget& target, std::span<const double> weights,
                      const Chosen& chosen) {
     if (target.places.all() || search.tied > 0) return false;
@@ -136,7 +137,8 @@ bool finish_at_limit(CutSearch& search, const CutTarget& target, std::span<const
     return is_first || is_last;
 }
 
-/// Goes on in the chosen slot of a grid; ends at the nearer edge of a single cell.
+/// Continues in the chosen slot of grid cells. If that is a single cell, ends at its edge with the
+/// smaller excess.
 void narrow_on_lines(CutSearch& search, const CutTarget& target, const HistogramLayout& layout,
                      double weight, bool is_at_lower) {
     const Bins bins = bins_of(search, layout);
@@ -160,7 +162,7 @@ struct Candidate {
     double weight = 0;
 };
 
-/// Returns candidates in an order independent of their routes to the owner.
+/// Returns the candidates in an order that does not depend on the path of their messages.
 std::vector<Candidate> sorted_candidates(std::span<const double> records, int dimension,
                                          const PositionOrder& before) {
     const int length = dimension + 1;
@@ -176,15 +178,14 @@ std::vector<Candidate> sorted_candidates(std::span<const double> records, int di
     return candidates;
 }
 
-/// Candidates in two groups, first the one below the cut.
+/// Division of sorted candidates into those below and those above a cut.
 struct Division {
     GlobalCount count = 0;  ///< points of the node below the cut
-    double below = 0;       ///< their weight
-    Ties ties{};            ///< candidates that hold the target, if there are several
+    double below = 0;       ///< weight of these points
+    Ties ties{};  ///< coincident candidates among which the target is, if there are several
 };
 
-/// Returns the division with the least excess of sorted candidates, all above the points
-/// before them.
+/// Returns the division of sorted candidates with the least excess.
 Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
                        const CutTarget& target) {
     Division best{target.count_before, target.weight_before, {}};
@@ -226,7 +227,7 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
                     std::span<const double> histogram) {
     const auto weights = weights_in(histogram, layout);
     const auto counts = counts_in(histogram, layout);
-    // Points below the first bracket may be settled there; then they are candidates first.
+    // If points below the bracket have been assigned already, they must become candidates first.
     const bool may_end_below = search.stage != CutSearch::over_points || !(counts[0] > 0);
     if (!(target.target > 0) && (may_end_below || !target.places.all()))
         return target.places.all() ? finish(search, -infinity, 0)
@@ -286,7 +287,8 @@ bool decide_among(CutSearch& search, const CutTarget& target, std::span<const do
     }
     const Vector& last_below = candidates[best - 1].position;
     const Vector& first_above = candidates[best].position;
-    // The two positions differ along an open axis, because the division is between them.
+    // Because the division is between these two positions, they differ along at least one of the
+    // remaining axes.
     std::size_t axis = 0;
     while (axis = axis_index(search, search.tied), last_below[axis] == first_above[axis]) {
         search.cut.at[axis] = first_above[axis];

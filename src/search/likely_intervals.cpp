@@ -1,4 +1,5 @@
-// Where the cuts of a guide end, most probably: fewer points are open then.
+// Estimates the intervals in which the cuts of a guide will most likely end. Points outside of them
+// need not be searched.
 #include "arithmetic/infinity.hpp"
 #include "bisection/bisection.hpp"
 #include "search/tree_search.hpp"
@@ -10,12 +11,13 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the interval of a node's cut. Cuts above may have `shifted` weight into the node or out
-/// of it; `shifted` becomes what may cross cuts further down.
+/// Returns the interval of a node's cut. Moving the cuts above may bring the weight `shifted` into
+/// the node or take it out; on return, `shifted` is the weight that may cross cuts further down.
 Bracket interval_of(const Descent& at, int depth, const TargetRule& rule, const Guide& guide,
                     double& shifted) {
-    constexpr double caution = 3;   // uneven points; with less, lattices are collected twice
-    constexpr double least = 0.25;  // brackets are estimates
+    constexpr double caution = 3;   // for uneven points; if it is less, lattices need a second
+                                    // collection
+    constexpr double least = 0.25;  // because the brackets are estimates
     const Cut& cut = guide.cuts.tree[at.node];
     Bracket interval = guide.brackets[at.node];
     const auto sums = guide.sums;
@@ -26,14 +28,15 @@ Bracket interval_of(const Descent& at, int depth, const TargetRule& rule, const 
         const double open = stays ? 0 : shifted / 2 / in_half + least;
         const auto widths = [&](double there) {
             return std::min(open + caution * std::max(there, 0.0) / in_half,
-                            1 / expected_error(depth));  // holds all weight
+                            1 / expected_error(depth));  // contains all weight
         };
         const double value = std::clamp(cut.at[cut.axis], interval.lower, interval.upper);
         interval = {std::lerp(value, interval.lower, widths(-missing)),
                     std::lerp(value, interval.upper, widths(missing))};
         shifted = std::abs(missing) + shifted / 2;
     }
-    // The cut may stay, and points at it may be on either side.
+    // The cut may be kept, and points at its position may be on either side, so the interval
+    // includes it.
     const double value = cut.at[cut.axis];
     return {std::min(interval.lower, value),
             std::max(interval.upper, std::nextafter(value, infinity))};

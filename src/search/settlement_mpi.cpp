@@ -34,9 +34,9 @@ std::vector<double> PartSums::take() {
 
 namespace {
 
-constexpr double round_off = 1e-12;  ///< of an imbalance
+constexpr double round_off = 1e-12;  ///< relative rounding error of an imbalance
 
-/// Returns the parts of a call; of the rule only what options choose.
+/// Returns the tree of parts of a call. Its rule contains only what follows from the options.
 PartTree tree_of(const Options& options, int dimension, int num_ranks) {
     const AxisOrder& order = options.axes.order;
     PartTree tree;
@@ -57,7 +57,8 @@ PartTree tree_of(const Options& options, int dimension, int num_ranks) {
     return tree;
 }
 
-/// Flags of a rank: whether it still searches, and the imbalance of its parts so far.
+/// Returns the flags of a rank: whether it is still searching, and the imbalance of its parts so
+/// far.
 Flags flags_of(const std::optional<TreeSearch>& search) {
     if (!search) return {};
     return {0, search->is_searching() ? 1.0 : 0.0, search->imbalance()};
@@ -91,7 +92,8 @@ SettledCuts Settlement::run(const AllPoints& all, const Box& here, bool counts, 
     return std::move(made_);
 }
 
-/// Assigns the points by unchanged cuts; if `counts`, counts the parts. Collective.
+/// Assigns the points by unchanged cuts. If `counts`, also adds up the weights of the parts.
+/// Collective.
 void Settlement::assign(bool counts, Participant& self) {
     self.attempt([&] {
         const PartTotals totals = points_.assign(made_.cuts, counts);
@@ -101,14 +103,14 @@ void Settlement::assign(bool counts, Participant& self) {
     measure(self);
 }
 
-/// Searches for cuts with parts as even as requested. Collective.
+/// Searches for cuts that make the parts as even as requested. Collective.
 void Settlement::refine(Participant& self) {
     const double tolerance = options_.imbalance_tolerance;
     TargetRule& rule = tree_.rule;
     start(self);
     const bool are_accepted = accepts_cuts(self);
-    // If the tolerance is likely to be missed, the search would be repeated with exact cuts.
-    // Exact cuts are then searched at once.
+    // If one point too many may exceed the tolerance, the search would probably have to be repeated
+    // with exact cuts. Exact cuts are then searched at once.
     const bool may_miss = !is_spread_ && !limits_ && !rule.is_attainable();
     rule.is_exact = rule.is_exact || (may_miss && !are_accepted);
     const bool is_searched = rule.is_exact || !are_accepted;
@@ -122,7 +124,7 @@ void Settlement::refine(Participant& self) {
     if (is_spread_) agree(self);
 }
 
-/// Derives the targets and the limits of the cuts. Not collective.
+/// Computes the weight per part, and the limits of the cuts. Not collective.
 void Settlement::start(Participant& self) {
     const auto& sizes = options_.part_sizes;
     const bool is_limited = are_cuts_limited(options_);
@@ -141,8 +143,8 @@ void Settlement::start(Participant& self) {
             [&] { limits_.emplace(options_, all_.box, cuts.dimension, axes_of(cuts.tree)); });
 }
 
-/// Returns true if there is nothing to search: the cuts are good enough, or as even as any, or the
-/// points are kept. Collective.
+/// Returns true if no search is needed: the cuts are good enough, or no parts can be more even, or
+/// the points are to be kept. Collective.
 bool Settlement::accepts_cuts(Participant& self) {
     if (is_spread_ || (tree_.rule.is_exact && !limits_)) return false;
     assign(true, self);
@@ -151,24 +153,24 @@ bool Settlement::accepts_cuts(Participant& self) {
     return std::min(made_.imbalance, all_.enough) <= options_.imbalance_tolerance || is_least();
 }
 
-/// Returns true if no parts are more even.
+/// Returns true if no other parts can be more even.
 bool Settlement::is_least() {
     return made_.imbalance <= all_.least_imbalance * (1 + round_off) && num_left_empty() == 0;
 }
 
-/// Adds up the weights of the parts over all ranks. Collective; throws if one failed.
+/// Adds up the weights of the parts over all ranks. Collective; throws if a rank has failed.
 void Settlement::measure(Participant& self) {
     made_.imbalance = sums_.add_up(options_.part_sizes, self);
     tree_.rule.counted_weight = sum_of(sums_.sums());
 }
 
-/// Returns the number of parts without weight although there are points for all; 0 if parts have
-/// different sizes, because empty ones may be the most even then.
+/// Returns the number of parts without weight if there are enough points for all parts. Returns 0
+/// if parts have different sizes, because leaving some empty may then be the most even partition.
 std::ptrdiff_t Settlement::num_left_empty() {
     return fills_parts_ ? std::ranges::count(sums_.sums(), 0.0) : 0;
 }
 
-/// Finds all cuts, and the parts at the end. Collective.
+/// Searches all cuts once and assigns the points to the parts. Collective.
 void Settlement::search_once(Participant& self) {
     const bool has_parts = std::exchange(has_parts_, true);
     const bool is_counted = !tree_.rule.is_exact && !limits_;
@@ -207,16 +209,19 @@ void Settlement::search_once(Participant& self) {
     made_.imbalance = butterfly_.flags()[2];
 }
 
-/// Ends a search, which this rank lacks if it has failed; returns the number of rounds.
+/// Runs a search to its end. `search` is empty if this rank has failed. Returns the number of
+/// rounds.
 ///
-/// Collective: each round is a pass to the owners and one back, and a spread search ends with one
-/// to the owners. Throws on every rank the failure of one, before or here; a failure in the last
-/// messages is held back until the next agreement.
+/// Collective: each round is a pass to the owners and a pass back; a search with several owners
+/// ends with one more pass to the owners. If a rank has failed before or fails here, every rank
+/// throws its failure; a failure in the last messages is held back until the next agreement.
 int Settlement::run_rounds(std::optional<TreeSearch>& search, Participant& self) {
     const bool has_one_owner = tree_.num_owners == 1;
-    // Rank 0 of a central search knows all nodes, and sends with its answers whether any are left.
+    // In a central search rank 0 has all nodes. It follows its own decisions first, so that its
+    // answers also contain whether the search continues.
     const bool follows_first = has_one_owner && butterfly_.rank() == root;
-    // All ranks know the same flags after each round, and therefore agree on the next messages.
+    // After each round all ranks have the same flags, and therefore agree on whether more messages
+    // follow.
     for (int rounds = 0;; ++rounds) {
         butterfly_.clear();
         self.attempt([&] { search->ask(butterfly_); });
@@ -230,10 +235,11 @@ int Settlement::run_rounds(std::optional<TreeSearch>& search, Participant& self)
     }
 }
 
-/// Searches all cuts, and keeps the new ones if they are better. Collective.
+/// Searches all cuts once more, and keeps the result only if it is better. Collective.
 void Settlement::search_for_better(Participant& self) {
-    // If the new cuts are worse, the parts before are restored. Look-ups by the cuts before would
-    // not find them if coincident points were divided, or if many ranks made the cuts.
+    // If the new cuts are worse, the earlier parts are restored. They must be kept for this if
+    // coincident points were divided or many ranks made the cuts, because a look-up by the earlier
+    // cuts would not give the same parts.
     const bool keeps_parts = is_spread_ || tree_.divides_coincident;
     Cuts cuts_before;
     std::vector<double> sums_before;
@@ -250,7 +256,8 @@ void Settlement::search_for_better(Participant& self) {
     const int coincident_before = std::exchange(made_.coincident_cuts, 0);
     const std::ptrdiff_t empty_before = num_left_empty();
     search_once(self);
-    // Parts are filled only if they stay within the tolerance or as even as they were.
+    // Fewer empty parts are a gain only if the imbalance is within the tolerance, or not above the
+    // earlier one.
     const std::ptrdiff_t gain = empty_before - num_left_empty();
     const double tolerance = options_.imbalance_tolerance;
     const double most = gain > 0 ? std::max(imbalance_before, tolerance) : imbalance_before;

@@ -15,53 +15,53 @@
 
 namespace rrcb {
 
-/// Weights of the parts: of this rank's points, and their sums over all ranks.
+/// Weights of the parts: sums over this rank's points, and over the points of all ranks.
 class PartSums {
   public:
-    /// Makes the buffers of add_up(), which other functions need too. Not collective. Throws
-    /// std::bad_alloc.
+    /// Makes the buffers, which all other functions use. Not collective. Throws std::bad_alloc.
     explicit PartSums(std::size_t num_parts) : here_(num_parts + 1), sums_(num_parts + 2) {}
 
-    /// Returns the weights of this rank's points in each part, to be written before each add_up().
+    /// Returns the weight of this rank's points in each part. The caller must write it before each
+    /// add_up().
     std::span<double> here() { return std::span(here_).first(here_.size() - 1); }
 
-    /// Adds them up on every rank; returns the imbalance of the sums.
+    /// Adds up the weights on every rank. Returns the imbalance of the sums.
     ///
-    /// Collective: a reduction and a broadcast, which carry failures as well; throws if a rank has
-    /// failed. `part_sizes` has one entry per part.
+    /// Collective: a reduction and a broadcast, which also carry failures. Throws if a rank has
+    /// failed. `part_sizes` has one entry for each part.
     double add_up(std::span<const double> part_sizes, Participant& self);
 
-    /// Returns the latest sums, one entry per part.
+    /// Returns the latest sums, one for each part.
     std::span<double> sums() { return std::span(sums_).first(sums_.size() - 2); }
 
-    /// Moves the sums out, one entry per part.
+    /// Moves the sums out, one for each part.
     std::vector<double> take();
 
   private:
-    std::vector<double> here_;  ///< the weights, then 1 if this rank failed
-    std::vector<double> sums_;  ///< the sums, then the number of ranks that failed, and the
-                                ///< imbalance
+    std::vector<double> here_;  ///< the weights, then 1 if this rank has failed
+    std::vector<double> sums_;  ///< the sums, then the number of failed ranks, then the imbalance
 };
 
-/// All points of a call, as far as their parts depend on them; the same on every rank.
+/// Numbers about all points of a call that affect their parts. They are the same on every rank.
 struct AllPoints {
     GlobalCount number = 0;
-    double weight = 0;           ///< to be balanced: their number if they are counted
-    double heaviest = 0;         ///< of these weights
-    bool are_counted = false;    ///< because all have the same weight or none
-    Box box{};                   ///< around all
-    double least_imbalance = 1;  ///< of any parts
-    /// A search that cannot get below this imbalance is not made: it is that of the parts that the
-    /// ranks hold, if these may be kept.
+    double weight = 0;         ///< weight to be balanced; the number of points if they are counted
+    double heaviest = 0;       ///< largest of the weights to be balanced
+    bool are_counted = false;  ///< whether points are counted, because all have the same weight or
+                               ///< none
+    Box box{};                 ///< around all
+    double least_imbalance = 1;  ///< lower bound for any parts
+    /// Imbalance of the parts that the ranks hold now, if these may be kept. If it is within the
+    /// tolerance, no search is made.
     double enough = std::numeric_limits<double>::infinity();
 };
 
-/// Cuts while they are refined, and the numbers of the report about their parts.
+/// Cuts that are being refined, and the numbers of the report about their parts.
 struct SettledCuts {
     Cuts cuts{};
-    std::vector<Bracket> brackets{};     ///< intervals with which rank 0 begins its search
-    std::vector<double> part_weights{};  ///< over all ranks, if counted; of this rank's
-                                         ///< points if many ranks make the parts
+    std::vector<Bracket> brackets{};     ///< intervals in which rank 0 starts its search
+    std::vector<double> part_weights{};  ///< over all ranks, if counted; of this rank's points
+                                         ///< only, if many ranks make the parts
     double imbalance = std::numeric_limits<double>::quiet_NaN();  ///< NaN if not counted
     int rounds = 0;
     int coincident_cuts = 0;
@@ -69,24 +69,24 @@ struct SettledCuts {
 
 /// Gives all points their parts: by given cuts, or by a search for even parts, see TreeSearch.
 ///
-/// Many ranks find the cuts, or rank 0 moves those of its estimate, unless they are good enough.
-/// Buffers are made before the first message.
+/// If many ranks make the parts, they find all cuts. Otherwise rank 0 moves the cuts of its
+/// estimate, unless these are good enough. All buffers are made before the first message.
 class Settlement {
   public:
-    /// Borrows complete options, the points, and memory for open points. If `counts` is true, the
-    /// points of the parts are counted even if no cut moves. Not collective. Throws Error or
-    /// std::bad_alloc.
+    /// Borrows the complete options, the points, and memory for open points. If `counts`, the parts
+    /// are counted even if no cut moves. Not collective. Throws Error or std::bad_alloc.
     Settlement(const Options& options, PointPasses& points, bool counts, OpenMemory& memory,
                const Participant& self);
 
-    /// Moves the cuts of `start` if the options ask for it, and gives each point its part; `counts`
-    /// if the parts of other cuts are counted all the same. `here` is the box of this rank's
-    /// points. Runs once.
+    /// Moves the cuts of `start` if the options ask for it, and gives each point its part. If
+    /// `counts`, the weights of the parts are added up in any case. `here` is the box of this
+    /// rank's points. May be called only once.
     ///
-    /// Collective. A tolerance can be missed because upper levels used slack that lower ones need.
-    /// Then, and if equal parts are empty although there are as many points, it searches once more,
-    /// exactly, and keeps the better cuts. Limited cuts are all searched in their places, and the
-    /// estimate is kept if it is better. A failure on one rank, before or here, is thrown on all.
+    /// Collective. The tolerance may be missed because the upper levels used slack that lower
+    /// levels need. In this case, and if parts of equal size are empty although there are enough
+    /// points, it searches once more for exact cuts and keeps the better ones. Limited cuts are all
+    /// searched among their allowed positions; the estimate is kept if it is better. If a rank has
+    /// failed before or fails here, all ranks throw its error.
     SettledCuts run(const AllPoints& all, const Box& here, bool counts, SettledCuts&& start,
                     Participant& self);
 
@@ -111,11 +111,12 @@ class Settlement {
     PartSums sums_;
     OpenMemory& memory_;
     PartTree tree_;
-    bool has_parts_ = false;           ///< the points have the parts of the cuts
+    bool has_parts_ = false;           ///< whether the points have the parts of the cuts
     std::optional<CutLimits> limits_;  ///< empty if cuts are not limited
     Butterfly butterfly_;
     ButterflyMessages messages_;
-    bool fills_parts_ = false;  ///< points suffice for all parts, which are to be equal
+    bool fills_parts_ = false;  ///< whether all parts should have points: there are enough, and the
+                                ///< parts have equal sizes
 };
 
 }  // namespace rrcb

@@ -23,7 +23,7 @@ double TargetRule::share_below(const Descent& at) const {
     return rrcb::share_below(sizes_of(at), at.lower_parts());
 }
 
-/// Returns the ideal weight of the smallest of a node's parts.
+/// Returns the ideal weight of the smallest part of a node.
 double TargetRule::smallest_weight(const Descent& at) const {
     if (part_sizes.empty()) return weight_per_size;
     double smallest = infinity;
@@ -32,9 +32,10 @@ double TargetRule::smallest_weight(const Descent& at) const {
     return smallest;
 }
 
-/// Returns the tolerance of use to the smallest part of a node. It holds whole points if all
-/// weigh the same: at most 16 if 16.16 are allowed. With the whole tolerance, calls with few points
-/// in a part miss it and take up to 12 rounds more.
+/// Returns the tolerance that the smallest part of a node can make use of. If all points have the
+/// same weight, a part contains whole points: if 16.16 points are allowed, it can have 16. If the
+/// full tolerance were used, calls with few points in a part would miss it and need up to 12 more
+/// rounds.
 double TargetRule::attainable_tolerance(const Descent& at) const {
     if (common_weight == 0) return tolerance;
     const double smallest = smallest_weight(at);
@@ -43,7 +44,8 @@ double TargetRule::attainable_tolerance(const Descent& at) const {
 }
 
 bool TargetRule::are_within(const Descent& at, std::span<const double> part_weights) const {
-    // Bit-identical to the imbalance, which decides at the end.
+    // Computed in the same way as the imbalance that decides at the end, so that both are
+    // bit-identical.
     const double sizes = sum_of(part_sizes);
     for (int k = 0; k < at.num_parts; ++k) {
         const int part = at.first_part + k;
@@ -66,9 +68,9 @@ bool TargetRule::may_stay(const Descent& at, std::span<const double> part_weight
     return may(at.lower()) && may(at.upper());
 }
 
-/// Returns the most that a node may weigh so that cuts below, each off by a little, still bring its
-/// parts within the tolerance. With more levels below, more of the tolerance is left to them, up to
-/// half.
+/// Returns the largest weight with which a node's parts can still be within the tolerance although
+/// each cut below is slightly off. The more levels there are below, the more of the tolerance is
+/// reserved for them, up to half.
 double TargetRule::most_weight(const Descent& at) const {
     const int all_levels = num_levels(at.shape, static_cast<int>(part_sizes.size()));
     const double left_below = num_levels(at.shape, at.num_parts) / (2.0 * all_levels);
@@ -80,13 +82,14 @@ CutTarget TargetRule::target_of(const Descent& at, double weight) const {
     CutTarget target;
     target.share = share_below(at);
     target.target = target.share * weight;
-    // The point at the target goes to one of the sides.
+    // The point at the target has to go to one of the sides.
     const double of_both = 2 * target.share * (1 - target.share);
     target.slack = of_both * common_weight;
-    // Slightly less: an odd point then always goes above the cut.
+    // A target slightly below the exact one makes an odd point always go above the cut.
     if (is_exact) target.target = std::max(0.0, target.target - std::ldexp(common_weight, -12));
     if (is_exact || !(weight > 0)) return target;
-    // The tolerance left at this node is divided evenly, as factors, among its levels.
+    // The remaining tolerance of this node is divided into equal factors, one for each of its
+    // levels.
     const double ideal = weight_per_size * size_of(at);
     const int levels = num_levels(at.shape, at.num_parts);
     const double growth = std::pow(attainable_tolerance(at) * ideal / weight, 1.0 / levels);

@@ -1,4 +1,4 @@
-// How a spread search finds the axes of free cuts.
+// Chooses the axes of free cuts in a spread search.
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
 #include "bisection/axis_choice.hpp"
@@ -13,7 +13,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the weights in the bins of an axis as a domain of one dimension. An edge behind the
+/// Returns the weights in the bins of an axis as a one-dimensional domain. An edge above the
 /// largest double is infinite.
 StatisticalDomain domain_of(const Bins& bins, std::span<const double> slots) {
     StatisticalDomain domain{1};
@@ -27,14 +27,15 @@ StatisticalDomain domain_of(const Bins& bins, std::span<const double> slots) {
 
 }  // namespace
 
-/// Turns a search in the box of a node across another axis, before anything is counted.
+/// Makes a search start anew across another axis of the node's box. Nothing may have been counted
+/// yet.
 void TreeSearch::turn(CutSearch& search, const Box& box, int axis) {
     search.cut.axis = axis;
     search.lower = box.lower[axis];
     search.upper = std::nextafter(box.upper[axis], infinity);
 }
 
-/// Returns the search in the box of a node across the first of its axes, or one that weighs a part.
+/// Returns a search across the first axis of a node, or one that weighs the points of a part.
 CutSearch TreeSearch::search_in_box(const Node& node) const {
     CutSearch search = search_across(0, {}, node.weight);
     const bool is_free = tree_.cut_axes.empty() || node.at.is_part();
@@ -47,7 +48,7 @@ bool TreeSearch::counts_all_axes(const Node& node) const {
     return !guide_ && tree_.cut_axes.empty() && node.search.stage == CutSearch::over_points;
 }
 
-/// Appends the sums of this rank along the axes behind the first.
+/// Appends this rank's sums along all axes except the first.
 void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload) const {
     const std::size_t num_sums = layout_.length() - HistogramLayout::num_extents;
     CutSearch search = node.search;
@@ -60,8 +61,8 @@ void TreeSearch::count_other_axes(const Node& node, std::vector<double>& payload
     }
 }
 
-/// Puts the bracket of a search about all points of a node, across their longest axis if the axis
-/// is free.
+/// Sets the bracket of a search to the extent of all points of a node. If the axis is free, takes
+/// the longest axis of the points.
 void TreeSearch::frame(std::span<const double> candidates, CutSearch& search) const {
     Box box;
     for (; !candidates.empty(); candidates = candidates.subspan(tree_.dimension + 1))
@@ -73,7 +74,7 @@ void TreeSearch::frame(std::span<const double> candidates, CutSearch& search) co
     turn(search, box, is_free ? longest_axis(box, tree_.axes, nearly) : search.cut.axis);
 }
 
-/// Turns a search across the axis to cut; returns the histogram along it.
+/// Chooses the axis of the cut and turns the search to it. Returns the histogram along this axis.
 std::vector<double> TreeSearch::choose_axis(const Node& node, std::span<const double> histogram,
                                             CutSearch& search) const {
     constexpr std::size_t num_extents = HistogramLayout::num_extents;
@@ -99,14 +100,15 @@ std::vector<double> TreeSearch::choose_axis(const Node& node, std::span<const do
     return chosen;
 }
 
-/// Returns the number of the axis to cut: `longest`, unless a cut across another has clearly less
-/// weight near it. The domains are those of a node with `num_points` points along each axis.
+/// Returns the index of the axis to cut across: `longest`, unless a cut across another axis has
+/// clearly less weight near it. `along` contains the domain along each axis of a node with
+/// `num_points` points.
 std::size_t TreeSearch::fewest_near(std::span<const StatisticalDomain> along, const Node& node,
                                     std::size_t longest, double num_points) const {
     const auto half_extent = [&](std::size_t k) {
         return node.found.upper[tree_.axes[k]] / 2 - node.found.lower[tree_.axes[k]] / 2;
     };
-    // A mean spacing, but at least a bin.
+    // Weight counts as near within the mean spacing of the points, but at least within one bin.
     const auto num_bins = static_cast<double>(along[longest].patches.size());
     const double spacings =
         std::clamp(std::pow(num_points, 1.0 / static_cast<double>(along.size())), 1.0, num_bins);
@@ -118,7 +120,7 @@ std::size_t TreeSearch::fewest_near(std::span<const StatisticalDomain> along, co
     };
     std::size_t best = longest;
     double fewest = near(longest);
-    // Few points show the weight near a cut with a large error.
+    // The fewer points are near a cut, the larger is the error of their weight.
     const double num_near = num_points * (fewest / node.weight);
     const double enough = nearly - 1 / std::sqrt(std::max(num_near, 1.0));
     for (std::size_t k = 0; k < along.size(); ++k) {

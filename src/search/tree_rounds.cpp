@@ -1,5 +1,5 @@
-// A round of a search: ranks send records to the owners of nodes, which decide, and follow the
-// answers.
+// One round of a search: the ranks send records to the owners of nodes, the owners decide, and the
+// ranks follow the answers.
 #include "arithmetic/infinity.hpp"
 #include "arithmetic/part_share.hpp"
 #include "arithmetic/quantum.hpp"
@@ -27,7 +27,7 @@ bool TreeSearch::has_points(const Node& node) const {
     return node.settled_below.count + node.settled_above.count > 0 || !open_.is_empty(node.at);
 }
 
-/// Appends the record of this rank for a node.
+/// Appends this rank's record about a node.
 void TreeSearch::count(const Node& node, std::vector<double>& payload) const {
     if (node.search.stage == CutSearch::centring) {
         if (std::ranges::max(node.gap) == -infinity) return;
@@ -50,7 +50,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) const {
     if (counts_all_axes(node)) count_other_axes(node, payload);
 }
 
-/// Counts this rank's points in the bins of a search.
+/// Adds this rank's points to the bins of a search.
 void TreeSearch::count_points(const Node& node, std::span<double> histogram) const {
     const CutSearch& search = node.search;
     clear_histogram(histogram);
@@ -62,8 +62,8 @@ void TreeSearch::count_points(const Node& node, std::span<double> histogram) con
     round_weights(search.quantum, layout_, sums_in(histogram));
 }
 
-/// Appends the weight of this rank's points in a lot or a part. A lot are coincident points that
-/// a cut divides.
+/// Appends the weight of this rank's points in a lot or in a part. A lot is a set of coincident
+/// points that a cut divides.
 void TreeSearch::add_lot(const Node& node, std::vector<double>& payload) const {
     const bool is_part = node.at.is_part();
     LotRecord record{1.0 * rank_, is_part ? PointsInLot{open_.weight_at(node.at)}
@@ -81,7 +81,8 @@ void TreeSearch::join(std::span<const double> a, std::span<const double> b,
     };
     add(a);
     if (a.empty() || b.empty()) return add(b);
-    // Records differ only because of a failure, which all ranks learn of after the pass.
+    // Records of one node have the same kind, except after a failure, which all ranks learn of
+    // after the pass.
     if (a[0] != b[0]) return;
     const auto other = b.subspan(1);
     if (a[0] == mark_of_candidates || a[0] == mark_of_weights) return add(other);
@@ -107,7 +108,7 @@ Box box_in(std::span<const double> histogram) {
     return box;
 }
 
-/// Returns the records of ranks, by rank.
+/// Returns the records of the ranks, in order of ranks.
 template <class Record>
 std::vector<Record> records_in(std::span<const double> payload) {
     std::vector<Record> records;
@@ -122,14 +123,15 @@ std::vector<Record> records_in(std::span<const double> payload) {
 void TreeSearch::decide(Butterfly& butterfly) {
     GlobalCount num_gathered = 0;
     auto node = nodes_.begin();
-    // Both ascend, and an owner takes part in all its nodes.
+    // Records and nodes are both in ascending order, and the owner of a node takes part in it.
     butterfly.owned().for_each([&](const Record& record) {
         node = std::ranges::find(node, nodes_.end(), record.key,
                                  [](const Node& one) { return key_of(one.at); });
         if (node == nodes_.end()) return;
         CutSearch decided = node->at.is_part() ? node->search : decide_on(*node, record.payload);
         if (decided.stage == CutSearch::gathering) {
-            // Too many candidates for one rank are counted once more.
+            // If one rank would receive too many candidates, the remaining searches count once more
+            // instead.
             const GlobalCount more = node->target.num_candidates;
             const bool fits = num_gathered + more <= most_gathered_at_once;
             num_gathered += fits ? more : 0;
@@ -157,8 +159,9 @@ std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node
     return answer;
 }
 
-/// Finds the first rank with points of a lot above the cut. If all points are on one side, the cut
-/// leaves them there without dividing, because look-ups find the upper side of a cut that divides.
+/// Finds the first rank of which points of a lot are above the cut. If all points of the lot are on
+/// one side, the cut does not divide them: a look-up of a divided position always gives the upper
+/// side.
 CutSearch TreeSearch::decide_on_lot(Node& node, std::span<const double> payload) const {
     CutSearch search = node.search;
     search.stage = CutSearch::done;
@@ -181,8 +184,8 @@ CutSearch TreeSearch::decide_on_lot(Node& node, std::span<const double> payload)
     return search;
 }
 
-/// Advances a search with the joined records of all ranks. Empty records mean that it has no points
-/// left.
+/// Advances a search with the joined records of all ranks. Empty records mean that the node has no
+/// points.
 CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     CutSearch search = node.search;
     if (search.stage == CutSearch::dividing) return decide_on_lot(node, payload);
@@ -192,7 +195,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
         return search;
     }
     if (payload.empty()) {
-        // The weight was round-off.
+        // The node has no points; its weight was only round-off.
         search.stage = CutSearch::done;
         if (guide_) search.cut = cut_unsearched(node, tree_.rule.share_below(node.at));
         node.weight = 0;
@@ -217,7 +220,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     return search;
 }
 
-/// Sets the target of a node of known weight, with `count` points.
+/// Sets the target of a node that has `count` points and whose weight is known.
 void TreeSearch::aim(Node& node, GlobalCount count) const {
     node.target = tree_.rule.target_of(node.at, node.weight);
     node.target.places = node.places;
@@ -226,7 +229,7 @@ void TreeSearch::aim(Node& node, GlobalCount count) const {
         node.target.counts = tree_.rule.count_limits(node.at, count, node.weight);
 }
 
-/// Takes weight and box of the node from the first count.
+/// Sets the weight and box of the node from the first count, then decides.
 void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
                                        CutSearch& search) {
     node.weight = sum_of(weights_in(histogram, layout_));
@@ -241,7 +244,8 @@ void TreeSearch::follow(const Butterfly& butterfly) {
     std::deque<Node> before = std::exchange(nodes_, {});
     RecordReader answers = butterfly.answers().read();
     Record answer;
-    // Both ascend. Answers for other ranks may have passed through this one.
+    // Nodes and answers are both in ascending order. Among them are answers for other ranks, which
+    // this rank has passed on.
     for (; !before.empty(); before.pop_front()) {
         Node& node = before.front();
         while (!answers.at_end() && (answer.payload.empty() || answer.key < key_of(node.at)))
@@ -256,7 +260,7 @@ void TreeSearch::follow(const Butterfly& butterfly) {
     widen();
 }
 
-/// Follows the answer of the owner of a node.
+/// Processes the answer of a node's owner.
 void TreeSearch::follow(Node&& node, std::span<const double> payload) {
     const auto answer = read<Answer>(payload);
     const auto more = payload.subspan(sizeof answer / sizeof(double));
@@ -269,7 +273,7 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
     follow_search(std::move(node), answer.search, more);
 }
 
-/// Searches a node further, or goes on with its children.
+/// Continues the search of a node, or continues with its children if the cut is found.
 void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<const double> more) {
     CutSearch before = std::exchange(node.search, next);
     if (before.stage == CutSearch::centring) return note(node.at, next.cut);
@@ -281,7 +285,7 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
         }
     }
     if (next.stage == CutSearch::centring) {
-        // The parts below do not depend on where in its gap the cut is.
+        // Centring moves the cut within a gap without points, so the children need not wait for it.
         Node centred{.at = node.at, .search = next};
         centred.gap = open_.gap(node.at, next.cut);
         nodes_.push_back(std::move(centred));
@@ -294,8 +298,8 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     nodes_.push_back(std::move(node));
 }
 
-/// Keeps only the points in the slot that the owner of the node chose. If the slot is beyond the
-/// interval of the cut, its points are not open yet.
+/// Keeps only the points in the slot that the node's owner has chosen. If the slot is beyond the
+/// interval of the cut, its points are not open yet; the interval is then marked for widening.
 void TreeSearch::keep_chosen(const CutSearch& before, Node& node) {
     const int slot = node.search.chosen;
     const bool is_first = slot == 0;

@@ -1,4 +1,4 @@
-// How a search goes down the tree, a central one from known cuts.
+// Descent of a search through the tree.
 #include "search/tree_search.hpp"
 
 #include "arithmetic/infinity.hpp"
@@ -33,14 +33,15 @@ int TreeSearch::owner_of(const Descent& at) const {
     return rrcb::owner_of(at, tree_.num_parts, tree_.num_owners);
 }
 
-/// Returns true if this rank learns the cut of a node, or the weight of a part.
+/// Returns true if this rank needs the cut of a node, or the weight of a part.
 bool TreeSearch::takes_part(const Descent& at) const {
     const bool holds_own_parts =
         at.first_part < end_own_ && first_own_ < at.first_part + at.num_parts;
     return guide_ || holds_own_parts || !open_.is_empty(at);
 }
 
-/// Begins to search the cut of a node; goes on to its children if no counting is needed.
+/// Starts the search for the cut of a node. If no counting is needed, continues with the children
+/// at once.
 void TreeSearch::enter(Node&& node) {
     if (ends_at(node)) return;
     const Descent at = node.at;
@@ -57,7 +58,7 @@ void TreeSearch::enter(Node&& node) {
     divide(std::move(node), cut, {}, below);
 }
 
-/// Returns true if there is nothing to search at a node or below.
+/// Returns true if nothing has to be searched at a node and below.
 bool TreeSearch::ends_at(Node& node) {
     const Descent& at = node.at;
     if (node.are_parts_counted) {
@@ -71,8 +72,8 @@ bool TreeSearch::ends_at(Node& node) {
     return ends;
 }
 
-/// Returns the cut of a node without counting. A side of size 0 gets nothing. Without weight
-/// all goes below, unless a guide's cut is kept.
+/// Returns the cut of a node that needs no counting. A side of size 0 gets nothing. If the node has
+/// no weight, all of it goes below, or the guide's cut is kept if there is a guide.
 Cut TreeSearch::cut_unsearched(const Node& node, double share) const {
     const Descent& at = node.at;
     if (!guide_)
@@ -98,7 +99,7 @@ void TreeSearch::add_node(Node&& entered) {
     aim(node, static_cast<GlobalCount>(node.weight));
 }
 
-/// Returns true if the owner takes all points of a node, without counting them first.
+/// Returns true if the owner gathers all points of a node without counting them first.
 bool TreeSearch::is_taken_at_once(const Node& node) const {
     if (node.at.is_part()) return false;
     const bool is_open =
@@ -107,11 +108,11 @@ bool TreeSearch::is_taken_at_once(const Node& node) const {
     return is_open && tree_.rule.are_few(node.weight) && node.is_counted;
 }
 
-/// Goes on below a cut.
+/// Divides the open points by a cut and continues with the children.
 void TreeSearch::divide(Node&& node, const Cut& cut, const Lot& lot, double below) {
     open_.cut(node.at, cut, lot);
-    // A side of a divided lot may weigh up to a point more or less than asked for. The next count
-    // measures it; until then the node's weight is a bound.
+    // If a lot is divided, each side's weight may differ by up to one point from the requested one.
+    // The next count measures it; until then the weight of the node is an upper bound.
     const bool divides_lot = lot.below > 0;
     const double above = divides_lot ? node.weight : node.weight - below;
     if (divides_lot) below = node.weight;
@@ -129,7 +130,8 @@ void TreeSearch::note(const Descent& at, const Cut& cut) {
         own_.emplace_back(at.node, cut);
 }
 
-/// Goes on below a found cut. The points of a lot form one row over all ranks.
+/// Notes a cut that was found and continues with the children. The points of a lot are divided in
+/// the order of their ranks.
 void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     if (guide_ || owner_of(node.at) == rank_) num_coincident_ += node.search.coincident;
     Cut cut = node.search.cut;
@@ -145,12 +147,12 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
     divide(std::move(node), cut, lot, node.search.found_below);
 }
 
-/// Returns the lot of a finished search, as seen by the first rank.
+/// Returns the lot of a finished search, from the view of the lowest rank.
 Lot TreeSearch::lot_at(const Descent& at, const CutSearch& search) const {
     return {0, search.lot_below, tree_.rule.share_below(at)};
 }
 
-/// Ends a spread search at a part.
+/// Ends a spread search at a part: notes its imbalance.
 void TreeSearch::weigh_part(const Node& node) {
     if (owner_of(node.at) != rank_) return;
     imbalance_ = std::max(imbalance_, over_ideal(node.weight, tree_.weight, ideal_share(node.at)));
@@ -161,15 +163,15 @@ double TreeSearch::ideal_share(const Descent& at) const {
     return tree_.rule.size_of(at) / all_sizes_;
 }
 
-/// Returns whether the round-off of a remainder may be large compared with the weight of a part, so
-/// that the points of the part must be weighed.
+/// Returns whether a part is so small that the rounding error of a difference of weights matters.
+/// Its points must then be weighed.
 bool TreeSearch::is_tiny(const Descent& part) const {
     constexpr double least_share = 0x1p-20;
     const double share = tree_.rule.part_sizes.empty() ? 1 : ideal_share(part);
     return share > 0 && share < least_share;
 }
 
-/// Returns a search for the cut of a node before anything is counted.
+/// Returns a new search for a cut, before anything is counted.
 CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double weight) const {
     CutSearch search;
     search.cut.axis = axis;
@@ -189,7 +191,7 @@ Cuts TreeSearch::own_cuts(std::vector<Part> numbers) const {
     return cuts;
 }
 
-/// Returns the search for the cut of a node within the bracket of the guide.
+/// Returns a new search for the cut of a node, within the bracket of the guide.
 CutSearch TreeSearch::search_from_guide(Node& node) const {
     const Descent& at = node.at;
     const Cut& cut = guide_->cuts.tree[at.node];
@@ -201,7 +203,8 @@ CutSearch TreeSearch::search_from_guide(Node& node) const {
         bracket.upper = limits.nearest(bracket.upper, bracket.lower, node.places.last);
     } else {
         bracket.lower = std::max(bracket.lower, -std::numeric_limits<double>::max());
-        // Whole intervals take 1 % more rounds.
+        // Only the half of the interval in which weight is missing is searched; complete intervals
+        // would take 1 % more rounds.
         const double missing =
             node.are_parts_counted ? tree_.rule.missing_below(at, guide_->sums) : 0;
         if (missing > 0) bracket.lower = std::max(bracket.lower, cut.at[cut.axis]);
@@ -211,7 +214,7 @@ CutSearch TreeSearch::search_from_guide(Node& node) const {
     return search_across(cut.axis, bracket, node.weight);
 }
 
-/// Opens the points of nodes beyond their intervals, if cuts have left these.
+/// If cuts have left their intervals, opens the points of their nodes beyond these.
 void TreeSearch::widen() {
     std::vector<WiderNode> nodes;
     for (Node& node : nodes_) {

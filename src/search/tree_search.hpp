@@ -20,140 +20,146 @@
 
 namespace rrcb {
 
-/// Returns the number of a node or a part, in preorder.
+/// Returns the key of a node or a part. Keys ascend in preorder.
 inline Key key_of(const Descent& at) {
     constexpr Key shift = 32;
     return (static_cast<Key>(at.first_part) << shift) + std::numeric_limits<std::uint32_t>::max() -
            static_cast<Key>(at.num_parts);
 }
 
-/// The parts to make; the same on every rank.
+/// The parts to make. All values are the same on every rank.
 struct PartTree {
     int dimension = 0;
     int num_parts = 1;
-    int num_owners = 1;  ///< ranks that own nodes: 1 if rank 0 owns all of them
+    int num_owners = 1;  ///< number of ranks that own nodes; 1: rank 0 owns all of them
     TreeShape shape{};
-    double weight = 0;                ///< of all points
-    Box box{};                        ///< of all points; with limits the region of their cuts
-    std::span<const int> cut_axes{};  ///< of all cuts in preorder; empty: free
-    std::span<const int> axes{};      ///< of free cuts, which may cross any of them
-    bool crosses_longest = false;     ///< of a spread search; else free cuts leave fewest ghosts
+    double weight = 0;  ///< weight of all points
+    Box box{};          ///< box of all points; if cuts are limited, the region of the cuts
+    std::span<const int> cut_axes{};  ///< axes of all cuts in preorder; empty: free
+    std::span<const int> axes{};      ///< axes that free cuts may cross
+    bool crosses_longest = false;     ///< in a spread search, whether free cuts cross the longest
+                                   ///< axis; otherwise they minimize ghosts
     TargetRule rule{};
     bool plain_cuts = false;
-    bool centres_cuts = false;        ///< moves cuts to the middle between points of all ranks
-    bool divides_coincident = false;  ///< divides coincident points, see Coincident
-    std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
+    bool centres_cuts =
+        false;  ///< whether cuts are moved to the middle between points of all ranks
+    bool divides_coincident = false;  ///< whether cuts may divide coincident points, see Coincident
+    std::array<AxisLimits, max_dimension> limits{};  ///< only in a central search
 };
 
-/// Cuts to start from; the same on every rank, except the box.
+/// Cuts from which a search starts. All values except the box are the same on every rank.
 struct Guide {
-    Cuts& cuts;                         ///< the search moves them, but keeps their axes
-    std::span<const Bracket> brackets;  ///< intervals in which the cuts are looked for first
+    Cuts& cuts;                         ///< the search moves these cuts, but keeps their axes
+    std::span<const Bracket> brackets;  ///< intervals in which the cuts are searched first
     CutLimits* limits;                  ///< null if cuts are not limited
-    std::span<const double> sums;       ///< of the parts by the cuts, if they were counted
-    bool is_counted;                    ///< the sums belong to the cuts
-    Box box;                            ///< of the points of this rank
+    std::span<const double>
+        sums;         ///< weights of the parts that the cuts make, if they were counted
+    bool is_counted;  ///< whether the sums belong to these cuts
+    Box box;          ///< contains the points of this rank
 };
 
-/// Returns intervals in which the cuts of a guide end, most probably.
+/// Returns intervals in which the cuts of a guide will most likely end.
 ///
-/// If the weight below a cut was counted, its interval is wide enough for what is missing there.
-/// Limited cuts, and cuts of few points, may end anywhere.
+/// If the weight below a cut was counted, its interval is wide enough for the weight that is
+/// missing there. Limited cuts and cuts through few points get infinite intervals.
 std::vector<Bracket> likely_intervals(const TargetRule& rule, const Guide& guide);
 
-/// One rank's part in the search for the cuts of a tree.
+/// Searches for the cuts of a tree. This class is the part of one rank.
 ///
-/// Each rank sends the owner of a node a summary of its points there; the owner decides on the cut
-/// and answers. Nodes do not wait for others on their level. Each round has five steps: ask, a pass
-/// of the butterfly to the owners, decide, a pass back, follow. The search ends when is_searching()
-/// is false on all ranks; then the open points are to be settled. Not collective.
+/// Each rank sends the owner of a node a summary of its points in the node; the owner decides on
+/// the cut and answers. Nodes do not wait for other nodes of their level. Each round has five
+/// steps: ask, a pass of the butterfly to the owners, decide, a pass back, follow. The search ends
+/// when is_searching() is false on all ranks; then the open points have to be settled. No function
+/// is collective.
 ///
-/// Spread: a rank takes part in a node if it has points in it or owns one of its parts. The first
-/// rank of the first part owns the node, and only ranks that take part know the cut. Axes are free
-/// or given. Memory and messages are in proportion to the nodes in which a rank takes part, about
-/// 1.2 kB a node, times the free axes in its first count. Owners also hold gathered positions and
-/// weights.
+/// Spread search: a rank takes part in a node if it has points in it or holds one of its parts. The
+/// owner of a node is the first rank of its first part, and only ranks that take part know its cut.
+/// Axes are free or given. Memory and messages are proportional to the number of nodes in which a
+/// rank takes part: about 1.2 kB for each node, times the number of free axes in the node's first
+/// count. Owners also store gathered positions and weights.
 ///
-/// Central: rank 0 owns all nodes, in which all ranks take part. Cuts start from a Guide, which
-/// fixes their axes, and may be limited. If the counted parts of a node are good enough, its cuts
-/// are kept.
+/// Central search: rank 0 owns all nodes, and all ranks take part in each. Cuts start from a Guide,
+/// which fixes their axes, and may be limited. If the parts of a node were counted and are good
+/// enough, its cuts are kept.
 class TreeSearch {
   public:
-    /// Starts a search of open points of this rank: a spread one without a guide, a central one
-    /// with a guide, whose rule has part sizes. Everything is borrowed, also the spans of `tree`.
-    /// Throws std::bad_alloc.
+    /// Starts a search of this rank's open points. Without a guide the search is spread, with a
+    /// guide it is central and its rule must have part sizes. All arguments are borrowed, including
+    /// the spans of `tree`. Throws std::bad_alloc.
     TreeSearch(const PartTree& tree, int rank, OpenPoints& open, const Guide* guide = nullptr);
     TreeSearch(const TreeSearch&) = delete;
     TreeSearch& operator=(const TreeSearch&) = delete;
 
     bool is_searching() const { return !nodes_.empty(); }
 
-    /// Adds the records of this rank for the searched nodes. Throws std::bad_alloc.
+    /// Adds this rank's records about the nodes in search. Throws std::bad_alloc.
     void ask(Butterfly& butterfly);
 
-    /// Decides on this rank's own nodes. Throws std::bad_alloc.
+    /// Decides on the nodes that this rank owns. Throws std::bad_alloc.
     void decide(Butterfly& butterfly);
 
-    /// Follows the decisions. A node whose answer a failure has lost is left unchanged. Throws
-    /// std::bad_alloc.
+    /// Processes the decisions. A node is left unchanged if its answer is missing after a failure.
+    /// Throws std::bad_alloc.
     void follow(const Butterfly& butterfly);
 
     /// Joins two records of a node; see Butterfly::Join.
     static void join(std::span<const double> a, std::span<const double> b,
                      std::vector<double>& joined);
 
-    /// Returns the tree after a spread search, in which cuts of other ranks are zeros. Throws
-    /// std::bad_alloc. `numbers` of its parts, see Cuts.
+    /// After a spread search, returns the tree with this rank's own cuts; those of other ranks are
+    /// zero. `numbers` are the numbers of the parts, see Cuts. Throws std::bad_alloc.
     Cuts own_cuts(std::vector<Part> numbers = {}) const;
 
-    /// Returns the imbalance of the parts that this rank owns, in a spread search; 0 if these are
+    /// In a spread search, returns the imbalance of the parts that this rank owns; 0 if these are
     /// empty.
     double imbalance() const { return imbalance_; }
 
-    /// Returns the number of cuts with coincident points that the target divides: all in a central
-    /// search, this rank's own in a spread one.
+    /// Returns the number of cuts at which the target is among coincident points. A central search
+    /// counts all cuts, a spread search only the cuts that this rank owns.
     int num_coincident() const { return num_coincident_; }
 
   private:
-    /// First entry of a node's record from a rank with points there: it contains a histogram, the
+    /// Kinds of records about a node, which are the first entry of the record: a histogram, the
     /// candidates, the weights of ranks, or the gap around the cut.
     static constexpr double mark_of_histogram = 0;
     static constexpr double mark_of_candidates = 1;
     static constexpr double mark_of_weights = 2;
     static constexpr double mark_of_gap = 3;
 
-    /// Points of a rank in a lot, or in a part, of which only the weight counts.
+    /// Points of one rank in a lot. For a part only the weight is used.
     struct LotRecord {
         double rank = 0;
         PointsInLot points{};
     };
-    /// Divides a lot: ranks before the dividing one have their points below, ranks after it above.
+    /// Division of a lot: the points of ranks before the dividing rank are below the cut, those of
+    /// ranks after it above.
     struct LotAnswer {
         double dividing_rank = 0;
-        double before = 0;  ///< weight on the ranks before it
+        double before = 0;  ///< weight of the lot on the ranks before it
     };
 
-    /// A node to search, or a part to weigh.
+    /// A node whose cut is searched, or a part that is weighed.
     struct Node {
         Descent at;
-        Box box{};                       ///< that contains the points of all ranks, see PartTree
-        double weight = 0;               ///< over all ranks
-        bool is_counted = true;          ///< false if the weight is wrong by up to a point
-        bool are_parts_counted = false;  ///< the guide's sums contain its parts' weights
+        Box box{};                       ///< contains the node's points of all ranks, see PartTree
+        double weight = 0;               ///< sum over all ranks
+        bool is_counted = true;          ///< false if the weight may be wrong by up to one point
+        bool are_parts_counted = false;  ///< whether the guide's sums contain the weights of its
+                                         ///< parts
         CutSearch search{};
         Total settled_below{};  ///< points of this rank below the interval of the cut
-        Total settled_above{};  ///< and above
-        Gap gap{};              ///< while it is centred
-        bool is_wider = false;  ///< the cut has left its interval
-        bool is_taken = false;  ///< the owner gets all points, which were not counted
-        Box found{};            ///< at the owner only: box of the points, once counted
-        CutTarget target{};     ///< likewise
-        LotAnswer lot{};        ///< likewise
-        Places places{};        ///< allowed for the cut
+        Total settled_above{};  ///< points of this rank above the interval
+        Gap gap{};              ///< used while the cut is centred
+        bool is_wider = false;  ///< whether the cut has left its interval
+        bool is_taken = false;  ///< whether the owner gathers all points, without a count
+        Box found{};            ///< only at the owner, after the first count: box of the points
+        CutTarget target{};     ///< only at the owner
+        LotAnswer lot{};        ///< only at the owner
+        Places places{};        ///< allowed positions of the cut
     };
 
-    /// Answer of an owner. A LotAnswer may follow it, and the box of the node after the first count
-    /// of the node in a spread search.
+    /// Answer of an owner. In a spread search, the box of the node follows after its first count; a
+    /// LotAnswer follows if the cut divides a lot.
     struct Answer {
         CutSearch search;
         double weight = 0;
@@ -202,14 +208,14 @@ class TreeSearch {
     PartTree tree_;
     const Guide* guide_;  ///< null in a spread search
     int rank_;
-    Part first_own_ = 0;    ///< first of the parts on this rank
-    Part end_own_ = 0;      ///< the one behind the last
+    Part first_own_ = 0;    ///< first part of this rank
+    Part end_own_ = 0;      ///< end of the range of this rank's parts
     double all_sizes_ = 0;  ///< sum of the sizes of all parts
     HistogramLayout layout_;
     OpenPoints& open_;
-    std::deque<Node> nodes_;  ///< ascending; gives memory back as it is followed
-    std::vector<std::pair<std::size_t, Cut>> own_;  ///< cuts of nodes that this rank owns, found
-                                                    ///< by a spread search
+    std::deque<Node> nodes_;  ///< ascending; a deque, because it frees memory while it is processed
+    std::vector<std::pair<std::size_t, Cut>> own_;  ///< the cuts that this rank owns and has found,
+                                                    ///< in a spread search
     double imbalance_ = 0;
     int num_coincident_ = 0;
 };

@@ -14,7 +14,8 @@ namespace rrcb {
 
 namespace {
 
-/// Adds the messages of two ranks. A message is a StepRecord, followed by the sums of a cost model.
+/// Joins the messages of two ranks. A message is a StepRecord, followed by the sums of a cost
+/// model.
 void join_messages(void* in, void* inout, int* count, MPI_Datatype* type) {
     int bytes = 0;
     MPI_Type_size(*type, &bytes);
@@ -82,7 +83,8 @@ int Controller::State::close(MPI_Comm, int, void* state, void*) {
 void Controller::State::close() {
     if (comm_ == MPI_COMM_NULL) return;
     if (log_->end != CallLog::End::none) {
-        // The reduction may stay pending, and then needs all of these.
+        // The reduction may still be pending after this, so its operation and memory must not be
+        // freed.
         reduction_.release();
         message_.release();
         comm_ = MPI_COMM_NULL;
@@ -140,11 +142,11 @@ StepRecord Controller::State::hand_in(const RankLoad& load, BadInput fault) {
 
 void Controller::State::take(const StepRecord& all) {
     check_record(all);
-    // A decision is out of date if the ranks have rebalanced since.
+    // A decision is out of date if the ranks have rebalanced since its loads.
     is_due = all.is_due > 0 && all.num_rebalances == num_heeded_ &&
              all.num_rebalances == num_rebalances_;
     num_heeded_ = all.num_rebalances;
-    // Points may have come or gone since the balance.
+    // Compared with a margin, because points may have been created or removed since the balance.
     const double counted = std::abs(all.weight - num_points_ / num_ranks_);
     counts_points = counted < 0.1 * std::abs(all.weight - total_weight_ / num_ranks_);
     if (rank_ == root) follow(all);

@@ -7,14 +7,16 @@ namespace rrcb {
 
 namespace {
 
-/// Remembers about 200 steps: in 100, noise of 7 % would hide that costs predict seconds to 4 %.
+/// Factor of each step that makes about 200 steps count. With 100 steps, noise of 7 % would hide it
+/// if costs predict seconds to 4 %.
 constexpr double guard_forgetting = 1 - 1.0 / 200;
-constexpr double fewest = 10;  ///< steps before learned costs are used
-/// Least gain for learned costs to be used, in standard deviations of noise.
+constexpr double fewest = 10;  ///< least number of steps before learned costs are used
+/// Learned costs are used only if their gain is at least this multiple of the standard deviation of
+/// noise.
 constexpr double certainty = 3;
-/// Least gain as a share of the squared error of counting.
+/// They are used only if their gain is at least this share of the squared error of counting.
 constexpr double margin = 0.02;
-/// Share of all steps that learned costs may lose before they are put aside.
+/// Learned costs are put aside when they have lost this share of all steps.
 constexpr double allowed_loss = 0.005;
 
 }  // namespace
@@ -24,7 +26,8 @@ void CostGuard::add_errors(double learned, double counted, double between) {
     counted_error_ = guard_forgetting * counted_error_ + counted;
     between_ = guard_forgetting * between_ + between;
     weight_ = guard_forgetting * weight_ + 1;
-    // Deviation of the gain by independent noise: twice the noise times the difference.
+    // If the noise of the ranks is independent, the standard deviation of the gain is twice the
+    // noise times the difference of the predictions.
     const double gain = counted_error_ - learned_error_;
     const double noise = 2 * std::sqrt(between_ * learned_error_ / (weight_ * num_ranks_));
     const double needed = predicts_ ? 0 : std::max(certainty * noise, margin * counted_error_);
@@ -33,7 +36,7 @@ void CostGuard::add_errors(double learned, double counted, double between) {
 
 void CostGuard::add_excess(double excess, bool is_learned) {
     ++num_steps_;
-    // Limits the effect of a single slow step.
+    // This limits the effect of a single slow step.
     excess = std::min(excess, 1.0);
     if (!is_learned) {
         excess_ += (excess - excess_) / std::min(++excess_weight_, 50.0);

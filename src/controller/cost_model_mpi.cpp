@@ -17,7 +17,7 @@ namespace rrcb {
 namespace {
 
 bool is_number(double value) {
-    // Up to here squares and their sums do not overflow.
+    // The squares of such numbers and the sums of squares do not overflow.
     return is_amount(value) && value <= 1e100;
 }
 
@@ -59,18 +59,19 @@ void check_columns(int num_columns) {
 struct CostModel::State {
     Controller::State& reducer;
     CostRule rule;
-    std::optional<Controller> own{};  ///< if the caller gave none
-    int num_ranks_before = 0;  ///< on which loaded costs were saved, if another number; 0: not so
+    std::optional<Controller> own{};  ///< the model's own controller, if the caller has given none
+    int num_ranks_before = 0;  ///< number of ranks on which loaded costs were saved, if it was
+                               ///< another one; otherwise 0
 
-    /// Makes a model, from a saved one if `saved` is not null. Collective.
+    /// Makes a model; if `saved` is not null, restores it from there. Collective.
     static std::unique_ptr<State> make(Controller& controller, CallName call, int num_columns,
                                        const std::span<const std::byte>* saved);
 
-    /// Writes or reads all but the numbers of each rank. Returns whether the number of ranks is
-    /// that of the saved model.
+    /// Writes or reads everything except the numbers that differ between ranks. Returns whether the
+    /// saved model had the present number of ranks.
     bool store(SavedState& state, StepMessage& message);
 
-    /// Returns the state of a model. Throws Error if it was moved from.
+    /// Returns the state of a model. Throws Error if the model has been moved from.
     static State& of(const CostModel& model) {
         if (model.state_ == nullptr)
             throw Error(ErrorCode::invalid_argument,

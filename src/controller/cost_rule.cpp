@@ -8,13 +8,13 @@ namespace rrcb {
 namespace {
 
 constexpr double forgetting = 1 - 1.0 / 100;
-/// Seconds may differ from a prediction by this multiple of the usual error; more is cut off.
+/// Seconds are limited to this multiple of the usual error around their prediction.
 constexpr double usual = 3;
-/// They may always differ by this share of the mean seconds.
+/// The limit is never less than this share of the mean seconds.
 constexpr double least_reach = 0.1;
 
-/// Index of each sum. The normal equations, rank 0's costs and the seconds of the slowest rank
-/// follow.
+/// Index of each sum. After these follow the normal equations, rank 0's costs, and the seconds of
+/// the slowest rank.
 enum HeadOfSums : std::size_t {
     seconds_sum,
     learned_sum,
@@ -44,15 +44,17 @@ CostRule::CostRule(int num_columns, int rank, int num_ranks)
       costs_(CostVector::Zero(num_columns)),
       state_(guard_.state()) {}
 
-/// Returns false if a column was 0, or nearly, in the steps that the costs rest on: its cost cannot
-/// be predicted, so seconds beyond the prediction are no outlier.
+/// Returns false if a column was 0, or nearly 0, in the steps from which the costs were fitted. The
+/// cost of this column cannot be predicted then, so seconds beyond the prediction need not be
+/// outliers.
 bool CostRule::knows_columns() const {
     for (Eigen::Index j = 0; j < num_columns_; ++j)
         if (columns_[j] * columns_[j] > known_[j]) return false;
     return true;
 }
 
-/// Returns seconds, moved towards the prediction so that a single stall does not spoil the fit.
+/// Returns the seconds, limited to a range around the prediction, so that a single stall does not
+/// spoil the fit.
 double CostRule::without_outlier(double seconds) const {
     if (scatter_ < 0 || !knows_columns()) return seconds;
     const double reach = std::max(usual * scatter_, least_reach) * mean_;

@@ -44,7 +44,8 @@ void LatestSteps::add(const Waste& step) {
         first = earlier;
         earlier = latest;
         latest = block;
-        // Two blocks make one of the next length when their number is even.
+        // Two consecutive blocks are joined to one of twice the length when the number of blocks
+        // becomes even.
         if ((count_ >> k) % 2 == 1) return;
         block = earlier + latest;
     }

@@ -7,11 +7,11 @@ namespace rrcb {
 
 /// Sums over some steps, in units of the first mean load.
 struct Waste {
-    double waste = 0;  ///< of heaviest - mean load
-    double work = 0;   ///< of the mean loads
+    double waste = 0;  ///< sum of (heaviest - mean load)
+    double work = 0;   ///< sum of the mean loads
 
     double excess() const { return work > 0 ? waste / work : 0; }
-    /// Writes or reads this, as all of this name.
+    /// Writes or reads all members.
     void store(auto& state) { state.each(waste, work); }
 
     friend Waste operator+(const Waste& a, const Waste& b) {
@@ -22,7 +22,8 @@ struct Waste {
     }
 };
 
-/// Runs of steps have lengths 2^k with k below this: more steps than any program makes.
+/// Sums are kept for runs of 2^k steps with k below this number, which is more steps than any
+/// program makes.
 inline constexpr std::size_t num_lengths = 48;
 
 /// Returns 2^k.
@@ -31,24 +32,27 @@ inline double steps_of(std::size_t k) {
 }
 
 /// Course of the waste after a rebalance: sums over the first 1, 2, 4, ... steps, of one cycle or
-/// an average of several.
+/// averaged over several.
 class Cycle {
   public:
     void add(const Waste& step);
 
-    /// Averages with a later cycle, which counts as much as all earlier ones. Beyond its end the
-    /// later cycle is continued with its last excess.
+    /// Averages with a later cycle, which gets the same weight as all earlier ones together. If the
+    /// later cycle is shorter, it is continued with its last excess.
     void remember(const Cycle& later, double excess_at_end);
 
     std::size_t count() const { return count_; }
     const Waste& total() const { return total_; }
-    const Waste& first(std::size_t k) const { return first_[k]; }  ///< of 2^k steps
+    /// sums over the first 2^k steps
+    const Waste& first(std::size_t k) const { return first_[k]; }
 
-    /// Returns the gain, in steps, of a rebalance followed by this course, over an `excess` that
-    /// stays for at most `horizon` steps: the largest for any end of the cycle.
+    /// Returns the gain, in steps, of a rebalance after which the waste follows this course,
+    /// compared with keeping `excess` for at most `horizon` steps. Takes the largest gain over all
+    /// possible ends of the cycle.
     double gain(double excess, double horizon) const;
 
-    /// Returns the least mean excess of the first 4, 8, ... steps; infinity if there are fewer.
+    /// Returns the least mean excess of the first 4, 8, ... steps; infinity if there are fewer than
+    /// 4.
     double least_excess() const;
 
     void store(auto& state) {
@@ -58,16 +62,16 @@ class Cycle {
     }
 
   private:
-    std::size_t num_first_ = 0;  ///< known sums
+    std::size_t num_first_ = 0;  ///< number of lengths whose sums are known
     std::size_t count_ = 0;
-    Waste total_;  ///< of this cycle only
+    Waste total_;  ///< sums over all steps of this cycle
     std::array<Waste, num_lengths> first_{};
 };
 
-/// Blocks of the latest steps, three of each length 2^k.
+/// Sums over blocks of the latest steps: three blocks of each length 2^k.
 ///
-/// In the mean of a block, an imbalance of every fifth step counts as much as a fifth of it in each
-/// step. One stall raises only one of three blocks.
+/// Averaging over a block makes an imbalance in every fifth step count as much as a fifth of it in
+/// every step. A single stall raises only one of the three blocks.
 class LatestSteps {
   public:
     static constexpr std::size_t num_blocks = 3;
@@ -78,10 +82,11 @@ class LatestSteps {
     /// Returns whether there are three blocks of length 2^k.
     bool has(std::size_t k) const { return k < num_lengths && count_ >> k >= num_blocks; }
 
-    /// Returns the excess that all of these blocks reach: the least of their mean excesses.
+    /// Returns the excess that all three blocks of length 2^k have at least.
     double lasting(std::size_t k) const;
 
-    /// Returns the greatest of lasting() over all lengths; 0 if there are less than three steps.
+    /// Returns the largest lasting(k) over all lengths; 0 if there have been fewer than three
+    /// steps.
     double lasting() const;
 
     /// Returns the latest complete block of length 2^k.

@@ -9,7 +9,7 @@ namespace {
 
 using Active = Eigen::Array<bool, Eigen::Dynamic, 1, 0, most_cost_columns, 1>;
 
-/// Returns the minimum with all but the free columns held at 0.
+/// Returns the minimum if all columns except the free ones are 0.
 CostVector free_minimum(const CostMatrix& a, const CostVector& b, const Active& is_free) {
     CostMatrix equations = a;
     CostVector right = b;
@@ -23,7 +23,7 @@ CostVector free_minimum(const CostMatrix& a, const CostVector& b, const Active& 
     return equations.ldlt().solve(right);
 }
 
-/// Returns the share of the way from `from` to `to` on which no free number turns negative.
+/// Returns the share of the way from `from` to `to` along which no free number becomes negative.
 double allowed_share(const CostVector& from, const CostVector& to, const Active& is_free) {
     double share = 1;
     for (Eigen::Index j = 0; j < to.size(); ++j)
@@ -38,14 +38,16 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
     if (b.size() == 0) return x;
     Active is_free = Active::Constant(b.size(), false);
     const double least = 1e-14 * b.cwiseAbs().maxCoeff();
-    // Each turn of the outer loop lowers the sum, so none repeats, except by round-off.
+    // Each turn of the outer loop lowers the objective, so no set of free columns is repeated,
+    // except because of round-off; therefore the limit.
     for (Eigen::Index turn = 0; turn < 4 * b.size(); ++turn) {
-        // Frees the column with the fastest fall of the sum.
+        // Frees the column along which the objective decreases fastest.
         Eigen::Index next = 0;
         const CostVector descent = b - a * x;
         if (is_free.select(-1.0, descent.array()).maxCoeff(&next) <= least) break;
         is_free[next] = true;
-        // x >= 0 throughout: each turn reaches the minimum, or fixes a column at 0 on the way.
+        // Invariant: x >= 0. Each turn either reaches the minimum, or fixes a column at 0 on the
+        // way.
         for (;;) {
             const CostVector to = free_minimum(a, b, is_free);
             const double share = allowed_share(x, to, is_free);
@@ -64,7 +66,8 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
 }
 
 CostVector fitted_costs(const NormalEquations& sums) {
-    // So small that it changes no cost, unless noise hides the difference of two columns.
+    // This is so small that it changes no cost, unless noise hides the difference between two
+    // columns.
     constexpr double draw = 1e-6;
     const CostVector lengths = sums.squares.diagonal().cwiseMax(0).cwiseSqrt();
     CostVector scales = lengths;

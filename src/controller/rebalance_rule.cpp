@@ -6,21 +6,23 @@ namespace rrcb {
 
 namespace {
 
-/// Excess of equal loads by rounding.
+/// Excess that equal loads may have because of rounding.
 constexpr double rounding = 1e-12;
 
-/// An excess is expected to last four times as long as it has.
+/// An excess is expected to last four times as long as it has lasted so far.
 constexpr double foresight = 4;
 
-/// Waste, in costs of a rebalance, after which one is tried even if earlier ones did not help.
+/// When the waste reaches this multiple of a rebalance's cost, a rebalance is tried even if earlier
+/// ones did not help.
 constexpr double patience = 8;
 
-/// Share of its cost that counts of a first rebalance, which may be far dearer than later ones.
+/// The first rebalance may be much more expensive than later ones, so only this share of its cost
+/// counts.
 constexpr double share_of_first = 1.0 / 3;
 
 constexpr std::size_t start_length = 2;  ///< 2^2 steps
 
-/// Returns the median of the first values; of two the smaller.
+/// Returns the median of the first `count` values; of two values, the smaller one.
 double median(const std::array<double, 3>& values, std::size_t count) {
     const auto [less, greater] = std::minmax({values[0], values[count > 1 ? 1 : 0]});
     return count < 3 ? less : std::clamp(values[2], less, greater);
@@ -61,16 +63,17 @@ void RebalanceRule::expect_less() {
     knows_rebalances_ = false;
 }
 
-/// Returns the work, in units, of the first steps of the cycle beyond the most of as many later
-/// ones: a rebalance may slow them down, as by cold caches. At most that of the last cycle, because
-/// steps may be slow for another reason.
+/// Returns how much more work the first steps of the cycle are than the largest sum of as many
+/// later ones, in units. A rebalance may slow them down, for example because caches are cold. The
+/// result is at most that of the last cycle, because the first steps may be slow for another
+/// reason.
 double RebalanceRule::slow_start() const {
     if (!(busiest_ > 0)) return slow_start_;
     return std::clamp(cycle_.first(start_length).work - busiest_, 0.0, slow_start_);
 }
 
-/// Returns the cost of the next rebalance, in units: that of the latest, outliers limited, plus the
-/// slow steps that follow.
+/// Returns the expected cost of the next rebalance, in units: the cost of the latest one, limited
+/// if it is an outlier, plus the slow steps that follow.
 double RebalanceRule::cost() const {
     if (num_rebalances_ == 0) return cycle_.total().work / static_cast<double>(cycle_.count());
     const double middle = median(costs_, std::min(num_rebalances_, costs_.size()));
@@ -79,7 +82,7 @@ double RebalanceRule::cost() const {
     return share * std::clamp(latest, middle / 2, 2 * middle) / unit_ + slow_start();
 }
 
-/// Returns whether a rebalance pays if the `excess` has lasted for so many steps.
+/// Returns whether a rebalance pays if the `excess` has lasted for `lasted` steps.
 bool RebalanceRule::pays(double excess, double lasted, const Prospect& next) const {
     if (excess <= std::max(least_, rounding)) return false;
     const double horizon = foresight * lasted;

@@ -12,7 +12,7 @@
 namespace rrcb {
 
 void Controller::State::carry(std::unique_ptr<StepMessage> message) noexcept {
-    // A restored record is taken by the next step.
+    // The next step still processes a restored record, so it is copied to the new message.
     std::ranges::copy_n(message_->all.begin(), StepMessage::num_doubles, message->all.begin());
     message_ = std::move(message);
 }

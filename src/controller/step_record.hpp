@@ -4,36 +4,36 @@
 
 namespace rrcb {
 
-/// Invalid input of a rank.
+/// Kind of a rank's invalid input.
 enum class BadInput { none, load, cost, columns };
 
-/// Step of one rank, or of all joined: shares are added, other fields take the largest value. A
-/// minimum is sent as the negative of a maximum.
+/// Step of one rank, or the joined steps of all ranks. Shares are added up; all other fields take
+/// the maximum. A minimum is sent as the maximum of the negative.
 struct StepRecord {
-    double work = 0;       ///< share of the mean load as measured
-    double mean_load = 0;  ///< share of the mean of the compared loads
-    double weight = 0;     ///< share of the mean weight of the points
+    double work = 0;       ///< this rank's share of the measured mean load
+    double mean_load = 0;  ///< this rank's share of the mean of the loads that are compared
+    double weight = 0;     ///< this rank's share of the mean weight of the points
     double heaviest_load = 0;
-    double cost = 0;  ///< of the rebalances since the step before
+    double cost = 0;  ///< cost of the rebalances since the previous step
     double least_imbalance = 1;
-    double is_due = 0;     ///< the root's decision; 0 from all others
-    double bad_input = 0;  ///< code_of() that of the lowest rank
+    double is_due = 0;     ///< decision of the root; 0 on all other ranks
+    double bad_input = 0;  ///< code_of() the bad input; the maximum is that of the lowest rank
     double num_rebalances = 0;
     double minus_num_rebalances = 0;
 };
 
-/// Returns the code of invalid input, larger for lower ranks.
+/// Returns the code of invalid input. Lower ranks have larger codes.
 double code_of(int rank, BadInput input);
 
-/// Adds the step of other ranks.
+/// Joins the step of other ranks to ours.
 void join(const StepRecord& theirs, StepRecord& ours);
 
-/// Adds the carried sums of other ranks; the last one becomes the larger of both.
+/// Adds the carried sums of other ranks. The last one is not added, but becomes the larger of both.
 void join_carried(std::span<const double> theirs, std::span<double> ours);
 
 bool is_amount(double value);
 
-/// Throws the Error of a step of all ranks, the same on every rank.
+/// If the joined step contains an error of any rank, throws the same Error on every rank.
 void check_record(const StepRecord& all);
 
 }  // namespace rrcb

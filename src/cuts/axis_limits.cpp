@@ -11,15 +11,15 @@ namespace rrcb {
 
 namespace {
 
-/// Returns the least double above `from` for which `holds` is true, as for all above it. A `guess`
-/// near it saves steps.
+/// Returns the least double above `from` for which `holds` is true; it must be true for all larger
+/// ones as well. A `guess` near the result saves steps.
 template <class Holds>
 double least_double(double from, double guess, Holds&& holds) {
     for (const double x : {guess, std::nextafter(guess, infinity)})
         if (holds(x) && !holds(std::nextafter(x, -infinity))) return x;
     std::int64_t below = double_rank(from);
     std::int64_t at = double_rank(infinity);
-    // The result is in (below, at].
+    // Invariant: the result is in (below, at].
     while (at - 1 > below) {
         const std::int64_t middle = below / 2 + at / 2 + (below % 2 + at % 2) / 2;
         (holds(double_of_rank(middle)) ? at : below) = middle;
@@ -42,13 +42,13 @@ double AxisLimits::line(double k) const {
 }
 
 double AxisLimits::line_below(double value) const {
-    // Two quotients, as the difference might overflow.
+    // Divides before subtracting, because the difference might overflow.
     double k = std::floor(value / grid_.spacing - grid_.origin / grid_.spacing);
     // The number of a line times the spacing must not overflow.
     constexpr double most = std::numeric_limits<double>::max();
     const double last = grid_.spacing < 1 ? most : std::floor(most / grid_.spacing);
     k = std::clamp(k, -last, last);
-    // The quotients are rounded.
+    // Corrects the rounding of the quotients.
     while (line(k) > value) --k;
     while (line(k + 1) <= value) ++k;
     return k;
@@ -58,7 +58,7 @@ double AxisLimits::next_behind(double face) const {
     if (!has_grid())
         return least_double(face, std::max(face + min_width_, std::nextafter(face, infinity)),
                             [&](double x) { return is_apart(face, x); });
-    // As the grid resolves() the points, the next place is beyond them.
+    // The grid resolves() the points, so that so wide a box would not fit between them.
     if (!(min_width_ / grid_.spacing < 0x1p52)) return infinity;
     double k = line_below(std::min(face + min_width_, std::numeric_limits<double>::max()));
     while (is_apart(face, line(k))) --k;

@@ -10,7 +10,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns how many levels of cuts can halve a room.
+/// Returns how many times a room along one axis can be halved.
 int halvings(int room) {
     return std::bit_width(static_cast<unsigned>(room)) - 1;
 }
@@ -45,7 +45,7 @@ std::size_t BoxPacking::shape_of(const Descent& at) const {
 }
 
 bool BoxPacking::fits(std::size_t shape, const Room& room) {
-    // The least length along the axis of most room needs the fewest look-ups.
+    // Computing the least length along the axis with the most room needs the fewest look-ups.
     Room sorted = room;
     std::ranges::sort(sorted);
     if (sorted[2] >= shapes_[shape].num_parts) return true;
@@ -60,7 +60,8 @@ int BoxPacking::least_room(const Descent& at, int axis, Room room, int most) {
     });
 }
 
-/// Returns the least room along one axis for given room along the others.
+/// Returns the least room along one axis with which a shape fits, given the room along the other
+/// two.
 int BoxPacking::least_length(std::size_t number, int width, int height) {
     const Shape shape = shapes_[number];
     if (shape.num_parts <= 1) return 1;
@@ -74,7 +75,8 @@ int BoxPacking::least_length(std::size_t number, int width, int height) {
     return lengths_[key] = least;
 }
 
-/// Returns the least room for both children side by side, if `width` is divided among them.
+/// Returns the least room along one axis with which both children fit if the cut divides `width`
+/// between them.
 int BoxPacking::shared_length(const Shape& shape, int width, int height) {
     const auto length = [&](std::size_t child, int part_of_width) {
         return least_length(child, std::min(part_of_width, height),
@@ -84,8 +86,8 @@ int BoxPacking::shared_length(const Shape& shape, int width, int height) {
         return std::max(length(shape.lower, below), length(shape.upper, width - below));
     };
     if (width < 2) return shape.num_parts;
-    // With more width below the cut the lower child needs less length, the upper one more. The
-    // longer of both is least where they cross.
+    // With more width below the cut, the lower child needs less length and the upper child more.
+    // The larger of both is least where they cross.
     const int crossing = least_number(1, width - 2, [&](int below) {
         return length(shape.lower, below) <= length(shape.upper, width - below);
     });

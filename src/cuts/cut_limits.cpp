@@ -38,7 +38,8 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension,
         if (!axes_[a].resolves(std::max(std::abs(points.lower[a]), std::abs(points.upper[a]))))
             reject("axes.grid is finer along axis " + std::to_string(a) +
                    " than doubles resolve at these coordinates; give a larger spacing");
-        // Points on a line belong to the cell above it, so a cut through the last points divides.
+        // A point on a line belongs to the cell above it, so a cut at the last points must be
+        // allowed.
         if (options.axes.min_width.empty())
             region_.upper[a] = std::nextafter(points.upper[a], infinity);
     }
@@ -51,7 +52,7 @@ bool CutLimits::has_room() {
     return true;
 }
 
-/// Returns true if the first cut across `axis` on each way down the tree has places.
+/// Returns true if, on each way down the tree, the first cut across `axis` has an allowed position.
 bool CutLimits::has_room_across(const Descent& at, int axis) {
     if (at.is_part()) return true;
     if (divides(at) && given_[at.node] == axis) return !places(at, region_, axis).empty();
@@ -83,8 +84,8 @@ Room CutLimits::room_in(const Box& region, int most) const {
     return room;
 }
 
-/// Returns the place of a cut across `axis`, nearest to `face` and behind or before it, with room
-/// for a node between both.
+/// Returns the position of a cut across `axis` that is nearest to `face` and leaves room for a node
+/// between them. `is_behind` means that the cut is above the face.
 double CutLimits::nearest_face(const Descent& at, int axis, double face, bool is_behind) const {
     if (at.is_part())
         return is_behind ? across(axis).first_behind(face, 1) : across(axis).last_before(face, 1);

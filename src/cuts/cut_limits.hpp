@@ -7,10 +7,11 @@
 
 namespace rrcb {
 
-/// Returns the limits of cuts across each axis; for any options.
+/// Returns the limits of cuts across each axis; if the options have no limits, these allow
+/// everything.
 std::array<AxisLimits, max_dimension> axis_limits(const Options& options);
 
-/// Allowed places of a cut, both ends included.
+/// Interval of allowed positions of a cut; both ends are allowed.
 struct Places {
     double first = -std::numeric_limits<double>::infinity();
     double last = std::numeric_limits<double>::infinity();
@@ -19,18 +20,19 @@ struct Places {
     bool all() const { return first < -std::numeric_limits<double>::max(); }
 };
 
-/// Allowed places of the cuts of a tree: all parts have the least width, and all cuts are on lines.
+/// Allowed positions of the cuts of a tree: all parts have at least the minimum width, and all cuts
+/// are on grid lines.
 ///
-/// If the complete tree has room, a cut at any of its allowed places leaves places to all cuts
-/// below it.
+/// If the complete tree fits, a cut at any of its allowed positions leaves allowed positions for
+/// all cuts below it.
 class CutLimits {
   public:
-    /// Takes complete options with limits of cuts, the box of the points, and the axes of the cuts
-    /// in preorder, none if they are free. Throws Error if the grid is too fine.
+    /// Takes complete options that limit cuts, the box of the points, and the axes of the cuts in
+    /// preorder, which are empty if axes are free. Throws Error if the grid is too fine.
     CutLimits(const Options& options, const Box& points, int dimension,
               std::vector<int> given = {});
 
-    /// Returns the box to be cut.
+    /// Returns the box that the cuts divide.
     const Box& region() const { return region_; }
 
     int dimension() const { return dimension_; }
@@ -38,19 +40,19 @@ class CutLimits {
 
     bool has_room();
 
-    /// Throws Error with the possible number of parts if there is not enough room.
+    /// Throws Error with the number of parts that are possible, if there is not enough room.
     void require_room();
 
-    /// Returns true if weight may be on both sides of the cut of a node.
+    /// Returns true if both sides of a node's cut have parts of a size above 0.
     bool divides(const Descent& at) const {
         return packing_.num_parts(at.lower()) > 0 && packing_.num_parts(at.upper()) > 0;
     }
 
-    /// Returns the places of the cut of a node that divides `region` across `axis`, the given axis
-    /// if axes are given.
+    /// Returns the allowed positions of the cut of a node that divides `region` across `axis`. If
+    /// axes are given, `axis` must be the given one.
     Places places(const Descent& at, const Box& region, int axis);
 
-    /// Returns `cut` if it is at one of its places; otherwise the plane at the nearest.
+    /// Returns `cut` if it is at an allowed position; otherwise the plane at the nearest one.
     Cut nearest(const Cut& cut, const Places& places) const;
 
     const AxisLimits& across(int axis) const { return axes_[axis]; }
@@ -58,7 +60,7 @@ class CutLimits {
   private:
     Room room_in(const Box& region, int most) const;
     bool has_room_across(const Descent& at, int axis);
-    /// Returns the child with parts of a node without a division.
+    /// Of a node that does not divide, returns the child that has parts of a size above 0.
     Descent with_parts(const Descent& at) const {
         return packing_.num_parts(at.lower()) > 0 ? at.lower() : at.upper();
     }
@@ -71,7 +73,7 @@ class CutLimits {
     Descent whole_;
     BoxPacking packing_;
     std::vector<int> given_;
-    const char* limiting_;  ///< options, with a verb
+    const char* limiting_;  ///< names of the limiting options and a verb, for errors
 };
 
 }  // namespace rrcb

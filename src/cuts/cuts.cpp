@@ -23,7 +23,7 @@ const Cut& legal_cut(const Cuts& cuts, const Descent& at) {
     return cut;
 }
 
-/// Throws Error unless each node is in the tree.
+/// Throws Error unless the tree has one cut for each node.
 void check_shape(const Cuts& cuts) {
     check_dimension(cuts.dimension, "cuts");
     const auto num_nodes = static_cast<std::size_t>(std::max(cuts.num_parts, 1)) - 1;
@@ -35,8 +35,8 @@ void check_shape(const Cuts& cuts) {
     require(cuts.numbers.empty() || std::ssize(cuts.numbers) == cuts.num_parts, illegal_numbers);
 }
 
-/// Returns true if no position is on the upper side of `lower` and on the lower side of `upper`,
-/// which cross one axis; null is an open side.
+/// Returns true if no position is above `lower` and below `upper`, which are cuts across the same
+/// axis. Null stands for an open side.
 bool leave_nothing(const Cut* lower, const Cut* upper, int dimension) {
     if (lower == nullptr && upper == nullptr) return false;
     if (lower == nullptr) return upper->at[upper->axis] == -infinity;
@@ -47,7 +47,7 @@ bool leave_nothing(const Cut* lower, const Cut* upper, int dimension) {
     return is_above(*upper, lower->at, dimension) && !holds_divided;
 }
 
-/// Calls visit(part) for each part at or below `at` touching a box.
+/// Calls visit(part) for each part at or below `at` that touches a box.
 template <class Visit>
 void visit_touching(const Cuts& cuts, const Descent& at, const Box& box, Visit&& visit) {
     if (at.is_part()) return visit(at.first_part);
@@ -122,12 +122,12 @@ Box region_of(const Cuts& cuts, Part part) {
 }
 
 bool is_region_empty(const Cuts& cuts, Part part, const Box& region) {
-    // A region can be empty only if bounds are equal or reversed.
+    // A region can be empty only if its bounds are equal or reversed along an axis.
     bool may_be_empty = false;
     for (int a = 0; a < cuts.dimension; ++a)
         may_be_empty = may_be_empty || !(region.lower[a] < region.upper[a]);
     if (!may_be_empty) return false;
-    // The nearest cuts on both sides, in the order of positions across them.
+    // Nearest cut on both sides along each axis, in the order of positions across them.
     std::array<const Cut*, max_dimension> lower{};
     std::array<const Cut*, max_dimension> upper{};
     for (Descent at = root_of(cuts); !at.is_part(); at = at.towards(part)) {

@@ -40,13 +40,14 @@ std::size_t num_origins(const NumberRule& rule) {
     return static_cast<std::size_t>(rule.by_rank ? rule.num_ranks : rule.num_parts);
 }
 
-/// Returns the origin of each part, which has a number for it; no_origin of parts left over.
+/// Returns an origin for each part, such that the origin has a number for it. Parts that are left
+/// over get no_origin.
 std::vector<std::int32_t> greedy_origins(const NumberRule& rule,
                                          std::span<const Overlap> overlaps) {
     std::vector<int> num_free(num_origins(rule));
     std::vector<Overlap> offers(overlaps.begin(), overlaps.end());
     std::erase_if(offers, [](const Overlap& offer) { return offer.origin == no_origin; });
-    // Last of all a part would keep its number.
+    // After all overlaps, a part may still get its own number.
     for (Part part = 0; part < rule.num_parts; ++part) {
         ++num_free[rule.home_of(part)];
         offers.push_back({rule.home_of(part), part, 0});
@@ -80,12 +81,12 @@ std::vector<Part> greedy_numbers(const NumberRule& rule, std::span<const Overlap
         while (is_used[next]) ++next;
         give(part, next);
     };
-    std::vector<Part> next(num_origins(rule));  // number of each origin
+    std::vector<Part> next(num_origins(rule));  // next number of each origin
     for (Part number = rule.num_parts; number-- > 0;) next[rule.home_of(number)] = number;
     for (Part part = 0; part < rule.num_parts; ++part)
         if (numbers[part] == no_part && origins[part] != no_origin)
             give_next(part, next[origins[part]]);
-    // Ends of the tree, whose numbers ascend within a group.
+    // For the parts that are left over: numbers ascend with the ends of the tree within a group.
     const int size = rule.shape.group_size > 1 ? rule.shape.group_size : rule.num_parts;
     std::vector<Part> next_end;
     for (Part end = 0; end < rule.num_parts; end += size) next_end.push_back(end);

@@ -13,14 +13,15 @@ inline int owner_of(const Descent& node, int num_parts, int num_ranks) {
     return ranks_of_part(node.first_part, num_parts, num_ranks).first_rank;
 }
 
-/// Parts from `first` to `end` - 1; parts_on() returns a rank's, alone or shared.
+/// Parts from `first` to `end` - 1.
 struct PartRange {
     Part first;
     Part end;
 };
 PartRange parts_on(int rank, int num_parts, int num_ranks);
 
-/// Returns the parts whose first rank is `rank`, by ranks_of_part() or by an ascending list.
+/// Return the parts whose first rank is `rank`, according to ranks_of_part() or to an ascending
+/// list.
 PartRange parts_from(int rank, int num_parts, int num_ranks);
 PartRange parts_from(int rank, std::span<const RankRange> ranks_of_parts);
 

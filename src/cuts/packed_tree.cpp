@@ -8,8 +8,8 @@ namespace rrcb {
 
 namespace {
 
-/// Finds the exit of each point of a block. Makes all comparisons instead of branches, which points
-/// in any order would mispredict.
+/// Finds the exit of each point of a block. Makes all comparisons, because branches would be
+/// mispredicted for points in any order.
 RRCB_VECTOR_CLONES
 void descend_top(const PackedTree::Top& top, const Columns& columns, LocalIndex length,
                  std::int32_t* found) {
@@ -28,10 +28,11 @@ void descend_top(const PackedTree::Top& top, const Columns& columns, LocalIndex 
     }
 }
 
-/// Is 1 for each point of a block that is on a plane at which its other coordinates decide.
+/// 1 for each point of a block that is exactly on a cut, so that its other coordinates decide;
+/// otherwise 0.
 using TiedPoints = std::array<std::int32_t, block_length>;
 
-/// Moves each point of a block down one level; if `marks`, marks those on a plane.
+/// Moves each point of a block down by one level. If `marks`, marks the points exactly on a cut.
 template <bool marks>
 void descend_level(const PackedTree::Node* nodes, const Columns& columns, LocalIndex length,
                    std::int32_t* at, TiedPoints& tied) {
@@ -44,7 +45,7 @@ void descend_level(const PackedTree::Node* nodes, const Columns& columns, LocalI
     }
 }
 
-/// Marks all points on a plane, even beyond the region of its node.
+/// Marks all points exactly on a plane, even those outside the region of its node.
 RRCB_VECTOR_CLONES
 void mark_tied(double plane, const double* x, LocalIndex length, std::int32_t* tied) {
     for (LocalIndex i = 0; i < length; ++i) tied[i] |= x[i] == plane ? 1 : 0;
@@ -66,7 +67,7 @@ void PackedTree::pack(const Cuts& cuts, const EntryOf& entry_of) {
     find_top();
 }
 
-/// Fills `node` with the cuts at or below `at`.
+/// Fills `node` and its descendants with the cuts at and below `at`.
 void PackedTree::add(const Descent& at, const EntryOf& entry_of, std::int32_t node, int depth) {
     depth_ = std::max(depth_, depth);
     if (at.is_part()) {

@@ -13,16 +13,16 @@ namespace rrcb {
 
 inline constexpr LocalIndex block_length = 512;
 
-/// A plane with all points below it.
+/// Position of a plane that has all points below it.
 inline constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-/// The coordinates of the points of a block, one array per axis.
+/// Coordinates of the points of a block: one array per axis.
 using Columns = std::array<std::array<double, block_length>, max_dimension>;
 
-/// The cuts of a tree in one array, for many look-ups.
+/// The cuts of a tree in one array, for fast look-ups.
 ///
-/// The two nodes below a cut are neighbours. An end is its own child, so all points of a block take
-/// the same number of steps.
+/// The two nodes below a cut are adjacent in the array. An end of the tree is its own child, so
+/// that all points of a block can take the same number of steps.
 class PackedTree {
   public:
     /// Returns the entry for an end of the tree.
@@ -30,16 +30,17 @@ class PackedTree {
 
     PackedTree() = default;
 
-    /// Packs all cuts. `cuts.tree` must outlive the result, in the same memory.
+    /// Packs all cuts. `cuts.tree` must outlive this object and must not be moved.
     explicit PackedTree(const Cuts& cuts, const EntryOf& entry_of = {}) { pack(cuts, entry_of); }
 
     /// Reserves memory for the cuts between this many parts, which may be 0.
     void reserve(std::size_t num_parts);
 
-    /// Packs as the constructor does, once, in the reserved memory.
+    /// Packs as the constructor does, in the reserved memory. May be called once.
     void pack(const Cuts& cuts, const EntryOf& entry_of);
 
-    /// Returns the entry of each end in ascending order; of end k it is k without an EntryOf.
+    /// Returns the entries of the ends in ascending order of ends. Without an EntryOf the entry of
+    /// end k is k.
     const std::vector<Part>& entries() const { return entries_; }
 
     /// Finds the number of the end of each point of a block.
@@ -49,7 +50,8 @@ class PackedTree {
     std::int32_t end_of(const double* position) const {
         std::int32_t node = 0;
         for (std::int32_t lower = 0; (lower = lower_of(node)) != node;)
-            // No branch, which unordered positions would mispredict.
+            // Computes the child without a branch, which would be mispredicted for positions in any
+            // order.
             node = lower + (is_above(node, position) ? 1 : 0);
         return nodes_[node].item;
     }
@@ -58,13 +60,13 @@ class PackedTree {
     bool is_end(std::int32_t node) const { return lower_of(node) == node; }
     Part entry_at(std::int32_t node) const { return entries_[nodes_[node].item]; }
 
-    /// Returns the lower node of a cut, which the upper one follows.
+    /// Returns the node below a cut; the node above it is the next one.
     std::int32_t lower_of(std::int32_t node) const { return nodes_[node].lower; }
 
     int axis_of(std::int32_t node) const { return nodes_[node].axis; }
     double plane_of(std::int32_t node) const { return nodes_[node].plane; }
 
-    /// Calls visit(entry) for the ends at or below a node touching a box, see parts_touching().
+    /// Calls visit(entry) for the ends at or below a node that touch a box; see parts_touching().
     template <class Visit>
     void visit_touching(const Box& box, Visit&& visit, std::int32_t node = 0) const {
         const std::int32_t lower = lower_of(node);
@@ -78,12 +80,14 @@ class PackedTree {
     static constexpr int top_levels = 3;
     static constexpr int num_top_nodes = 7;
 
-    /// The cuts of the first three levels. Cuts 2 k + 1 and 2 k + 2 are below and above cut k.
+    /// The cuts of the first three levels. The children of cut k are cuts 2 k + 1 (below) and 2 k +
+    /// 2 (above).
     struct Top {
         std::array<double, num_top_nodes> planes;
         std::array<std::int32_t, num_top_nodes> axes;
-        /// Results of three comparisons: numbers of ends if the tree has no further levels, else
-        /// of nodes. Doubles, because vectors select them as fast as they compare.
+        /// Results of three comparisons: numbers of ends if the tree has no more levels, otherwise
+        /// numbers of nodes. They are doubles, because vector instructions select these as fast as
+        /// they compare.
         std::array<double, num_top_nodes + 1> exits;
     };
 
@@ -91,7 +95,7 @@ class PackedTree {
     struct Node {
         double plane = nowhere;  ///< nowhere at ends
         std::int32_t axis = 0;
-        std::int32_t lower = 0;  ///< the node below the cut; of an end itself
+        std::int32_t lower = 0;  ///< the node below the cut; at an end, the end itself
         std::int32_t item = 0;   ///< index of the cut, or number of the end
     };
 
@@ -110,9 +114,10 @@ class PackedTree {
     std::span<const Cut> cuts_;
     int dimension_ = 0;
     std::vector<Node> nodes_;
-    std::vector<Part> entries_;  ///< of ends
+    std::vector<Part> entries_;  ///< entries of the ends
     int depth_ = 0;
-    bool is_plain_ = true;  ///< every cut is a plane, without ties by position
+    bool is_plain_ = true;  ///< whether every cut is a plane that does not break ties by other
+                            ///< coordinates
     Top top_{};
 };
 

@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// Node on the way down the tree: its position in the preorder and the parts below it.
+/// A node on the way down the tree: its number in preorder, and the parts below it.
 struct Descent {
     std::size_t node = 0;
     Part first_part = 0;
@@ -34,7 +34,7 @@ inline Descent root_of(const Cuts& cuts) {
     return root_of(cuts.num_parts, cuts.shape);
 }
 
-/// Returns the end of the tree of a part.
+/// Returns the end of the tree that has a part.
 Part end_of(const Cuts& cuts, Part part);
 
 /// Returns the part at each end of the tree.
@@ -46,23 +46,23 @@ void number_parts(const Cuts& cuts, std::span<Part> ends);
 /// Returns the number of levels of cuts above the parts of a node.
 int num_levels(const TreeShape& shape, int num_parts);
 
-/// Returns the end of the tree of a position at or below `at`.
+/// Returns the end of the tree, at or below `at`, that contains a position.
 inline Descent descend(const Cuts& cuts, const Vector& position, Descent at) {
     while (!at.is_part())
         at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
     return at;
 }
 
-/// Returns the node with a number in preorder.
+/// Returns the node with this number in preorder.
 Descent node_at(const Cuts& cuts, std::size_t node);
 
-/// Returns a cut without ties.
+/// Returns a cut that puts all points on the plane above it, without breaking ties.
 Cut plane(int axis, double value);
 
-/// Returns true if a cut is a plane, without ties by position.
+/// Returns true if the other coordinates of points on a cut do not decide about their side.
 bool is_plane(const Cut& cut, int dimension);
 
-/// Sides of a cut within a box; both only if the cut crosses it.
+/// Sides of a cut that a box reaches; both only if the cut crosses the box.
 struct Sides {
     bool below;
     bool above;
@@ -72,7 +72,7 @@ inline Sides sides_of(const Box& box, const Cut& cut, int dimension) {
     return {!is_above(cut, box.lower, dimension), is_above(cut, box.upper, dimension)};
 }
 
-/// Return the boxes on the two sides of a cut.
+/// Return the parts of a box on the two sides of a cut.
 inline Box box_below(Box region, const Cut& cut) {
     region.upper[cut.axis] = std::min(region.upper[cut.axis], cut.at[cut.axis]);
     return region;
@@ -89,18 +89,18 @@ inline std::vector<int> axes_of(std::span<const Cut> tree) {
     return axes;
 }
 
-/// A box without bounds.
+/// A box without any bounds.
 inline constexpr Box everywhere{Box{}.upper, Box{}.lower};
 
-/// Returns the least box between the cuts above a part. Its bounds may be reversed if the region is
+/// Returns the box between the cuts above a part. Its bounds may be reversed if the region is
 /// empty. Throws Error for an illegal cut.
 Box region_of(const Cuts& cuts, Part part);
 
-/// Returns true if the cuts above a part leave no position to it, and no coincident
-/// points that a cut divides. `region` is its region_of().
+/// Returns true if the cuts above a part leave it neither a position nor coincident points that a
+/// cut divides. `region` is its region_of().
 bool is_region_empty(const Cuts& cuts, Part part, const Box& region);
 
-/// Returns true if a closed box contains the position of coincident points on both sides of a cut.
+/// Returns true if a cut divides coincident points, and a closed box contains their position.
 inline bool holds_divided_points(const Box& box, const Cut& cut, int dimension) {
     if (cut.divides == 0) return false;
     for (int a = 0; a < dimension; ++a)

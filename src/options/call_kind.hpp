@@ -6,17 +6,18 @@
 
 namespace rrcb {
 
-/// Returns true if the options limit the places of cuts: by min_width or a grid.
+/// Returns true if the options limit the positions of cuts, by min_width or a grid.
 inline bool are_cuts_limited(const Options& options) {
     return !options.axes.min_width.empty() || !options.axes.grid.empty();
 }
 
-/// Returns true if the cuts are to be moved by counts of all ranks.
+/// Returns true if the cuts are refined by counting the points of all ranks.
 inline bool is_refined(const Options& options) {
     return options.refine != Refine::none;
 }
 
-/// Returns true if many ranks make the parts, see Tuning::central_parts; `options` are complete.
+/// Returns true if many ranks make the parts, see Tuning::central_parts. The options must be
+/// complete.
 inline bool is_spread(const Options& options, int num_ranks) {
     return std::min(options.num_parts, num_ranks) > options.tuning.central_parts &&
            is_refined(options) && !options.axes.order.is_grouped() && !are_cuts_limited(options);

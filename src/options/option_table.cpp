@@ -49,7 +49,8 @@ bool equal_words(std::string_view a, std::string_view b) {
     return upper_case(a) == upper_case(b);
 }
 
-/// Returns the fewest letters to insert, delete or replace that make a text a part of another one.
+/// Returns the least number of letters to insert, delete or replace so that `part` occurs in
+/// `text`.
 std::size_t distance_within(std::string_view part, std::string_view text) {
     std::vector<std::size_t> row(text.size() + 1);
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -66,7 +67,7 @@ std::size_t distance_between(std::string_view a, std::string_view b) {
     return a.size() < b.size() ? distance_within(a, b) : distance_within(b, a);
 }
 
-/// Returns "A", "A or B", "A, B or C".
+/// Joins names as "A", "A or B", "A, B or C".
 std::string choice_between(const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t k = 0; k < names.size(); ++k)
@@ -74,7 +75,8 @@ std::string choice_between(const std::vector<std::string>& names) {
     return text;
 }
 
-/// Returns numbers separated by blanks or commas; nothing if the text contains anything else.
+/// Returns the numbers in a text, which blanks or commas separate. Returns nullopt if the text
+/// contains anything else.
 std::optional<std::vector<double>> numbers_in(std::string_view text) {
     std::vector<double> numbers;
     const char* at = text.data();
@@ -144,7 +146,7 @@ std::string suggestion(std::string_view given, const std::vector<std::string>& n
     std::vector<std::string> nearest;
     for (const std::string& name : names) {
         const std::size_t distance = distance_between(wanted, upper_case(name));
-        // More letters make another word.
+        // If more letters differ, it is another word.
         if (distance > std::min({least, given.size() / 4, name.size() / 4})) continue;
         if (distance < least) nearest.clear();
         nearest.push_back(name);

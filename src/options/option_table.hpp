@@ -13,12 +13,12 @@
 #include <vector>
 
 // Describes each option once. The checks, the comparison between ranks, the parameters of the
-// plug-in, the list for Teuchos and the table of docs/parameters.md follow from it. C++17, as the
-// header of Teuchos' validators is not valid C++20.
+// plug-in, the list for Teuchos and the table of docs/parameters.md are derived from this table. It
+// must be valid C++17, because the header of Teuchos' validators is not valid C++20.
 
 namespace rrcb {
 
-/// Access to a member of Options, or of a struct in it.
+/// Access to a member of Options or of a struct in it.
 template <class Value>
 struct Field {
     Value (*get)(const Options&);
@@ -44,17 +44,17 @@ struct Range {
     Field<Number> field;
     Number least;
     Number most;
-    bool above_least = false;    ///< `least` itself is not legal
-    Number most_in_3d = most;    ///< `most` in 3-D
-    const char* unit = "";       ///< follows a number
-    const char* zero = nullptr;  ///< meaning of 0, if legal beyond the range
+    bool above_least = false;    ///< whether `least` itself is illegal
+    Number most_in_3d = most;    ///< largest value in 3-D
+    const char* unit = "";       ///< unit, written after a number
+    const char* zero = nullptr;  ///< meaning of 0, if 0 is legal although it is outside the range
 };
 
 /// A named value of an option.
 struct Word {
     const char* word;
     int value;
-    const char* text;  ///< its meaning
+    const char* text;  ///< explains the value
 };
 
 /// Values of an option that is an enumeration.
@@ -68,30 +68,33 @@ struct Choice {
     const Word* end() const { return words + num_words; }
 };
 
-/// Throws Error that names the option; `options` have their number of parts.
+/// Checks an option whose legal values depend on others; throws Error that names it. `options` must
+/// already have the number of parts.
 using Check = void (*)(const Options& options, int dimension);
 
-/// Values of one option, or of several that belong together. They cannot be written as text.
+/// Values of one option, or of several that belong together, which cannot be written as text.
 struct Lists {
-    std::vector<double> (*get)(const Options&);  ///< compared between ranks
+    std::vector<double> (*get)(const Options&);  ///< values that ranks compare
     Check check;
 };
 
-/// Values of an option with several numbers for each axis, as text NONE or a row for each axis.
-/// Ranks compare them as part of Lists.
+/// Values of an option with several numbers for each axis. As text they are NONE, or a row of
+/// numbers for each axis. Ranks compare them as part of Lists.
 struct Rows {
     std::vector<double> (*get)(const Options&);
     Check check;
-    bool (*set)(Options&, const std::vector<double>& numbers);  ///< false if they are illegal
+    /// returns false if the numbers are illegal
+    bool (*set)(Options&, const std::vector<double>& numbers);
     std::size_t row_length;
-    const char* text;  ///< content of a row
+    const char* text;  ///< explains the numbers of a row
     const char* example;
 };
 
 struct Option {
-    const char* name;       ///< in Options and errors; empty: a row above has the member
-    const char* parameter;  ///< in the plug-in and in Teuchos' list; empty: in neither
-    const char* text;       ///< its effect
+    const char* name;  ///< name in Options and in errors; empty if an earlier entry has the same
+                       ///< member
+    const char* parameter;  ///< name in the plug-in and in Teuchos' list; empty if it is in neither
+    const char* text;       ///< explains the effect of the option
     std::variant<Range<int>, Range<double>, Choice, Lists, Rows> kind;
 };
 
@@ -115,7 +118,7 @@ inline constexpr Word axis_rule_words[] = {
     {"FEWEST", 0, "the axis with the least weight near the cut, as estimated"},
     {"LONGEST", 1, "its longest axis"}};
 
-/// Returns 0 as well for orders that are no words.
+/// Returns 1 for longest(); 0 for all other orders, including those that no word stands for.
 inline int axis_rule_of(const Options& options) {
     return options.axes.order.is_longest() ? 1 : 0;
 }
@@ -142,7 +145,7 @@ void set_value(Options& options, int value) {
     Member<path...>::set(options, static_cast<typename Member<path...>::Value>(value));
 }
 
-/// The words of an enumeration or a bool at the end of a path.
+/// Makes the Choice for an enumeration or a bool at the end of a path.
 template <auto... path, std::size_t num_words>
 constexpr Choice choice_of(const Word (&words)[num_words]) {
     return {words, num_words, value_of<path...>, set_value<path...>};
@@ -162,7 +165,7 @@ std::vector<double> grid_of(const Options& options);
 bool set_grid(Options& options, const std::vector<double>& numbers);
 void check_grid(const Options& options, int dimension);
 
-/// All options except the observer, which may differ between ranks.
+/// All options except the observer, which may be different on each rank.
 inline constexpr Option option_table[] = {
     {"num_parts", "NUM_GLOBAL_PARTS", "Parts to make",
      Range<int>{field<&Options::num_parts>, 1, std::numeric_limits<int>::max(), false,
@@ -210,21 +213,21 @@ inline constexpr Option option_table[] = {
                 std::numeric_limits<int>::max()}},
 };
 
-/// Returns true if ranks compare the value of the option by itself.
+/// Returns true if ranks compare the value of this option on its own.
 constexpr bool is_compared(const Option& option) {
     return !std::holds_alternative<Rows>(option.kind);
 }
 
-/// Returns the option with a name in Options, or of a parameter; null if there is none, or it is
-/// empty.
+/// Return the option with this name in Options, or with this parameter name. Return null if there
+/// is none or the name is empty.
 const Option* find_option(std::string_view name);
 const Option* find_parameter(std::string_view parameter);
 
 /// Returns the names of all options that can be written as text.
 std::vector<std::string> option_names();
 
-/// Returns the names nearest to an unknown one as the end of an error: "; did you mean refine?".
-/// Returns nothing if no name is near.
+/// Returns the names most similar to an unknown one, as the end of an error: "; did you mean
+/// refine?". Returns an empty text if no name is similar.
 std::string suggestion(std::string_view given, const std::vector<std::string>& names);
 
 /// Calls visit(kind) with the kind of the option's values.
@@ -233,27 +236,28 @@ decltype(auto) visit_kind(const Option& option, Visit&& visit) {
     return std::visit(visit, option.kind);
 }
 
-/// Returns true if the value in `options` is legal in this dimension; always for lists.
+/// Returns true if the option's value in `options` is legal in this dimension. Always true for
+/// lists.
 bool is_legal(const Option& option, const Options& options, int dimension);
 
-/// Returns the condition on a number for the text of an error: "at least 1".
+/// Returns the condition that a number must meet, for the text of an error: "at least 1".
 std::string requirement(const Option& option, int dimension);
 
-/// Returns the legal texts of the option: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
+/// Returns the legal values in words: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
 std::string legal_values(const Option& option);
 
-/// Returns the texts that read_option() reads: "a whole number, 1 or more, or 0 or AUTO for one
+/// Returns the texts that read_option() accepts: "a whole number, 1 or more, or 0 or AUTO for one
 /// part per rank".
 std::string texts_of(const Option& option);
 
 /// Returns a sentence on the effect and the values of the option.
 std::string documentation(const Option& option);
 
-/// Reads a value that is legal in some dimension: a number, a word in any case, or AUTO for a 0
-/// with a meaning. Returns false, and sets nothing, if the value is illegal.
+/// Reads a value: a number, a word in upper or lower case, or AUTO for a 0 that has a meaning. The
+/// value must be legal in some dimension; otherwise returns false and sets nothing.
 bool read_option(const Option& option, std::string_view text, Options& options);
 
-/// Returns the value in the form of read_option().
+/// Returns the value as a text that read_option() accepts.
 std::string write_option(const Option& option, const Options& options);
 
 }  // namespace rrcb

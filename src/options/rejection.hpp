@@ -15,7 +15,7 @@ inline void require(bool condition, const char* what) {
     if (!condition) reject(what);
 }
 
-/// Throws Error, without the text if there is no memory for it.
+/// Throws Error; its text is empty if there is no memory for it.
 template <class MakeText>
 [[noreturn]] void throw_error(ErrorCode code, MakeText&& make_text) {
     try {
@@ -25,7 +25,7 @@ template <class MakeText>
     }
 }
 
-/// Runs a public function that is not collective: running out of memory becomes an Error.
+/// Runs a public function that is not collective, and converts std::bad_alloc to Error.
 template <class Body>
 auto locally(Body&& body) {
     try {

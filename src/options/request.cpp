@@ -28,7 +28,7 @@ void add(double value, std::uint64_t& hash) {
 }  // namespace
 
 std::uint64_t arithmetic_in_use() {
-    // Volatile, so that it is computed when called and not when compiled.
+    // The numbers are volatile, so that they are computed at run time and not by the compiler.
     const volatile double one = 1;
     const volatile double tiny = std::numeric_limits<double>::epsilon() / 1024;
     const volatile double normal = std::numeric_limits<double>::min();

@@ -24,7 +24,7 @@ std::string tally(std::size_t bad) {
            " on this rank)";
 }
 
-/// Returns true if `axes` are in one array, point after point.
+/// Returns true if `axes` are interleaved in one array.
 template <class Axes>
 bool are_interleaved(const Points& points, const Axes& axes) {
     const auto dimension = static_cast<std::size_t>(points.dimension);
@@ -54,8 +54,8 @@ void check_axes(const Points& points, const Axes& axes) {
     }
 }
 
-/// Throws Error if the coordinates do not fit the dimension and number of the points. They may be
-/// NaN or infinite.
+/// Throws Error if the arrays of coordinates do not fit the dimension and number of the points.
+/// Coordinates may be NaN or infinite.
 void check_coordinates(const Points& points) {
     check_dimension(points.dimension, "points");
     require(points.stride >= 1,
@@ -69,13 +69,13 @@ void check_coordinates(const Points& points) {
     }
 }
 
-/// Returns true if the tree holds all of its cuts.
+/// Returns true if the number of cuts in the tree fits the number of parts and the shape.
 bool has_its_cuts(const Cuts& cuts) {
     return cuts.num_parts >= 1 && cuts.shape.group_size >= 1 &&
            cuts.shape.number_fits(cuts.num_parts) && std::ssize(cuts.tree) + 1 == cuts.num_parts;
 }
 
-/// Returns true if each part is at one end of the tree.
+/// Returns true if each part is at exactly one end of the tree.
 bool has_legal_numbers(const Cuts& cuts) {
     if (cuts.numbers.empty()) return std::isfinite(cuts.debt);
     std::vector<bool> is_there(static_cast<std::size_t>(cuts.num_parts));
@@ -93,7 +93,7 @@ bool has_legal_cuts(const Cuts& cuts) {
     });
 }
 
-/// Returns true if axes are different ones from 0 to before `end`.
+/// Returns true if all axes are different and in the range from 0 to `end` - 1.
 bool are_distinct(std::span<const int> axes, int end) {
     std::array<bool, max_dimension> named{};
     return std::ranges::all_of(axes, [&](int axis) {
@@ -125,8 +125,8 @@ void check_given(std::span<const int> axes, int num_parts, int dimension) {
         require(axis >= 0 && axis < dimension, "axes.order must hold axes of the points");
 }
 
-/// Returns groups of the parts of each machine. Returns none if halving makes the same tree, or if
-/// parts cannot be shared evenly by the ranks.
+/// Returns a shape whose groups are the parts of each machine. Returns no groups if halving makes
+/// the same tree, or if the ranks cannot have equal numbers of parts.
 TreeShape shape_by_machines(int num_parts, const Ranks& ranks) {
     const bool is_full = ranks.number % ranks.per_machine == 0;
     const auto machines = static_cast<unsigned>((ranks.number - 1) / ranks.per_machine + 1);
@@ -144,7 +144,7 @@ Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
         require(options.tree.dealt == 0, "tree.dealt needs tree.group_size; set both, or neither");
         const TreeShape shape =
             previous ? previous->shape : shape_by_machines(options.num_parts, ranks);
-        // If many ranks make the parts, each needs consecutive ones.
+        // If many ranks make the parts, the parts of each rank must be consecutive.
         const bool is_central =
             std::min(options.num_parts, ranks.number) <= options.tuning.central_parts;
         const bool fits = shape.dealt == 0 || (is_central && shape.number_fits(options.num_parts));

@@ -18,7 +18,7 @@ namespace rrcb {
 
 namespace {
 
-/// Copies a block of points; returns a number whose highest bit is 1 if a coordinate is not finite.
+/// Copies a block of points. Returns a number whose highest bit is 1 if a coordinate is not finite.
 template <class Layout>
 RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, LocalIndex length,
                                             Columns& columns) {
@@ -29,17 +29,20 @@ RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, L
         for (int axis = 0; axis < Layout::dimension; ++axis) {
             const double value = x(first + i, axis);
             columns[axis][i] = value;
-            // Only the largest exponent, that of infinities and NaN, carries into the sign.
+            // Only the largest exponent, which infinities and NaN have, carries into the sign bit.
             carries |= (std::bit_cast<std::uint64_t>(value) & magnitude) + lowest_of_exponent;
         }
     }
     return carries;
 }
 
-/// Bounds of the points that no cut leaves to another part, one for each part, along each axis.
+/// Bounds for each part along each axis. A point within the bounds of its part remains in the part
+/// wherever each cut ends in its interval.
 struct SettledBounds {
-    std::array<std::vector<double>, max_dimension> least{};   ///< points at them are settled
-    std::array<std::vector<double>, max_dimension> beyond{};  ///< points below them are
+    /// points from here on are within the bounds
+    std::array<std::vector<double>, max_dimension> least{};
+    /// points below this are within the bounds
+    std::array<std::vector<double>, max_dimension> beyond{};
 
     void add(const Cuts& cuts, std::span<const Bracket> intervals, const Descent& at,
              const Box& box) {
@@ -61,7 +64,7 @@ struct SettledBounds {
     }
 };
 
-/// Marks the points beyond the bounds of their part along one axis.
+/// Marks the points outside the bounds of their part along one axis.
 RRCB_VECTOR_CLONES void mark_open(const double* x, const double* least, const double* beyond,
                                   const Part* parts, LocalIndex length, std::int32_t* is_open) {
     for (LocalIndex i = 0; i < length; ++i)
@@ -71,15 +74,15 @@ RRCB_VECTOR_CLONES void mark_open(const double* x, const double* least, const do
 /// Finds the ends of the tree for points block by block.
 class Assigner {
   public:
-    /// `cuts` outlive it.
+    /// The cuts must outlive this object.
     explicit Assigner(const Cuts& cuts) : tree_(cuts) {}
 
-    /// Leaves points beyond the bounds of their part without one; if `has_parts`, it is that which
-    /// they have.
+    /// Gives no part to points outside the bounds of their part. If `has_parts`, points already
+    /// have their parts; otherwise these are found first.
     Assigner(const Cuts& cuts, const SettledBounds& bounds, bool has_parts)
         : tree_(cuts), bounds_(&bounds), finds_(!has_parts) {}
 
-    /// Calls `visit(first, length)` for each block whose `parts` are found. Returns whether all
+    /// Calls visit(first, length) for each block after its `parts` are found. Returns whether all
     /// coordinates are finite; stops at the first block in which one is not.
     template <class Visit>
     bool run(const Points& points, std::span<Part> parts, Visit&& visit) {
@@ -115,8 +118,8 @@ class Assigner {
     Columns columns_{};
 };
 
-/// Counts in turns, as an increment waits for the last one of the same number. Points without a
-/// part have a count of their own.
+/// Counts the points of each part. Uses several counters in turn, because an increment has to wait
+/// for the previous one of the same counter. Points without a part are counted separately.
 class Counter {
   public:
     explicit Counter(std::size_t num_parts) : counts_(num_parts + 1) {}
@@ -141,7 +144,7 @@ class Counter {
     std::vector<std::array<LocalIndex, num_turns>> counts_;
 };
 
-/// Returns totals of the ends of the tree.
+/// Finds the ends of the tree and returns the totals of each.
 EndTotals count_ends(Assigner& assigner, const Points& points, std::span<Part> parts) {
     EndTotals totals;
     Counter counter(assigner.num_ends());

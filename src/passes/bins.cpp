@@ -10,7 +10,7 @@ namespace rrcb {
 
 Bins::Bins(double lower, double upper, bool by_bits, int num_bins)
     : lower_(lower), upper_(upper), num_bins_(num_bins), by_bits_(by_bits) {
-    // A bracket with the largest double ends at infinity; its width is still finite.
+    // A bracket that contains the largest double ends at infinity; this keeps its width finite.
     using Limits = std::numeric_limits<double>;
     const double end = std::min(upper, Limits::max());
     width_ = end / num_bins - lower / num_bins;
@@ -19,11 +19,11 @@ Bins::Bins(double lower, double upper, bool by_bits, int num_bins)
     const bool is_sure = bins_a_length_ > 0 && end / 2 - lower / 2 <= Limits::max() / 2;
     if (is_sure) sure_ = 0.5 - std::ldexp(rounded, -50);
     lower_rank_ = double_rank(lower);
-    // Modulo 2^64: the difference of two numbers of doubles may overflow a signed integer.
+    // Computes modulo 2^64, because the difference of two ranks may overflow a signed integer.
     num_doubles_ =
         static_cast<std::uint64_t>(double_rank(upper)) - static_cast<std::uint64_t>(lower_rank_);
     const auto bins = static_cast<std::uint64_t>(num_bins);
-    // With so few doubles, rounded edges would coincide.
+    // If there are so few doubles, rounded edges would coincide.
     by_bits_ = by_bits_ || num_doubles_ < bins * bins;
     doubles_a_bin_ = std::max<std::uint64_t>(1, num_doubles_ / bins + (num_doubles_ % bins != 0));
 }

@@ -11,7 +11,7 @@
 
 namespace rrcb {
 
-/// A support mesh as the loop over points needs it, one entry per axis.
+/// A support mesh in the form that the loop over points needs: one entry per axis.
 struct CellFinder {
     explicit CellFinder(const SupportMesh& mesh) : scale(mesh.scale) {
         for (std::size_t a = 0; a < max_dimension; ++a) {
@@ -27,16 +27,16 @@ struct CellFinder {
     Vector lower{};
     Vector cells_per_length{};
     std::array<std::int32_t, max_dimension> num_cells{};
-    Vector below_num_cells{};  ///< greatest double below num_cells
-    bool is_open = false;      ///< points may be below the frame
+    Vector below_num_cells{};  ///< largest double below num_cells
+    bool is_open = false;      ///< whether points may be below the frame
 };
 
-/// As find_cells(), for a mesh open as stated.
+/// As find_cells(), with `is_open` of the mesh as a constant.
 template <bool is_open, class Layout>
 RRCB_ARITHMETIC_CLONES void find_cells_of(const CellFinder& mesh, const Layout& points,
                                           LocalIndex first, LocalIndex length,
                                           std::int32_t* cells) {
-    // Copies: the compiler need not reload them after the writes below.
+    // These copies need not be reloaded after each of the writes below.
     const CellFinder to = mesh;
     const Layout x = points;
     for (LocalIndex i = 0; i < length; ++i) {
@@ -53,7 +53,7 @@ RRCB_ARITHMETIC_CLONES void find_cells_of(const CellFinder& mesh, const Layout& 
     }
 }
 
-/// Finds the cells of consecutive points. Repeating it is cheaper than keeping the cells in memory.
+/// Finds the cells of consecutive points. Computing them again is cheaper than storing them.
 template <class Layout>
 void find_cells(const CellFinder& mesh, const Layout& points, LocalIndex first, LocalIndex length,
                 std::int32_t* cells) {
@@ -64,7 +64,7 @@ void find_cells(const CellFinder& mesh, const Layout& points, LocalIndex first, 
     }
 }
 
-/// Calls visit(i, cell) for the points from `first` up to `last`.
+/// Calls visit(i, cell) for the points from `first` to `last` - 1.
 template <class Layout, class Visit>
 void visit_cells(const CellFinder& mesh, const Layout& x, LocalIndex first, LocalIndex last,
                  const Visit& visit) {

@@ -11,14 +11,14 @@ namespace rrcb {
 
 namespace {
 
-/// Throws Error if a function of the passes returned `found` items instead of `wanted`.
+/// Throws Error if a function of the passes returned `found` items although `wanted` are needed.
 void check_length(const char* function, const char* items, std::size_t found, std::size_t wanted) {
     if (found == wanted) return;
     reject("PointPasses::" + std::string(function) + "() returned " + std::to_string(found) + " " +
            items + ", but " + std::to_string(wanted) + " are needed");
 }
 
-/// As check_length(), for weights, which may be left out if every point weighs 1.
+/// As check_length(), for weights, which may be empty if every point has weight 1.
 void check_weights(const char* function, std::size_t found, std::size_t num_points) {
     if (found > 0) check_length(function, "weights of points", found, num_points);
 }
@@ -39,8 +39,8 @@ void check_collected(const char* function, const Collected& collected, int dimen
     check_totals(function, collected.settled, num_parts);
 }
 
-/// Throws Error if cells are not in ascending order, or lack points; those of weight 0 may be
-/// missing.
+/// Throws Error if cells are not in ascending order, or if points are missing in them. Points of
+/// weight 0 may be missing.
 void check_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
                  const PointSummary& points, bool are_counted) {
     constexpr double round_off = 1e-6;

@@ -4,10 +4,10 @@
 
 namespace rrcb {
 
-/// Passes of a caller, with the lengths of all that they return compared with what was asked for.
+/// The caller's passes, with checks of the lengths of everything that they return.
 ///
-/// Each function throws Error if a length is wrong; its text names the function of the passes, the
-/// length returned and the right one.
+/// If a length is wrong, throws Error whose text names the function, the length that it returned,
+/// and the right length.
 class CheckedPasses final : public PointPasses {
   public:
     /// Borrows the caller's passes.
@@ -39,7 +39,7 @@ class CheckedPasses final : public PointPasses {
   private:
     PointPasses& given_;
     bool are_weights_used_ = true;
-    PointSummary summary_{};  ///< with weights
+    PointSummary summary_{};  ///< with the weights
 };
 
 }  // namespace rrcb

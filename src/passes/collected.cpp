@@ -11,14 +11,14 @@ namespace rrcb {
 
 namespace {
 
-/// Allocates memory for `count` entries, which may be all points of the rank.
+/// Reserves memory for `count` entries, which may be as many as the points of the rank.
 void reserve(LocalIndex count, const Points& points, Collected& collected) {
     collected.original.reserve(count);
     collected.coordinates.reserve(count * static_cast<LocalIndex>(points.dimension));
     if (!points.weights.empty()) collected.weights.reserve(count);
 }
 
-/// Makes room for `count` entries.
+/// Sets the number of entries to `count`.
 void resize(LocalIndex count, const Points& points, Collected& collected) {
     collected.original.resize(count);
     collected.coordinates.resize(count * static_cast<LocalIndex>(points.dimension));
@@ -51,15 +51,15 @@ void append(const Layout& x, const Points& points, std::span<const LocalIndex> i
         copy(x, points, indices[k], before + k, collected);
 }
 
-/// Calls `visit(layout, indices)` with the points of each block for which `is_found(layout,
-/// index)`.
+/// Finds in each block the points for which is_found(layout, index) is true, and calls
+/// visit(layout, indices) with them.
 template <class Test, class Visit>
 void visit_in_blocks(const Points& points, const Test& is_found, Visit&& visit) {
     constexpr LocalIndex points_in_block = 512;
     std::array<LocalIndex, points_in_block> found;
     visit_layout(points, [&](const auto& x) {
         in_ranges(points.count, points_in_block, [&](LocalIndex first, LocalIndex last) {
-            // Without branches, because the points come in any order.
+            // Has no branches, because they would be mispredicted for points in any order.
             std::size_t num_found = 0;
             for (LocalIndex i = first; i < last; ++i) {
                 found[num_found] = i;
@@ -86,8 +86,8 @@ void HostPasses::collect(const Cuts& cuts, std::span<const Bracket> intervals, b
 
 namespace {
 
-/// Returns which of the wanted nodes holds each part, or their number; behind such a number for
-/// points without a part.
+/// Returns the index of the wanted node that contains each part, or the number of wanted nodes if
+/// none does. The first entry is for points without a part.
 std::vector<std::size_t> wanted_of_parts(std::span<const Wanted> wanted, std::size_t num_parts) {
     std::vector<std::size_t> of_parts(num_parts + 1, wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k)
@@ -95,7 +95,7 @@ std::vector<std::size_t> wanted_of_parts(std::span<const Wanted> wanted, std::si
     return of_parts;
 }
 
-/// Weighs once more the points left in parts of wanted nodes.
+/// Adds up the weights again of the points that remain in parts of wanted nodes.
 void weigh_again(const Points& points, std::span<const Part> parts,
                  std::span<const std::size_t> of_parts, std::vector<double>& part_weights) {
     RunningSums<double> weights(of_parts.size());
@@ -114,7 +114,7 @@ std::vector<std::size_t> HostPasses::collect_more(std::span<const Wanted> wanted
     PartTotals& settled = collected.settled;
     const auto of_parts = wanted_of_parts(wanted, settled.weights.size());
     std::vector<Wanted> all(wanted.begin(), wanted.end());
-    all.emplace_back();  // empty, of the other parts
+    all.emplace_back();  // an empty node, for the other parts
     std::vector<std::size_t> found;
     const auto is_found = [&](const auto& x, LocalIndex i) {
         const Wanted& node = all[of_parts[parts_[i] + 1]];

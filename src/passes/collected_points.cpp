@@ -58,7 +58,7 @@ CollectedPoints::CollectedPoints(PointPasses& points, const Cuts& cuts,
         for (LocalIndex i = 0; i < collected_.count(); ++i) send(root, i);
         return;
     }
-    // Any cut that may end anywhere leaves all points open.
+    // A cut whose interval is infinite leaves all points open.
     const Bracket anywhere{-infinity, infinity};
     const Cuts halves{.dimension = cuts.dimension, .num_parts = 2, .tree = {plane(0, 0)}};
     points_.collect(halves, {&anywhere, 1}, false, collected_);
@@ -172,7 +172,7 @@ void CollectedPoints::narrow(const Cut& cut, const Entries& entries, Gap& gap) c
     }
 }
 
-/// Narrows a gap along its first axis by the settled points, which are not at the cut.
+/// Narrows a gap along its first axis by the settled points, none of which is exactly at the cut.
 void CollectedPoints::narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap) {
     if (part_boxes_.empty()) {
         part_boxes_ = points_.boxes(num_parts_);
@@ -186,7 +186,7 @@ void CollectedPoints::narrow_by_parts(const Descent& at, const Cut& cut, Gap& ga
         gap[0] = std::max(gap[0], -part_boxes_[p].lower[cut.axis]);
 }
 
-/// Takes what waits at a node, which then has no candidates.
+/// Removes and returns the points that wait at a node, which then has no candidates.
 Entries CollectedPoints::take_at(const Descent& at) {
     chosen_.erase(place_of(at));
     if (has_cuts()) return std::exchange(waiting_[at.node], {});
@@ -194,7 +194,8 @@ Entries CollectedPoints::take_at(const Descent& at) {
     return taken.empty() ? Entries{} : std::move(taken.mapped());
 }
 
-/// Returns 1 for each entry above a cut. If the cut divides, the entries ascend.
+/// Returns 1 for each entry above a cut, and 0 for the others. If the cut divides coincident
+/// points, the entries must ascend.
 std::vector<char> CollectedPoints::sides_of(const Entries& entries, const Cut& cut,
                                             const Lot& lot) const {
     double sum = 0;
@@ -222,7 +223,7 @@ void CollectedPoints::cut(const Descent& at, const Cut& cut, const Lot& lot) {
         Entries entries = take_at(at);
         if (lot.below > 0) std::ranges::sort(entries);
         const std::vector<char> sides = sides_of(entries, cut, lot);
-        // Exact lengths, because the entries may be all points of the rank.
+        // Reserves exact lengths, because the entries may be all points of the rank.
         const auto num_above = static_cast<std::size_t>(std::ranges::count(sides, 1));
         lower.reserve(entries.size() - num_above);
         upper.reserve(num_above);
@@ -242,7 +243,7 @@ void CollectedPoints::send(const Descent& from, const Entries& entries) {
     for (const LocalIndex i : entries) send(from, i);
 }
 
-/// Lets a point go down to its part, or to the first node where it waits.
+/// Moves a point down the tree, to its part or to the first node where it has to wait.
 void CollectedPoints::send(const Descent& from, LocalIndex i) {
     std::size_t node = from.node;
     Part first_part = from.first_part;
@@ -264,7 +265,7 @@ void CollectedPoints::send(const Descent& from, LocalIndex i) {
     settle(i, first_part);
 }
 
-/// Settles a point in a part; adds it to the totals.
+/// Settles a point in a part and adds it to the totals.
 void CollectedPoints::settle(LocalIndex i, Part part) {
     parts_[i] = part;
     arrived_[part] = arrived_[part] + Total{collected_.weight(i), 1};
@@ -293,7 +294,7 @@ void CollectedPoints::widen(std::span<const WiderNode> nodes) {
     parts_.resize(next, no_part);
 }
 
-/// Takes what waits below nodes or has arrived there.
+/// Removes and returns the points that wait at or below some nodes, or have arrived in their parts.
 std::vector<Entries> CollectedPoints::take_below(std::span<const WiderNode> nodes) {
     std::vector<Entries> taken(nodes.size());
     std::vector<std::size_t> node_of_part(arrived_.size(), nodes.size());
@@ -317,7 +318,7 @@ std::vector<Entries> CollectedPoints::take_below(std::span<const WiderNode> node
     return taken;
 }
 
-/// Settles the points that wait at a node or below, by the cuts.
+/// Settles the points that wait at or below a node, according to the cuts.
 void CollectedPoints::settle_waiting(const Descent& at) {
     if (at.is_part()) return;
     for (const LocalIndex i : take_at(at))

@@ -9,10 +9,11 @@
 
 namespace rrcb {
 
-/// Open points as copies on the host, collected by any passes.
+/// Open points as copies on the host, which any passes can collect.
 class CollectedPoints final : public OpenPoints {
   public:
-    /// Collects points as PointPasses::open() describes. Borrows all except the intervals.
+    /// Collects points as described at PointPasses::open(). Borrows all arguments except the
+    /// intervals.
     CollectedPoints(PointPasses& points, const Cuts& cuts, std::span<const Bracket> intervals,
                     bool has_parts, OpenMemory& memory);
 
@@ -32,13 +33,13 @@ class CollectedPoints final : public OpenPoints {
     std::vector<double> settle() override;
 
   private:
-    /// A node as points meet it, in few bytes.
+    /// What a point needs of a node on its way down, in few bytes.
     struct Step {
         Bracket interval{};
         int axis = 0;
         int lower_parts = 0;
     };
-    /// First part and number of parts of a node, or of a part.
+    /// Identifies a node or a part: its first part and its number of parts.
     using Place = std::pair<Part, int>;
     static Place place_of(const Descent& at) { return {at.first_part, at.num_parts}; }
 
@@ -61,17 +62,18 @@ class CollectedPoints final : public OpenPoints {
     void narrow_by_parts(const Descent& at, const Cut& cut, Gap& gap);
 
     PointPasses& points_;
-    OpenMemory& memory_;  ///< gets the points back
+    OpenMemory& memory_;  ///< takes the memory of the points back at the end
     Collected collected_;
-    std::vector<Part> parts_;  ///< of the collected points, no_part of those that wait
+    std::vector<Part> parts_;  ///< parts of the collected points; no_part while they wait
     int num_parts_;
     const Cuts* cuts_ = nullptr;       ///< null in a tree without cuts
-    std::vector<Step> steps_;          ///< at each node of the cuts
-    std::vector<Total> arrived_;       ///< totals of the collected points with parts
-    std::vector<Entries> waiting_;     ///< at each node of the cuts, or
-    std::map<Place, Entries> held_;    ///< at nodes of a tree without cuts, and at its parts
-    std::map<Place, Entries> chosen_;  ///< candidates of nodes
-    std::vector<Box> part_boxes_;      ///< of settled points; empty until a gap needs them
+    std::vector<Step> steps_;          ///< one for each node of the cuts
+    std::vector<Total> arrived_;       ///< totals of the collected points in each part
+    std::vector<Entries> waiting_;     ///< points at each node of the cuts; used if there are cuts
+    std::map<Place, Entries> held_;    ///< points at nodes and parts of a tree without cuts
+    std::map<Place, Entries> chosen_;  ///< candidates chosen at nodes
+    std::vector<Box> part_boxes_;  ///< boxes of the settled points of each part; empty until a gap
+                                   ///< needs them
 };
 
 }  // namespace rrcb

@@ -55,7 +55,8 @@ void count(const Collected& collected, const Entries& entries, int axis, const B
 
 void count_sums(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
                 const HistogramLayout& layout, std::span<double> sums) {
-    const Bins of_axis = bins;  // a copy, which no sum can overlap
+    const Bins of_axis =
+        bins;  // a local copy, so that the compiler knows that sums do not alias it
     const std::span<double> weights = sums.first(layout.is_weighted ? layout.num_slots() : 0);
     const std::span<double> counts = sums.last(layout.num_slots());
     for (const LocalIndex i : entries) {
@@ -89,7 +90,7 @@ Entries between(double lower, double upper, int axis, const Entries& entries,
                 const Collected& collected) {
     Entries inside(entries.size());
     std::size_t num_inside = 0;
-    // Without branches, because the points come in any order.
+    // Has no branches, because they would be mispredicted for points in any order.
     for (const LocalIndex i : entries) {
         const double x = collected.coordinate(i, axis);
         inside[num_inside] = i;

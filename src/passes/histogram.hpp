@@ -23,16 +23,15 @@ struct Total {
     }
 };
 
-/// Layout of a histogram, the data of one search in a round: weights and counts in the slots of a
-/// bracket.
+/// Layout of a histogram: the numbers that a rank sends about one search in a round.
 ///
-/// The first num_extents entries are joined by their maximum: minus the lower ends of the extent,
-/// and its upper ends. They are followed by the weights, unless points count as 1, and the counts
-/// of all slots, to be summed.
+/// The first num_extents entries are joined by their maximum: the negative lower ends and the upper
+/// ends of the points' extent. Then follow the weights of all slots, unless every point counts as
+/// 1, and the numbers of points of all slots; these are joined by their sum.
 struct HistogramLayout {
     int num_bins = 64;
     bool is_weighted = true;
-    std::array<AxisLimits, max_dimension> limits{};  ///< grids; their lines are edges of bins
+    std::array<AxisLimits, max_dimension> limits{};  ///< grids whose lines are the edges of bins
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
     static constexpr std::size_t num_extents = std::size_t{2} * max_dimension;
@@ -56,26 +55,26 @@ inline std::span<const double> counts_in(std::span<const double> histogram,
     return histogram.subspan(layout.first_count(), layout.num_slots());
 }
 
-/// Adds collected points: weights and counts in bins across an axis, and extents.
+/// Adds collected points to a histogram: weights and counts in bins across an axis, and the extent.
 void count(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
            const HistogramLayout& layout, std::span<double> histogram);
 
-/// Adds collected points to the sums of a histogram across an axis.
+/// Adds collected points to the sums of a histogram across an axis, but not to its extent.
 void count_sums(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
                 const HistogramLayout& layout, std::span<double> sums);
 
-/// Adds settled points of a box to a slot.
+/// Adds the total of settled points in a box to a slot.
 void count_settled(const Total& total, const Box& box, int slot, const HistogramLayout& layout,
                    std::span<double> histogram);
 
 /// Rounds the weights in the sums of a histogram to multiples of a quantum.
 void round_weights(double quantum, const HistogramLayout& layout, std::span<double> sums);
 
-/// Joins the histogram of other ranks. Any order gives the same bits if weights are multiples of a
-/// common quantum.
+/// Joins the histogram of other ranks. If weights are multiples of a common quantum, any order
+/// gives bit-identical sums.
 void join_histograms(std::span<const double> other, std::span<double> histogram);
 
-/// Returns the entries from `lower` to below `upper` across an axis.
+/// Returns the entries with lower <= x < upper across an axis.
 Entries between(double lower, double upper, int axis, const Entries& entries,
                 const Collected& collected);
 

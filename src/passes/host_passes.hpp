@@ -9,7 +9,7 @@
 
 namespace rrcb {
 
-/// Passes over the arrays of the host, which are borrowed. Reuses memory for the parts.
+/// Passes over arrays on the host, which are borrowed. The memory for the parts can be reused.
 class HostPasses final : public PointPasses {
   public:
     explicit HostPasses(const Points& points, std::vector<Part> memory = {});
@@ -32,7 +32,7 @@ class HostPasses final : public PointPasses {
     std::vector<Part> parts() const override { return parts_; }
     void set_parts(std::span<const Part> parts) override;
 
-    /// Returns the parts, one per point from the first summary() on.
+    /// Returns the parts, one for each point after the first summary().
     std::span<Part> parts_here() { return parts_; }
     /// Moves the parts out.
     std::vector<Part> take_parts() { return std::move(parts_); }

@@ -15,12 +15,14 @@ namespace rrcb {
 
 namespace {
 
-/// Sums over the points of one cell, d relative to its origin, in scaled lengths.
+/// Sums over the points of one cell. d is the position relative to the origin of the cell, in
+/// scaled lengths; w is the weight.
 template <std::size_t Dimension, bool Weighted>
 struct CellSum {
-    std::array<double, Dimension> first{};                                ///< of w d
-    std::array<double, Dimension> second{};                               ///< of w d^2
-    [[no_unique_address]] std::array<double, Weighted ? 1 : 0> weight{};  ///< of all, if given
+    std::array<double, Dimension> first{};   ///< sum of w d
+    std::array<double, Dimension> second{};  ///< sum of w d^2
+    /// sum of w, if points have weights
+    [[no_unique_address]] std::array<double, Weighted ? 1 : 0> weight{};
 
     CellSum& operator+=(const CellSum& other) {
         for (std::size_t a = 0; a < Dimension; ++a) first[a] += other.first[a];
@@ -30,28 +32,31 @@ struct CellSum {
     }
 };
 
-/// A cell while points are added: 64 bytes in 2-D, a size cheap to multiply by.
+/// A cell while points are added. It has 64 bytes in 2-D, a size by which an index is cheaply
+/// multiplied.
 template <std::size_t Dimension, bool Weighted>
 struct alignas(2 * sizeof(double)) RunningCell : CellSum<Dimension, Weighted> {
-    std::array<double, Dimension> origin{};  ///< its first point, unless another is set
-    LocalIndex num_others = -1;              ///< number of its points, less one
+    std::array<double, Dimension> origin{};  ///< its first point, unless move_origins() has set
+                                             ///< another
+    LocalIndex num_others = -1;              ///< number of its points minus 1
 };
 
-/// Returns true if an origin is too far from the mean. The variance is the mean of the squares less
-/// the square of that distance; it would lose more than a digit.
+/// Returns true if an origin is too far from the mean. The variance is the mean of the squares
+/// minus the square of this distance, so it would lose more than a digit.
 bool is_far_off(double first, double second, double weight) {
     constexpr double most_variances = 16;
     const double rest = first / weight;
     return rest * rest * (most_variances + 1) > second / weight * most_variances;
 }
 
-/// Returns a power of two to keep weights times squared lengths in range.
+/// Returns a power of two that keeps weights times squared lengths within the range of doubles.
 double scale_of_weights(std::span<const double> weights) {
     constexpr int harmless_exponent = 200;
     return safe_scale(weights.empty() ? 0 : std::ranges::max(weights), harmless_exponent);
 }
 
-/// Finds the cells of a block of points by vectors, and adds the block up while it is in the cache.
+/// Finds the cells of a block of points by vector instructions, and adds up the block while it is
+/// in the cache.
 template <class Layout, bool Weighted>
 class Binner {
     static constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
@@ -88,7 +93,7 @@ class Binner {
         });
     }
 
-    /// Returns a function to add point `i` to its cell. It captures copies, so that the compiler
+    /// Returns a function that adds point `i` to its cell. It captures copies, so that the compiler
     /// knows that nothing overlaps the sums.
     auto adder() {
         return [points = x_, scale = scale_, cells = &sums_[0], weights = points_.weights.data(),
@@ -99,7 +104,8 @@ class Binner {
             for (std::size_t a = 0; a < dimension; ++a)
                 x[a] = points(i, static_cast<int>(a)) * scale[a];
             if (++cell.num_others == 0) cell.origin = x;
-            // Copies, and one loop for each sum: otherwise the loops would not be vectorized.
+            // Copies the position and has one loop for each sum, because otherwise the loops would
+            // not be vectorized.
             for (std::size_t a = 0; a < dimension; ++a) x[a] -= cell.origin[a];
             Position moment = x;
             [[maybe_unused]] const double weight = Weighted ? weights[i] * weight_scale : 1;
@@ -122,9 +128,9 @@ class Binner {
             return static_cast<double>(count_of(cell));
     }
 
-    /// Moves far-off origins to the mean and forgets the sums; returns false if all are near. Only
-    /// a first point that is an outlier among many is so far off: of n points of equal weight none
-    /// is more than sqrt(n) standard deviations from the mean.
+    /// Moves origins that are too far off to the mean, and resets their sums. Returns false if
+    /// there are none. An origin is so far off only if the first point is an outlier among many: of
+    /// n points of equal weight, none is more than sqrt(n) standard deviations from the mean.
     bool move_origins() {
         RunningSums<Sum, Running> moved(sums_.totals().size());
         bool is_moved = false;
@@ -152,7 +158,7 @@ class Binner {
         result.moments.count = static_cast<GlobalCount>(count_of(cell));
         result.moments.weight = weight / weight_scale_;
         for (std::size_t a = 0; a < dimension; ++a) {
-            // No more than a digit is lost: see is_far_off.
+            // This loses no more than a digit; see is_far_off().
             const double rest = sum.first[a] / weight;
             result.moments.mean[a] = (sums_[cell].origin[a] + rest) / scale_[a];
             result.moments.deviation[a] =
@@ -167,11 +173,11 @@ class Binner {
     double weight_scale_;
     Position scale_{};
     RunningSums<Sum, Running> sums_;
-    LocalIndex num_origins_ = 1;  ///< points of a cell at its origin
+    LocalIndex num_origins_ = 1;  ///< number of points of a cell that are at its origin
 };
 
-/// Returns the moments of cells as cell_moments(), of unchecked points. One pass, or two
-/// if the first point of a cell is far off.
+/// Returns the moments of cells as cell_moments(), without checking the points. Reads the points
+/// once, or twice if the first point of a cell is far off.
 std::vector<CellMoments> moments_of_cells(const Points& points, const SupportMesh& mesh) {
     auto cells = visit_layout(points, [&]<class Layout>(const Layout& x) {
         return points.weights.empty() ? Binner<Layout, false>(x, points, mesh).run()
@@ -185,8 +191,8 @@ std::vector<CellMoments> moments_of_cells(const Points& points, const SupportMes
     return cells;
 }
 
-/// Returns the mean of two groups, from the mean and the share of each; between `a` and `b`
-/// whatever the rounding.
+/// Returns the mean of two groups from the mean and the share of each. The result is between `a`
+/// and `b` in spite of rounding.
 double joint_mean(double a, double share_a, double b, double share_b) {
     // With opposite signs the difference may overflow; with the same sign it is exact enough.
     const double mean =
@@ -214,7 +220,7 @@ Moments merge(const Moments& a, const Moments& b) {
         const double deviation = std::hypot(std::sqrt(share_a) * a.deviation[axis],
                                             std::sqrt(share_b) * b.deviation[axis],
                                             2 * std::sqrt(share_a * share_b) * half_distance);
-        // Rounding may lead beyond the largest double.
+        // Rounding may exceed the largest double.
         joint.deviation[axis] = std::min(deviation, std::numeric_limits<double>::max());
     }
     return joint;

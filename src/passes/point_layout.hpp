@@ -4,7 +4,7 @@
 
 namespace rrcb {
 
-/// Points whose coordinates are consecutive.
+/// Points whose coordinates are interleaved in one array.
 template <int Dimension, class Scalar>
 struct InterleavedLayout {
     static constexpr int dimension = Dimension;
@@ -13,7 +13,7 @@ struct InterleavedLayout {
     double operator()(LocalIndex i, int axis) const { return coordinates[i * Dimension + axis]; }
 };
 
-/// Points in an array per axis.
+/// Points with one array per axis.
 template <int Dimension, class Scalar>
 struct ColumnLayout {
     static constexpr int dimension = Dimension;
@@ -22,7 +22,7 @@ struct ColumnLayout {
     double operator()(LocalIndex i, int axis) const { return axes[axis][i]; }
 };
 
-/// Points of any stride, such as members of structs.
+/// Points with any stride, for example members of structs.
 template <int Dimension, class Scalar>
 struct StridedLayout {
     static constexpr int dimension = Dimension;
@@ -53,7 +53,7 @@ decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
     return visit_layout_of<Dimension>(points.axes, points.stride, visit);
 }
 
-/// Calls `visit(layout)` with the layout of `points`: columns, interleaved, or any other stride.
+/// Calls visit(layout) with the layout of `points`: columns, interleaved, or any other stride.
 template <class Visit>
 decltype(auto) visit_layout(const Points& points, Visit&& visit) {
     if (points.dimension == 1) return visit_layout_of<1>(points, visit);

@@ -11,7 +11,7 @@ namespace rrcb {
 
 namespace {
 
-/// Values of one register. The compiler may not reorder a minimum of doubles by itself.
+/// Values of one vector register. Without them the compiler may not reorder the minimum of doubles.
 constexpr std::size_t row_width = 4;
 typedef double Row __attribute__((vector_size(row_width * sizeof(double))));
 typedef float FloatRow __attribute__((vector_size(row_width * sizeof(float))));
@@ -26,8 +26,8 @@ typedef float FloatRow __attribute__((vector_size(row_width * sizeof(float))));
     row = __builtin_convertvector(floats, Row);
 }
 
-// Independent rows. The number of their values is a multiple of every stride (1, 2, 3): each lane
-// belongs to one axis.
+// Number of independent rows. The number of their values is a multiple of every stride (1, 2, 3),
+// so that each lane belongs to one axis.
 constexpr std::size_t num_rows = 3;
 constexpr std::size_t num_lanes = row_width * num_rows;
 
@@ -35,7 +35,7 @@ constexpr std::size_t num_lanes = row_width * num_rows;
 struct Span {
     Row lower = Row{} + Box{}.lower[0];
     Row upper = Row{} + Box{}.upper[0];
-    Row poison{};  ///< 0 * x is 0 for finite x only
+    Row poison{};  ///< sum of 0 * x, which is 0 only if all x are finite
 
     template <class Scalar>
     [[gnu::always_inline]] void widen(const Scalar* values) {
@@ -47,7 +47,7 @@ struct Span {
     }
 };
 
-/// Widens the spans by a multiple of num_lanes values; returns their number.
+/// Widens the spans by a multiple of num_lanes values. Returns the number of values read.
 template <class Scalar>
 RRCB_VECTOR_CLONES std::size_t widen(std::span<const Scalar> values,
                                      std::array<Span, num_rows>& spans) {
@@ -60,12 +60,13 @@ RRCB_VECTOR_CLONES std::size_t widen(std::span<const Scalar> values,
     return k;
 }
 
-/// Returns the box of values, entry k on axis k % stride; NaN if a value is not finite.
+/// Returns the box of values of which number k is on axis k % stride. Returns NaN if a value is not
+/// finite.
 template <class Scalar>
 Box box_of_values(std::span<const Scalar> values, std::size_t stride) {
     std::array<Span, num_rows> spans;
     std::size_t k = widen(values, spans);
-    // The last few values, filled up with others of the same axes.
+    // Pads the last few values with others of the same axes.
     if (k < values.size()) {
         std::array<Scalar, num_lanes> rest;
         for (std::size_t lane = 0; lane < num_lanes; ++lane)
@@ -86,7 +87,7 @@ Box box_of_values(std::span<const Scalar> values, std::size_t stride) {
     return box;
 }
 
-/// Returns the range of every stride-th value, as axis 0.
+/// Returns the range of every stride-th value, as that of axis 0.
 template <class Scalar>
 Box box_of_strided(const Scalar* values, LocalIndex count, std::size_t stride) {
     Box box;
@@ -121,7 +122,7 @@ Box box_of_axes(const Points& points,
     return box;
 }
 
-/// Throws Error if points are beyond their arrays.
+/// Throws Error if the arrays are too short for the points.
 void check_reach(const Points& points) {
     check_dimension(points.dimension, "points");
     require(points.stride >= 1, "the stride of the points must be at least 1");

@@ -12,7 +12,7 @@ namespace rrcb {
 
 namespace {
 
-/// Returns a range of consecutive points.
+/// Returns the points from `first` to `last` - 1.
 Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
     Points range = points;
     range.count = last - first;
@@ -26,8 +26,8 @@ Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
     return range;
 }
 
-/// Widens the ends of the order across `axis` by the points that reach `lower` or `upper`, the ends
-/// of all points so far.
+/// Updates the first and last positions in the order across `axis` with those points that reach
+/// `lower` or `upper`, the extremes of all points so far.
 void widen(const Points& points, double lower, double upper, int axis, PointSummary& summary) {
     const PositionOrder is_before(axis, 1, points.dimension);
     Vector& first = summary.first[axis];
@@ -45,12 +45,12 @@ void widen(const Points& points, double lower, double upper, int axis, PointSumm
     });
 }
 
-/// Adds a block of points, which `of_block` encloses.
+/// Adds a block of points whose box is `of_block`.
 void add_block(const Points& block, const Box& of_block, PointSummary& summary) {
     for (int a = 0; a < block.dimension; ++a) {
         double& lower = summary.box.lower[a];
         double& upper = summary.box.upper[a];
-        // Few blocks hold ends of the order, unless the points are sorted along an axis.
+        // Few blocks contain extremes, unless the points are sorted along an axis.
         const bool has_ends = of_block.lower[a] <= lower || of_block.upper[a] >= upper;
         lower = std::min(lower, of_block.lower[a]);
         upper = std::max(upper, of_block.upper[a]);
@@ -75,7 +75,7 @@ PointSummary summary_of_weights(const Points& points) {
         summary.heaviest = std::max(summary.heaviest, weight);
         summary.weight += weight;
     }
-    // A sum with NaN or infinity is not finite.
+    // If a weight is NaN or infinite, so is the sum.
     if (summary.lightest < 0 || !std::isfinite(summary.weight)) reject_weights(points);
     return summary;
 }

@@ -11,7 +11,7 @@ namespace rrcb {
 
 namespace {
 
-// Squares of lengths between 2^-453 and 2^401 are normal numbers; beyond, coordinates are scaled.
+// Squares of lengths between 2^-453 and 2^401 are normal doubles. Other lengths are scaled.
 double scale_of_lengths(double lower, double upper) {
     constexpr int harmless_exponent = 400;
     return safe_scale(std::max(std::abs(lower), std::abs(upper)), harmless_exponent);

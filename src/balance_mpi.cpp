@@ -24,29 +24,30 @@
 
 // A call has these steps:
 //   weigh      are the parts of earlier cuts even enough? Then they are kept
-//   prepare    checks options and points, reduces the points to cells, allocates for all messages
-//   decide     rank 0 bisects the cells of all ranks; not if many ranks make the parts
+//   prepare    checks options and points, reduces the points to cells, allocates all buffers
+//   decide     rank 0 bisects the cells of all ranks, unless many ranks make the parts
 //   turn?      if the ranks hold a bisection: do cuts across other axes leave far fewer ghosts?
 //   keep?      are the parts that the ranks hold even enough?
-//   settle     if not, the cuts move by counts of all ranks
+//   settle     if not, counts of all ranks move the cuts
 //   report     imbalance, and the weight of each part
-// Only what precedes a decision may fail on one rank; all ranks receive that failure with it.
+// Only steps before a decision may fail on one rank; all ranks receive that failure with the
+// decision.
 
 namespace rrcb {
 
 namespace {
 
-/// What a call is given; no step changes it.
+/// Input of a call, which no step changes.
 struct Given {
     PointPasses& points;
     const Options& options;
-    const Cuts* previous;  ///< null if there are none
+    const Cuts* previous;  ///< earlier cuts, or null
     bool may_keep;
     Ranks ranks;
 };
 
-/// Completes and checks the options, and summarizes them and the points for the other ranks. Not
-/// collective.
+/// Completes and checks the options, and writes what other ranks need to know about them and the
+/// points to `mine`. Not collective.
 Options introduce(const Given& given, const PointSummary& summary, Contribution& mine,
                   const Participant& self) {
     const int dimension = given.points.dimension();
@@ -81,19 +82,21 @@ Report decide_on_all(const Given& given, const Options& options, Contribution& m
     return report_of(decision.verdict, options.num_parts, options.part_sizes);
 }
 
-/// Numbers the parts of the points, ends of the tree, as the user does. Not collective.
+/// Replaces the ends of the tree, at which the points are, by the numbers of the parts. Not
+/// collective.
 void number_parts(const Cuts& cuts, PointPasses& points) {
     if (!cuts.is_numbered_in_order()) points.renumber(numbers_of(cuts));
 }
 
-/// Returns true if the parts of earlier cuts are weighed, because they may be kept.
+/// Returns true if the parts of earlier cuts have to be weighed, because they may be kept.
 bool weighs_earlier(const Given& given) {
     if (!given.previous || given.options.refine == Refine::exact) return false;
     const AxisOrder& order = given.options.axes.order;
     return !order.is_given() || axes_of(given.previous->tree) == order.axes();
 }
 
-/// Gives the points the parts of the earlier cuts, and weighs these. Collective.
+/// Gives the points the parts of the earlier cuts, and adds up the weights of these parts.
+/// Collective.
 Balance weigh_earlier(const Given& given, Participant& self) {
     Options options;
     Contribution mine;
@@ -147,15 +150,15 @@ void prepare(const Given& given, Options& options, Contribution& mine, Decision&
     add_records(points, summary.box, given.ranks.number, options, mine);
 }
 
-/// Refines the cuts by counts of all ranks, or only gives the points their parts by the cuts as
-/// they are. Collective.
+/// Refines the cuts by counts of all ranks, or only gives the points their parts by unchanged cuts.
+/// Collective.
 SettledCuts settle(const Given& given, const Options& options, const Box& here, Decision& decision,
                    const Report& report, Settlement& settlement, SettledCuts&& made,
                    Participant& self) {
     const Verdict& verdict = decision.verdict;
     const bool may_keep = verdict.kept_imbalance < not_kept;
     const bool counts = may_keep || given.previous;
-    // Kept parts would still be sent.
+    // The message is freed unless it is needed once more, to send kept parts.
     if (!may_keep) decision.message = std::vector<std::byte>();
     const bool is_searched = is_spread(options, given.ranks.number) ||
                              (is_refined(options) && report.details.num_points > 0);
@@ -171,7 +174,7 @@ SettledCuts settle(const Given& given, const Options& options, const Box& here, 
     return settlement.run(all, here, counts, std::move(made), self);
 }
 
-/// Takes the settled cuts as the result.
+/// Makes the settled cuts the result.
 void take(SettledCuts&& made, double tolerance, Balance& result) {
     Report& report = result.report;
     result.cuts = std::move(made.cuts);
@@ -181,7 +184,7 @@ void take(SettledCuts&& made, double tolerance, Balance& result) {
     report_measured(made.imbalance, tolerance, report);
 }
 
-/// Makes the ranks' present parts the result. Collective.
+/// Makes the parts that the ranks hold now the result. Collective.
 void keep(const Given& given, const Options& options, Decision& decision, Balance& result,
           Participant& self) {
     const bool is_known = decision.verdict.answer == Answer::kept;
@@ -198,7 +201,7 @@ void keep(const Given& given, const Options& options, Decision& decision, Balanc
     report.kept = is_in_order(cuts, decision.parts);
     report_measured(decision.verdict.kept_imbalance, options.imbalance_tolerance, report);
     report.part_weights = std::move(decision.part_weights);
-    // A search has counted those that would divide points kept together.
+    // Otherwise the search has counted the cuts that would divide points which are kept together.
     if (is_known || options.coincident == Coincident::divide)
         report.details.coincident_cuts = static_cast<int>(
             std::ranges::count_if(cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
@@ -206,8 +209,8 @@ void keep(const Given& given, const Options& options, Decision& decision, Balanc
     self.attempt([&] { given.points.renumber(std::span(&part, 1)); });
 }
 
-/// Gives every rank the cuts that many ranks have found, and the weights of all parts. Collective:
-/// two reductions.
+/// Gives every rank all cuts, after many ranks have found them, and the weights of all parts.
+/// Collective: two reductions.
 void complete_cuts(Balance& result, const Options& options, Participant& self) {
     const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
     join_cuts(result.cuts.tree, self);
@@ -218,7 +221,8 @@ void complete_cuts(Balance& result, const Options& options, Participant& self) {
                "MPI_Allreduce");
 }
 
-/// Makes cuts, across the axes of earlier ones unless others are clearly better. Collective.
+/// Makes new cuts, across the axes of earlier ones unless other axes are clearly better.
+/// Collective.
 Balance make_anew(const Given& given, Participant& self) {
     Options options;
     Contribution mine;
@@ -256,7 +260,8 @@ Balance make_anew(const Given& given, Participant& self) {
     return result;
 }
 
-/// Returns `made`, whose parts the points have, or `earlier` if that is not worth moving them.
+/// Returns `made`, whose parts the points now have, or `earlier` if `made` is not worth moving
+/// points.
 Balance better(const Given& given, Balance&& earlier, Balance&& made, Participant& self) {
     made.report.details.rounds += earlier.report.details.rounds;
     if (is_worth_moving(earlier.report, made.report, given.options)) return std::move(made);
@@ -279,7 +284,7 @@ Ranks ranks_of(Participant& self) {
 
 Balance balance(PointPasses& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self) {
-    // One part for each rank, where the cuts are those of another number of ranks.
+    // One part is asked for on each rank, but the cuts were made for another number of ranks.
     const bool are_of_others =
         previous && options.num_parts == 0 && previous->num_parts != mpi::size_of(self.comm);
     const Given given{points, options, are_of_others ? nullptr : previous, may_keep,
@@ -336,7 +341,7 @@ Balance balance(PointPasses& points, const Options& options, const Cuts& previou
     CheckedPasses checked(points);
     Balance result = balance(checked, options, given(previous), true, self);
     print_line(result, options, start, self);
-    // The last passes may fail, which no other message carries.
+    // The last passes may have failed on a rank, and no later message would report that.
     agree(self);
     return result;
 }

@@ -24,7 +24,7 @@ void print_line(const Balance& made, const Options& options, double start,
                 static_cast<long long>(report.details.num_points), made.cuts.num_parts, imbalance,
                 is_measured ? "" : " (estimated)", report.details.rounds,
                 1e3 * (MPI_Wtime() - start));
-    // Per cent by mistake?
+    // The tolerance is probably meant in per cent.
     const double tolerance = options.imbalance_tolerance;
     if (tolerance >= 2)
         std::printf("; a part may weigh %g times the mean, for %g %% set imbalance_tolerance to %g",

@@ -33,7 +33,7 @@ void set_option(const char* name, const char* value, Options& options) {
         reject(std::string(name) + " takes " + texts_of(*option) + ", not \"" + value + '"');
 }
 
-// Both are an axis, a flag and three numbers.
+// Both structs consist of an axis, a flag and three numbers.
 static_assert(sizeof(rrcb_cut) == sizeof(Cut) && offsetof(rrcb_cut, at) == offsetof(Cut, at));
 
 Cuts copy_of(const rrcb_cuts& given) {

@@ -18,16 +18,17 @@
 #include <utility>
 #include <vector>
 
-/// The object behind a C program's pointer.
+/// The object that a C program's pointer refers to.
 struct rrcb_balancer {
     static constexpr const char* name = "balancer";
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::Options options{};
-    mutable rrcb::Cuts cuts{};  ///< rrcb_assign_all notes its points
+    mutable rrcb::Cuts cuts{};  ///< mutable, because rrcb_assign_all notes its points in it
     std::optional<rrcb::Report> report{};
     std::optional<rrcb::Plan> plan{};
     std::vector<std::byte> saved{};
-    /// Least count of the balance and of the look-ups after it: a plan of fewer points loses some.
+    /// Least number of points in the balance and in the look-ups after it. A plan for fewer points
+    /// would lose some.
     mutable std::atomic<std::size_t> least_count{no_count};
     static constexpr std::size_t no_count = std::numeric_limits<std::size_t>::max();
 
@@ -40,22 +41,22 @@ struct rrcb_balancer {
 
 namespace rrcb::c {
 
-/// Call that failed on this thread.
+/// The call that failed last on this thread.
 struct Origin {
-    MPI_Comm comm = MPI_COMM_NULL;  ///< of the caller; null if the call had none
-    /// Longest wait for other ranks in which the same call may have failed, at the program's end.
+    MPI_Comm comm = MPI_COMM_NULL;  ///< communicator of the caller; null if the call has none
+    /// When the program ends: longest wait for other ranks on which the same call may have failed.
     std::chrono::seconds patience{1};
 };
 
-/// Longest such wait in a collective call: other ranks reach its end late only if the machine is
-/// busy.
+/// The same for a collective call. It is longer, because other ranks reach the end of the call late
+/// only if the machine is busy.
 inline constexpr std::chrono::seconds patience_together{60};
 
-/// Keeps the text of the failure for this thread; returns its code.
+/// Keeps the text of a failure for this thread, and returns its code.
 int code_of(const Failure& failure, const Origin& origin) noexcept;
 Origin origin_of_last_failure() noexcept;
 
-/// Runs the body of a function; no exception leaves it.
+/// Runs the body of a function of the C interface and returns its code. No exception leaves it.
 template <class Body>
 int guarded(Body&& body, const Origin& origin = {}) noexcept {
     return code_of(attempt(body), origin);
@@ -64,21 +65,23 @@ int guarded(Body&& body, const Origin& origin = {}) noexcept {
 /// Throws Error if a pointer is null.
 void require(const void* pointer, const char* name);
 
-/// As require(), for arrays, unless they are empty.
+/// As require(), for an array; an empty one may be null.
 void require_array(std::size_t count, const void* values, const char* name);
 
-/// Returns the bytes of a call; none without their address, which load() refuses.
+/// Returns the bytes passed to a call. Returns none if their address is null, and load() then
+/// throws.
 inline std::span<const std::byte> saved_bytes(const void* bytes, std::size_t size) {
     return {static_cast<const std::byte*>(bytes), bytes == nullptr ? 0 : size};
 }
 
-/// Shows saved bytes, which must outlive the caller's pointer.
+/// Writes the address and size of saved bytes to the caller's variables. The bytes must remain in
+/// place as long as the caller reads them.
 inline void show(const std::vector<std::byte>& saved, const void** bytes, std::size_t* size) {
     *bytes = saved.data();
     *size = saved.size();
 }
 
-/// Returns a view of the points of a call. Throws Error if there are none, or they have no
+/// Returns a view of the points passed to a call. Throws Error if they are null or have no
 /// coordinates.
 Points points_of(const rrcb_points* points);
 
@@ -88,7 +91,7 @@ std::span<const T> view(const T* values, std::size_t count) {
     return values == nullptr ? std::span<const T>() : std::span(values, count);
 }
 
-/// Returns the communicator of a Fortran program's handle; MPI_COMM_NULL while MPI is not running.
+/// Returns the communicator of a Fortran program's handle, or MPI_COMM_NULL if MPI is not running.
 /// MPI's standard ABI has no MPI_Comm_f2c.
 inline MPI_Comm comm_of(int comm) {
     if (!mpi::is_running()) return MPI_COMM_NULL;
@@ -99,7 +102,7 @@ inline MPI_Comm comm_of(int comm) {
 #endif
 }
 
-/// Throw Error unless the balancer has cuts, cuts of so many parts, or a plan.
+/// Throw Error unless the balancer has cuts; cuts of `num_parts` parts; a plan.
 void require_cuts(const rrcb_balancer& own);
 void require_parts(const rrcb_balancer& own, std::size_t num_parts);
 void require_plan(const rrcb_balancer& own);
@@ -112,7 +115,7 @@ inline LocalIndex num_points_after(const Plan& plan) {
 /// Throws Error if a handle is null.
 void require_handle(const void* handle, const char* name);
 
-/// Returns the origin of failures of a function of a handle.
+/// Returns the origin of failures in a function that belongs to a handle.
 template <class Handle>
 Origin origin_in(const Handle* handle) noexcept {
     if constexpr (requires { handle->comm; }) {
@@ -121,7 +124,7 @@ Origin origin_in(const Handle* handle) noexcept {
     return {};
 }
 
-/// Runs the body of a function of a handle; no exception leaves it.
+/// Runs the body of a function that belongs to a handle. No exception leaves it.
 template <class Handle, class Body>
 int guarded(Handle* handle, Body&& body) noexcept {
     return guarded(

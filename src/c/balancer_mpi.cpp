@@ -15,7 +15,7 @@ namespace rrcb::c {
 
 namespace {
 
-/// Balances from the cuts of the balancer, if it has any. Collective.
+/// Balances, starting from the cuts of the balancer if it has any. Collective.
 void balance(const rrcb_points* from, int32_t* parts, rrcb_balancer& own, Participant& self) {
     Points points;
     Workspace* workspace = nullptr;

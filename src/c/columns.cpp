@@ -6,12 +6,12 @@ namespace rrcb::c {
 
 namespace {
 
-/// Returns the caller's memory for a column.
+/// Returns the caller's memory for the result of a column.
 std::byte* room_at(void* to, std::size_t) {
     return static_cast<std::byte*>(to);
 }
 
-/// One array of a column.
+/// One of the two arrays of a column.
 struct Side {
     const char* name;
     const void* values;

@@ -39,8 +39,8 @@ void store(bool is_due, int* due) {
     if (due != nullptr) *due = is_due ? 1 : 0;
 }
 
-/// Makes a model, of a controller if the address of one is given. Collective. `make` gets the
-/// communicator, or the controller.
+/// Makes a cost model. If the address of a controller is given, the model belongs to that
+/// controller, otherwise to the communicator. `make` gets one of the two. Collective.
 template <class Make>
 int make_model(MPI_Comm comm, rrcb_controller* const* controller, CallName call,
                rrcb_cost_model** model, Make&& make) {
@@ -72,7 +72,7 @@ int load_model(MPI_Comm comm, rrcb_controller* const* controller, const void* by
     });
 }
 
-/// Saves the object of a handle. Collective.
+/// Saves the object that a handle refers to. Collective.
 template <class Handle, class Object>
 void save(Handle& own, const Object& object, const void** bytes, size_t* size) {
     own.saved = rrcb::save(object);

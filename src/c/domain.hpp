@@ -11,7 +11,7 @@
 
 namespace rrcb::c {
 
-/// Reads the periodic box and the ranks of the parts of the balancer's cuts; `options` borrow
+/// Reads the periodic box, and the ranks of the parts of the balancer's cuts. `options` borrows
 /// `ranks`.
 template <class Given, class Options>
 void read_domain(const Given& from, Options& options, std::vector<RankRange>& ranks,
@@ -32,13 +32,13 @@ void read_domain(const Given& from, Options& options, std::vector<RankRange>& ra
 }
 
 inline const rrcb_rank_count* counts_at(const std::vector<RankCount>& counts) {
-    // Both are a rank and a number.
+    // Both structs consist of a rank and a number.
     static_assert(sizeof(rrcb_rank_count) == sizeof(RankCount) &&
                   offsetof(rrcb_rank_count, count) == offsetof(RankCount, count));
     return reinterpret_cast<const rrcb_rank_count*>(counts.data());
 }
 
-/// Returns a view of the lists of ghosts.
+/// Returns a view of the lists of a ghost plan.
 inline rrcb_ghost_plan view_of(const GhostPlan& from) {
     return {0,
             from.num_points,

@@ -11,7 +11,7 @@ namespace {
 
 using rrcb::c::Origin;
 
-/// Calls is_done() until it returns true, or `limit` has passed. Returns the last result.
+/// Calls is_done() until it returns true or the time `limit` has passed. Returns its last result.
 template <class Test>
 bool wait_for(std::chrono::duration<double> limit, Test&& is_done) {
     const auto start = std::chrono::steady_clock::now();
@@ -23,7 +23,7 @@ bool wait_for(std::chrono::duration<double> limit, Test&& is_done) {
     }
 }
 
-/// Returns the communicator of the messages of the failing call, MPI_COMM_NULL if it had none.
+/// Returns the communicator of the failed call's messages; MPI_COMM_NULL if the call had none.
 MPI_Comm comm_of(const Origin& origin) {
     if (origin.comm == MPI_COMM_NULL || !rrcb::mpi::is_running()) return MPI_COMM_NULL;
     const MPI_Comm* found = rrcb::mpi::find_duplicate(origin.comm);

@@ -1,6 +1,6 @@
 /** @file
- * Functions of the library that only the Fortran module and the Python package call. They are in no
- * public header. */
+ * Functions of the library that only the Fortran module and the Python package call. No public
+ * header declares them. */
 #ifndef RRCB_SRC_C_FOR_FORTRAN_H
 #define RRCB_SRC_C_FOR_FORTRAN_H
 
@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* The functions without this ending, from a communicator of Fortran. A controller is given by the
- * address of its handle, or null. */
+/* As the functions without this ending, but with a communicator of Fortran. A controller is
+ * given by the address of its handle, which may be null. */
 RRCB_API int rrcb_balancer_create_fortran(int comm, rrcb_balancer** balancer);
 RRCB_API int rrcb_controller_create_fortran(int comm, rrcb_controller** controller);
 RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t size,
@@ -21,15 +21,16 @@ RRCB_API int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* co
 RRCB_API int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller,
                                           const void* bytes, size_t size, rrcb_cost_model** model);
 
-/* An error ends a program in Fortran that does not ask for it. All ranks of a failing collective
- * call get the same text, which one of them prints. */
+/* An error ends a Fortran program that does not ask for the code. All ranks of a failing
+ * collective call get the same text, and one of them prints it. */
 
-/** Returns 1 if this rank has to print the text of its last error, 0 if rank 0 of the communicator
- * of the failing call has printed one. Not collective: waits for rank 0, though not for ever. */
+/** Returns 1 if this rank has to print the text of its last error, and 0 if rank 0 of the failed
+ * call's communicator has printed one. Not collective. Waits for rank 0, but only for a limited
+ * time. */
 RRCB_API int rrcb_prints_last_error(void);
 
-/** Notes on rank 0 of the communicator of the failing call that the text is printed, and waits for
- * ranks that wait for it, though not for ever. Not collective. */
+/** Notes on rank 0 of the failed call's communicator that the text has been printed. Waits for
+ * the ranks that wait for this note, but only for a limited time. Not collective. */
 RRCB_API void rrcb_note_printed_error(void);
 
 #ifdef __cplusplus

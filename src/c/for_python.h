@@ -1,6 +1,6 @@
 /** @file
- * Functions of the library that only the Python package calls. They are in no public header, and
- * may change with any version. */
+ * Functions of the library that only the Python package calls. No public header declares them,
+ * and they may change in any version. */
 #ifndef RRCB_SRC_C_FOR_PYTHON_H
 #define RRCB_SRC_C_FOR_PYTHON_H
 

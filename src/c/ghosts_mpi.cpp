@@ -22,8 +22,8 @@ namespace rrcb::c {
 
 namespace {
 
-/// Needs by which the Fortran module reports radii that do not fit the points; `num_parts` is then
-/// their number.
+/// Value of `needs` by which the Fortran module reports that radii do not fit the points;
+/// `num_parts` is then the number of radii.
 constexpr int wrong_radii = -1;
 
 void check_radii(const rrcb_ghost_options& from, LocalIndex num_points) {
@@ -34,7 +34,7 @@ void check_radii(const rrcb_ghost_options& from, LocalIndex num_points) {
         reject("radius is 0, and radii is null; give one of them");
 }
 
-/// Options of a call, with the memory they borrow.
+/// Options of a call, and the memory that they borrow.
 struct KeptOptions {
     GhostOptions options{};
     std::vector<RankRange> ranks{};

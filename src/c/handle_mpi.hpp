@@ -12,9 +12,9 @@
 
 namespace rrcb::c {
 
-/// Makes a handle for the caller's pointer `*where`. Collective: throws the same Error on every
-/// rank if `where` is null on one, or `*where` is not, memory runs out, `check` throws, or one of
-/// `arguments` differs between ranks.
+/// Makes a handle for the caller's pointer `*where`. Collective. Throws the same Error on every
+/// rank if on any rank `where` is null, `*where` is not null, memory runs out or `check` throws, or
+/// if one of `arguments` differs between ranks.
 template <class Handle, class Check = void (*)()>
 std::unique_ptr<Handle> make_handle(
     Participant& self, Handle** where, std::initializer_list<Shared> arguments = {},
@@ -35,7 +35,7 @@ std::unique_ptr<Handle> make_handle(
     return made;
 }
 
-/// Makes a handle on a communicator, completes it by fill(handle) and stores it. Collective; no
+/// Makes a handle on a communicator, completes it by fill(handle), and stores it. Collective. No
 /// exception leaves it.
 template <class Handle, class Fill>
 int create(MPI_Comm comm, CallName call, Handle** where, Fill&& fill) noexcept {
@@ -48,7 +48,7 @@ int create(MPI_Comm comm, CallName call, Handle** where, Fill&& fill) noexcept {
     return guarded(body, {comm, patience_together});
 }
 
-/// Runs the body of a collective function of a handle; no exception leaves it.
+/// Runs the body of a collective function that belongs to a handle. No exception leaves it.
 template <class Handle, class Body>
 int guarded_together(CallName call, Handle* handle, Body&& body) noexcept {
     const auto run = [&] {

@@ -22,7 +22,7 @@ namespace {
 
 using Access = detail::NeighbourAccess;
 
-/// Options of a call, with the memory they borrow.
+/// Options of a call, and the memory that they borrow.
 struct KeptNeighbourOptions {
     NeighbourOptions options{};
     std::vector<RankRange> ranks{};
@@ -56,7 +56,8 @@ std::unique_ptr<rrcb_neighbours> make(const rrcb_balancer& own, const rrcb_neigh
     return made;
 }
 
-/// Runs a call with neighbours. If reading its arguments fails, it fails on the neighbours too.
+/// Runs a call with neighbours. If its arguments cannot be read, the call fails on the neighbours
+/// too.
 template <class Read, class Body>
 int with_neighbours(CallName call, rrcb_neighbours* handle, Read&& read, Body&& body) noexcept {
     return guarded(handle, [&](rrcb_neighbours& own) {
@@ -72,7 +73,7 @@ struct HeldArray {
     rrcb_array* place;
 };
 
-/// Returns the arrays of a call.
+/// Returns the arrays passed to a call.
 std::vector<HeldArray> held_arrays(rrcb_array* arrays, std::size_t count, const char* name) {
     std::vector<HeldArray> held;
     auto* place = reinterpret_cast<std::byte*>(arrays);
@@ -89,7 +90,7 @@ std::size_t bytes_of_point(const rrcb_array& array) {
     return bytes;
 }
 
-/// Makes room in an array for another number of values.
+/// Resizes an array of the caller for another number of values, and returns its memory.
 std::byte* resize(void* given, std::size_t num_values) {
     auto& [array, place] = *static_cast<HeldArray*>(given);
     const std::size_t count = num_values / array.components;
@@ -120,7 +121,8 @@ void require_array(const rrcb_array& array, std::size_t k) {
                "room for");
 }
 
-/// Returns columns of `num_points` at the addresses `from`, or their own, with arrays as results.
+/// Returns columns of `num_points` points at the addresses `from`, or at the arrays' own addresses.
+/// The arrays are also their results.
 std::vector<detail::ByteColumn> arrays_in(std::span<HeldArray> arrays, const void* const* from,
                                           LocalIndex num_points) {
     std::vector<detail::ByteColumn> columns;
@@ -145,7 +147,7 @@ std::vector<detail::ByteColumn> arrays_in(std::span<HeldArray> arrays, const voi
     return columns;
 }
 
-/// Returns columns of ghosts, and of points to which they are added.
+/// Returns columns of ghosts, with the columns of points to which they are to be added.
 std::vector<detail::SumColumn> sums_of(const rrcb_column* given, std::size_t num_columns,
                                        LocalIndex num_ghosts, LocalIndex num_points) {
     const std::vector<rrcb_column> columns = given_columns(given, num_columns);

@@ -11,7 +11,7 @@ namespace rrcb::c {
 
 namespace {
 
-/// Returns the ranks of all parts: the given ones, or ranks_of_part().
+/// Returns the ranks of all parts: the given ones or, by default, those of ranks_of_part().
 std::vector<RankRange> ranks_of_parts(const rrcb_rank_range* given, int num_parts, int num_ranks) {
     std::vector<RankRange> ranks;
     for (Part part = 0; part < num_parts; ++part)
@@ -20,7 +20,7 @@ std::vector<RankRange> ranks_of_parts(const rrcb_rank_range* given, int num_part
     return ranks;
 }
 
-/// Throws Error for fewer points than were balanced or assigned.
+/// Throws Error if there are fewer points than were balanced or assigned.
 void require_all(const rrcb_balancer& own, std::size_t count) {
     const std::size_t least = own.least_count;
     if (least != rrcb_balancer::no_count && count < least)

@@ -17,11 +17,11 @@ std::size_t bytes_of(int32_t type) {
     return type == RRCB_FLOAT ? sizeof(float) : sizeof(double);
 }
 
-// Types by which the Fortran module reports arrays that do not fit together; `stride` is then the
-// extent that does not.
+// Values of `type` by which the Fortran module reports arrays that do not fit together. `stride` is
+// then the extent that does not fit.
 enum FortranFault { wrong_weights = 11, wrong_axis = 12, wrong_shape = 13, wrong_radii = 14 };
 
-/// Throws Error for points the Fortran module could not make.
+/// Throws Error if the points come from Fortran arrays that do not fit together.
 void check_fortran(const rrcb_points& from) {
     const std::string count = std::to_string(from.count);
     const std::string extent = std::to_string(from.stride);
@@ -43,7 +43,7 @@ void check_fortran(const rrcb_points& from) {
     }
 }
 
-/// Sets the coordinates of a type, from the first point on.
+/// Sets the coordinates, which have the type T.
 template <class T, std::size_t N>
 void set_axes(const rrcb_points& from, Points& points, std::array<std::span<const T>, N>& axes) {
     for (int axis = 0; axis < points.dimension; ++axis) {

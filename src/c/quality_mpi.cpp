@@ -16,7 +16,7 @@ using rrcb::c::guarded_together;
 using rrcb::c::require;
 using rrcb::c::view;
 
-/// Returns the weights of parts, for a measure written to `result`.
+/// Checks the arguments of a measure, and returns the weights of the parts.
 std::span<const double> weights_of_parts(size_t num_parts, const double* part_weights,
                                          const double* result) {
     rrcb::c::require_array(num_parts, part_weights,
@@ -25,7 +25,7 @@ std::span<const double> weights_of_parts(size_t num_parts, const double* part_we
     return view(part_weights, num_parts);
 }
 
-/// Returns the points with these parts, for a measure written to `result`.
+/// Checks the arguments of a measure, and returns the points.
 rrcb::Points points_in_parts(const rrcb_points* given, const int32_t* parts, const double* result) {
     const rrcb::Points points = rrcb::c::points_of(given);
     rrcb::c::require_array(points.count, parts, "parts");

@@ -11,11 +11,11 @@ namespace rrcb::c {
 
 namespace {
 
-/// No struct is ever larger: such a size was never set.
+/// No struct is ever larger. A larger size means that it was never set.
 constexpr std::size_t largest_size = 4096;
 
-/// Returns the macro that initialises a struct: RRCB_POINTS_INIT for rrcb_points, whose mangled
-/// name is 11rrcb_points.
+/// Returns the name of the macro that initialises a struct: RRCB_POINTS_INIT for rrcb_points, whose
+/// mangled name is 11rrcb_points.
 std::string macro_of(const std::type_info& type) {
     std::string name = type.name();
     name.erase(0, name.find("rrcb_"));

@@ -11,16 +11,17 @@
 #include <typeinfo>
 #include <vector>
 
-// Structs of C programs, which may have been compiled with fewer members than the library, or with
-// more. Each begins with its size there, beyond which nothing is read or written.
+// These functions read and write structs of C programs, which may have been compiled with fewer or
+// more members than the library has. Each struct begins with its size in the program, beyond which
+// nothing is read or written.
 
 namespace rrcb::c {
 
-/// Throws Error unless the size of a struct is set, and all bytes beyond those known to the library
-/// are 0. `type` is that of the struct, `name` the argument's.
+/// Throws Error unless the size of a struct is set and all its bytes after the `known` ones are 0.
+/// `type` is the type of the struct, `name` the name of the argument.
 void check_size(const void* given, std::size_t known, const std::type_info& type, const char* name);
 
-/// Throws Error if a struct is null, and as check_size().
+/// Throws Error if a struct is null, or in the cases of check_size().
 template <class Struct>
 void require_sized(const Struct* given, const char* name) {
     static_assert(offsetof(Struct, size) == 0 && std::is_trivially_copyable_v<Struct>);
@@ -28,7 +29,7 @@ void require_sized(const Struct* given, const char* name) {
     check_size(given, sizeof(Struct), typeid(Struct), name);
 }
 
-/// Returns a copy of a struct. Members unknown to the program are 0. Throws Error as
+/// Returns a copy of a struct. Members that the program does not have are 0. Throws Error as
 /// require_sized().
 template <class Struct>
 Struct copy_in(const Struct* given, const char* name) {
@@ -38,7 +39,7 @@ Struct copy_in(const Struct* given, const char* name) {
     return copy;
 }
 
-/// Returns copies of the structs in an array of the program, whose size is that of the first.
+/// Returns copies of the structs in an array. All have the size of the first.
 template <class Struct>
 std::vector<Struct> copy_all_in(const Struct* given, std::size_t count, const char* name) {
     require_array(count, given, name);
@@ -52,8 +53,8 @@ std::vector<Struct> copy_all_in(const Struct* given, std::size_t count, const ch
     return copies;
 }
 
-/// Writes a struct of which require_sized() accepted the place; its member for the size is not
-/// changed.
+/// Writes a struct to the program's, which must have passed require_sized(). Its size is left
+/// unchanged.
 template <class Struct>
 void copy_out(const std::type_identity_t<Struct>& made, Struct* place) {
     const std::size_t size = std::min(place->size, sizeof made);

@@ -42,7 +42,7 @@ void check(const PaperOptions& options, int dimension) {
             "cut_rule must be one of CutRule");
 }
 
-/// Throws on all ranks if one has failed, or if their options differ. Collective.
+/// Throws the same Error on all ranks if one has failed, or if options differ. Collective.
 void agree_on(const PaperOptions& options, const Points& points, Participant& self) {
     agree(self, {{"dimension", static_cast<std::uint64_t>(points.dimension)},
                  weights_given(points),
@@ -58,7 +58,7 @@ void agree_on(const PaperOptions& options, const Points& points, Participant& se
                  {name_of_arithmetic, arithmetic_in_use()}});
 }
 
-/// Step 1: reduces the local points to the moments of cells; the paper's RCB keeps the points.
+/// Step 1: reduces this rank's points to the moments of cells. The paper's RCB keeps the points.
 Contribution reduce_points(const Points& points, const Box& box, const PaperOptions& options,
                            int rank) {
     PointSummary totals{points.count};
@@ -92,7 +92,7 @@ void gather(Contribution& mine, int dimension, StageObserver* observer, Particip
              self);
 }
 
-/// Step 3, on rank 0: makes the statistical domain, of random points or the real ones.
+/// Step 3, on rank 0: makes the statistical domain, from random points or from the real ones.
 std::vector<MassPoint> make_domain(const Contribution& all, int dimension,
                                    const PaperOptions& options) {
     std::span<const double> records(all.records);

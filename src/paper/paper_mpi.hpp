@@ -6,8 +6,8 @@
 
 namespace rrcb {
 
-/// Divides as the public function, over a duplicated communicator. An earlier failure of a rank is
-/// thrown on all ranks; its options are not used.
+/// Divides as the public function does, over the duplicated communicator. If a rank has failed
+/// before, throws its error on all ranks.
 Balance balance_as_in_paper(const Points& points, const PaperOptions& options, Participant& self);
 
 }  // namespace rrcb

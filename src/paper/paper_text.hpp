@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-// Options of the paper's methods as text, for the plug-in and the comparisons. Readers accept only
-// complete texts, words in upper case; otherwise they return false and set nothing. ANALYTIC,
-// RRCB's own method, is no domain of the paper.
+// Converts options of the paper's methods from and to text, for the plug-in and the comparisons.
+// The readers accept only complete texts in upper case; for other texts they return false and set
+// nothing. ANALYTIC is not accepted, because it is RRCB's own method.
 
 namespace rrcb {
 
@@ -18,7 +18,7 @@ bool read_sigma_multiplier(double& multiplier, std::string_view text);
 bool read_sample_fraction(double& fraction, std::string_view text);
 bool read_seed(std::uint64_t& seed, std::string_view text);
 
-/// Return texts in the form of the readers.
+/// Return texts that the readers accept.
 std::string name_of(CutRule rule);
 std::string name_of(PaperDomain domain);
 

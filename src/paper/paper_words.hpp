@@ -5,12 +5,12 @@
 #include <limits>
 
 // Parameters that only the plug-in has, with the defaults of PaperOptions, for the plug-in, the
-// checks, the comparisons and Teuchos' list. C++17, as the header of Teuchos' validators is not
-// valid C++20.
+// checks, the comparisons and Teuchos' list. This file must be valid C++17, because the header of
+// Teuchos' validators is not valid C++20.
 
 namespace rrcb {
 
-/// Words of a choice that no options hold, and its default.
+/// Makes a choice whose value is not in any options, from its words and its default.
 template <int initial, std::size_t num_words>
 constexpr Choice unstored_choice(const Word (&words)[num_words]) {
     return {words, num_words, [](const Options&) { return initial; }, nullptr};
@@ -21,7 +21,7 @@ inline constexpr Word words_of_cut_rule[] = {
     {"MIDPOINT", 1, "the extent below is its parts' share"}};
 inline constexpr Choice cut_rule_words = unstored_choice<0>(words_of_cut_rule);
 
-/// Values of RRCB_DOMAIN. The first is no PaperOptions::domain.
+/// Values of RRCB_DOMAIN. The first one is not a value of PaperOptions::domain.
 inline constexpr Word words_of_method[] = {{"ANALYTIC", -1, "RRCB's own method"},
                                            {"SAMPLED", 0, "the paper's RRCB"},
                                            {"POINTS", 1, "the paper's RCB"}};
@@ -36,7 +36,7 @@ inline constexpr Range<double> sigma_range{
 inline constexpr Range<double> fraction_range{
     {[](const Options&) { return 1.0; }, nullptr}, 0, 1, true};
 
-// No options hold the values of these.
+// The values of these parameters are not in any options.
 inline constexpr Option domain_parameter{"", "RRCB_DOMAIN", "Plug-in only: the method",
                                          unstored_choice<-1>(words_of_method)};
 inline constexpr Option cut_rule_parameter{
@@ -54,7 +54,7 @@ inline constexpr Option dump_when_parameter{"", "RRCB_DUMP_WHEN",
 inline constexpr Option plug_in_table[] = {domain_parameter, cut_rule_parameter, sigma_parameter,
                                            fraction_parameter, dump_when_parameter};
 
-/// A parameter beyond the Options: a number of 64 bits, or a path.
+/// A parameter that is not in Options: a number of 64 bits, or a path.
 struct OtherParameter {
     const char* parameter;
     const char* documentation;

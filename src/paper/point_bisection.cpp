@@ -31,23 +31,23 @@ struct PointTask {
     Bisection result;
 };
 
-/// Moves the points below a plane to the front; returns their number.
+/// Moves the points below a plane to the front. Returns their number.
 std::size_t divide_by(const Cut& cut, int dimension, std::span<MassPoint> points) {
-    // Not ranges::partition: clang 14 cannot compile it with GCC's library.
+    // std::ranges::partition would do, but clang 14 cannot compile it with GCC's library.
     const auto above = std::partition(points.begin(), points.end(), [&](const MassPoint& point) {
         return !is_above(cut, point.position, dimension);
     });
     return static_cast<std::size_t>(above - points.begin());
 }
 
-/// Chooses the cut of a node and divides its points in place; returns the number below.
+/// Chooses the cut of a node and divides its points in place. Returns the number of points below.
 std::size_t cut_points(std::span<MassPoint> points, double below, const PointTask& task, Cut& cut) {
     constexpr double longest_only = 1;
     const int dimension = task.result.cuts.dimension;
     const Box box = extent_of(points);
     const double weight = weight_of(points);
     const int axis = longest_axis(box, first_axes(dimension), longest_only);
-    // First: a side of size 0 is empty even if the points have no weight.
+    // These tests come first: a side of size 0 is empty even if the points have no weight.
     cut = plane(axis, below >= 1 ? infinity : -infinity);
     if (below >= 1) return points.size();
     if (below <= 0 || !(weight > 0)) return 0;

@@ -10,7 +10,7 @@ namespace rrcb {
 
 namespace {
 
-/// Equal points, consecutive and behind all smaller ones, with the weight below them.
+/// A range of coincident points in the order of points, and the weight of all smaller points.
 struct EqualPoints {
     std::size_t begin;
     std::size_t end;
@@ -18,16 +18,16 @@ struct EqualPoints {
     double weight;
 };
 
-/// Gathers the points equal to the one at which the cumulative weight reaches the target, and moves
-/// smaller points before them.
+/// Moves the points that coincide with the one at which the cumulative weight reaches the target
+/// next to each other, and smaller points before them.
 EqualPoints select(std::span<MassPoint> points, const PositionOrder& before, double target) {
-    // Round-off must not decide the side of a gap between clusters.
+    // Round-off must not decide on which side of a gap between clusters the cut is.
     const double enough = target - 1e-12 * target;
     std::size_t first = 0;
     std::size_t last = points.size();
     double below = 0;
-    // The point is in first ... last - 1. Points before this range are smaller and weigh `below`;
-    // points behind it are greater.
+    // Invariant: the point is in first ... last - 1. The points before this range are smaller and
+    // weigh `below`; the points after it are greater.
     while (last - first > 1) {
         const std::size_t middle = first + (last - first) / 2;
         const auto left = points.subspan(first, last - first);
@@ -55,8 +55,8 @@ EqualPoints select(std::span<MassPoint> points, const PositionOrder& before, dou
             weight_of(points.subspan(begin, end - begin))};
 }
 
-/// Makes a cut between the last point below it and the first above, halfway or `on` the latter,
-/// along the first axis on which they differ.
+/// Puts a cut between the last point below it and the first point above: halfway, or exactly on the
+/// latter if `on`. Uses the first axis on which these points differ.
 void cut_between(const Vector& last_below, const Vector& first_above, const PositionOrder& order,
                  bool on, Cut& cut) {
     auto deciding = order.axes().begin();

@@ -12,7 +12,8 @@ namespace rrcb {
 
 namespace {
 
-/// Shares `total` items in proportion to the weights by largest remainder, ties to the earlier.
+/// Shares `total` items in proportion to the weights, by the method of largest remainders. Of equal
+/// remainders the earlier one comes first.
 std::vector<GlobalCount> apportion(std::span<const double> weights, GlobalCount total) {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<GlobalCount> shares;
@@ -31,12 +32,13 @@ std::vector<GlobalCount> apportion(std::span<const double> weights, GlobalCount 
     return shares;
 }
 
-/// Returns 53 bits of the engine in [0, 1): the standard's distributions vary by library.
+/// Returns a number in [0, 1) made of 53 bits of the engine. The standard's distributions are not
+/// used, because they differ between libraries.
 double uniform(std::mt19937_64& engine) {
     return static_cast<double>(engine() >> 11) * 0x1p-53;
 }
 
-/// Returns the box mean +- multiplier * deviation, cut off at the largest double.
+/// Returns the box mean +- multiplier * deviation, limited to the largest double.
 Box sampling_box(const Moments& moments, double multiplier) {
     constexpr double largest = std::numeric_limits<double>::max();
     Box box;

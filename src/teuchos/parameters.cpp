@@ -46,12 +46,12 @@ void add_choice(ParameterList& list, const char* name, const Choice& choice,
 
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// Returns true if the plug-in has a parameter for an option: only these are in the list.
+/// Returns true if the option is in the list, which is so if the plug-in has a parameter for it.
 bool is_listed(const Option& option) {
     return *option.parameter != '\0';
 }
 
-/// Adds an option to a list, under the name of its parameter, with the library's default.
+/// Adds an option to a list, under the name of its parameter and with the library's default.
 struct Adder {
     ParameterList& list;
     const Option& option;
@@ -78,7 +78,7 @@ struct Adder {
 
 void add_parameters_of_plug_in(ParameterList& list) {
     for (const Option& option : plug_in_table) visit_kind(option, Adder{list, option});
-    // Teuchos has no unsigned 64-bit number.
+    // The seed is signed here, because Teuchos has no unsigned 64-bit number.
     add_number(list, seed_parameter.parameter, 1LL, {0LL, std::numeric_limits<long long>::max()},
                seed_parameter.documentation);
     list.set(dump_parameter.parameter, std::string(), dump_parameter.documentation);
@@ -102,7 +102,7 @@ std::string text_of(const ParameterEntry& entry) {
                 "parameter " + name + " must not be " + text_of(given) + ". " + valid.docString());
 }
 
-/// Returns the entry, with a whole number converted to the type of the valid one.
+/// Returns the entry; a whole number is converted to the type of the valid entry.
 ParameterEntry promoted(ParameterEntry entry, const ParameterEntry& valid) {
     if (entry.isList() || !entry.isType<int>()) return entry;
     const int number = entry.getValue<int>(nullptr);
@@ -142,7 +142,7 @@ std::vector<std::string> names_of(const ParameterList& list) {
                                                  known + suggestion(name, names));
 }
 
-/// Returns the valid list with the values of `given`. Throws Error.
+/// Returns the valid list with the values of `given`. Throws Error if one of these is illegal.
 ParameterList completed(const ParameterList& given) {
     ParameterList list = *valid_parameters();
     for (const std::string& name : names_of(given)) {
@@ -152,13 +152,13 @@ ParameterList completed(const ParameterList& given) {
         if (!is_legal(entry, *valid, name)) reject(name, entry, *valid);
         const auto validator = valid->validator();
         valid->setAnyValue(entry.getAny(false));
-        valid->setValidator(validator);  // removed by the new value
+        valid->setValidator(validator);  // setting a new value has removed it
     }
     return list;
 }
 
-/// Returns the value of an entry as text for the plug-in. 0 is the library's own choice, Zoltan's
-/// DEFAULT.
+/// Returns the value of an entry as a text for the plug-in. 0, the library's own choice, becomes
+/// Zoltan's DEFAULT.
 std::string zoltan_string(const ParameterEntry& entry) {
     const Teuchos::any& value = entry.getAny(false);
     if (entry.isType<std::string>()) return Teuchos::any_cast<std::string>(value);

@@ -19,11 +19,11 @@ namespace {
 
 std::atomic<bool> any_answered = false;
 
-/// Sum of the calls in which this process was rank 0.
+/// Sums over the calls in which this process was rank 0.
 struct Tally {
     std::int64_t calls = 0;
     double seconds = 0;
-    std::int64_t objects = 0;  ///< of calls with lists, which show the moved ones
+    std::int64_t objects = 0;  ///< only of calls with lists, which show how many moved
     std::int64_t moved = 0;
 };
 
@@ -40,7 +40,7 @@ void print_tally() {
     std::printf("\n");
 }
 
-/// Returns the number of objects in a list with a change of rank.
+/// Returns the number of objects in a list whose rank changes.
 std::int64_t count_moved(const List& list, int rank) {
     std::int64_t moved = 0;
     for (int i = 0; i < list.count; ++i) moved += list.ranks[i] != rank ? 1 : 0;
@@ -90,7 +90,7 @@ void log_call(const State& state, const Partition& result, double seconds) noexc
     if (is_asked && state.communicator->rank() == root)
         print_first_call(state, *result.summary, seconds);
 } catch (const std::bad_alloc&) {
-    // If memory is short, only the line is lost.
+    // Without memory only the line is lost.
 }
 
 bool any_call_answered() noexcept {

@@ -15,10 +15,10 @@ namespace {
 
 std::atomic<bool> registered = false;
 
-/// Kinds of arrays, as Zoltan_Special_Malloc numbers them.
+/// Kind of an array, as numbered by Zoltan_Special_Malloc.
 enum class Kind : int { integers, global_ids, local_ids };
 
-/// Arrays in the caller's variables, which the destructor frees unless stay() was called.
+/// Arrays stored in the caller's variables. The destructor frees them unless stay() was called.
 class FortranArrays {
   public:
     explicit FortranArrays(Zoltan_Struct* zz) : zz_(zz) {}
@@ -53,7 +53,7 @@ class FortranArrays {
     }
 
     Zoltan_Struct* zz_;
-    std::array<std::pair<void**, Kind>, 8> given_;  ///< of both lists
+    std::array<std::pair<void**, Kind>, 8> given_;  ///< arrays of both lists
     int num_given_ = 0;
 };
 
@@ -77,7 +77,8 @@ void copy_for_fortran(Zoltan_Struct* zz, const Lists& lists, const IdWidths& wid
         copies.copy(lists.imports, widths, to.imports);
         copies.copy(lists.exports, widths, to.exports);
     });
-    // A rank without memory leaves all ranks without lists. The error frees those made here.
+    // If a rank has no memory, all ranks return no lists; the Error then frees the arrays made
+    // here.
     agree(self);
     copies.stay();
 }

@@ -5,23 +5,22 @@
 
 namespace rrcb::zoltan {
 
-/// Function that Zoltan's Fortran interface passes to Zoltan when it is initialised, of a type of
-/// its own.
+/// Type of the functions that Zoltan's Fortran interface passes to Zoltan when it is initialised.
 using FortranFunction = void (*)();
 
-/// Passes the interface's functions on to Zoltan, if it has a place for them. Notes that Fortran is
-/// in use. Not collective.
+/// Passes the functions of the Fortran interface on to Zoltan, if Zoltan accepts them, and notes
+/// that Fortran is in use. Not collective.
 void register_fortran(FortranFunction allocate, FortranFunction free, FortranFunction set_struct);
 
 /// Returns whether Zoltan's Fortran interface is in use in this process. Only Zoltan_Special_Malloc
-/// knows whether a handle is Fortran's.
+/// can find out whether a handle belongs to Fortran.
 bool is_fortran_used() noexcept;
 
-/// Copies both lists into memory from Zoltan_Special_Malloc.
+/// Copies both lists into memory of Zoltan_Special_Malloc.
 ///
-/// Variables of Fortran hold more than the address of an array: for handles of Zoltan's Fortran
-/// interface that memory is Fortran's own. Collective over `self.comm`: one reduction. Throws Error
-/// on all ranks if one has no memory; then the caller gets no list.
+/// A Fortran variable contains more than the address of an array, so the arrays of handles from
+/// Zoltan's Fortran interface must be allocated by Fortran. Collective over `self.comm`: one
+/// reduction. If a rank has no memory, throws Error on all ranks, and the caller gets no list.
 void copy_for_fortran(Zoltan_Struct* zz, const Lists& lists, const IdWidths& widths,
                       const CallerLists& to, Participant& self);
 

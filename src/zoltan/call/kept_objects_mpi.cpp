@@ -16,8 +16,8 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Joins an entry of an object to those before it. Its high bits, the only ones that differ between
-/// simple numbers, are mixed into the low ones.
+/// Joins an entry of an object with the entries before it. The high bits, in which alone simple
+/// numbers differ, are mixed into the low ones.
 std::uint64_t join(std::uint64_t entries, double entry) {
     entries = (entries ^ std::bit_cast<std::uint64_t>(entry)) * 0x9e3779b97f4a7c15U;
     return entries ^ (entries >> 32);
@@ -55,7 +55,7 @@ std::optional<std::uint64_t> checksum_in_place(const Objects& objects, LastParti
     const int* named = objects.initial_parts;
     parts.assign(count, rank);
     if (named != nullptr) std::copy_n(named, count, parts.begin());
-    // Only cuts that divide no coincident objects show that one is elsewhere.
+    // Cuts can show that an object is not in its part only if they divide no coincident objects.
     const bool ask_cuts = kept.report.details.coincident_cuts == 0 &&
                           last.cuts().dimension == objects.points.dimension;
     if (ask_cuts) last.prepare_look_ups();

@@ -12,17 +12,18 @@
 
 namespace rrcb::zoltan {
 
-/// Returns a checksum of the objects of this rank and of their parts. Checksums of several ranks
-/// add up, whatever the order of the objects and their distribution.
+/// Returns a checksum of this rank's objects and their parts. The checksums of the ranks can be
+/// added up; the sum does not depend on the order of the objects or on their distribution.
 ///
-/// A repeated call finds objects at rest by it, for about 30 instructions an object. Without it,
-/// calls from nothing or with coincident objects may move them for ever.
+/// By the checksum a repeated call recognizes objects that have not changed, at a cost of about 30
+/// instructions for each. Without it, calls from scratch or with coincident objects might move
+/// objects in every call.
 std::uint64_t checksum_of(const Points& points, std::span<const Part> parts);
 
-/// Finds the parts of the objects of this rank, by a callback or, with a part on each rank, by the
-/// rank, and writes them into `parts`. Returns the checksum of all; nothing if the part of one is
-/// unknown or on other ranks, or the last cuts put it elsewhere. Throws std::bad_alloc. Not
-/// collective.
+/// Finds the parts of this rank's objects and writes them into `parts`. Asks a callback or, if each
+/// rank has one part, uses the rank. Returns the checksum of all objects; nullopt if the part of
+/// one is unknown or on other ranks, or if the last cuts put it into another part. Throws
+/// std::bad_alloc. Not collective.
 std::optional<std::uint64_t> checksum_in_place(const Objects& objects, LastPartition& last,
                                                const KeptObjects& kept, int rank,
                                                std::vector<Part>& parts);

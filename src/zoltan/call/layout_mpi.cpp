@@ -11,7 +11,8 @@ namespace {
 
 constexpr double not_set = -1;
 
-/// Returns the number of parts. Fills `local_parts` if any rank sets NUM_LOCAL_PARTS.
+/// Returns the number of parts. If any rank sets NUM_LOCAL_PARTS, writes the number of each rank
+/// into `local_parts`.
 int count_parts(const Outcome& outcome, const State& state, std::span<int> local_parts) {
     const Communicator& comm = *state.communicator;
     if (!outcome.any_local_parts)
@@ -22,7 +23,7 @@ int count_parts(const Outcome& outcome, const State& state, std::span<int> local
     return num_parts_of(local_parts, outcome.num_global_parts);
 }
 
-/// Collects the sizes asked for by this rank, of the parts from `first_part` on.
+/// Collects the sizes that this rank asks for, for the parts from `first_part` on.
 void ask_for_sizes(const State& state, int first_here, int first_part, std::span<double> sizes) {
     std::ranges::fill(sizes, not_set);
     for (const PartSize& entry : state.part_sizes) {
@@ -33,10 +34,10 @@ void ask_for_sizes(const State& state, int first_here, int first_part, std::span
     }
 }
 
-/// Returns the sizes of the parts, merged as in Zoltan: the largest that any rank asks for, 1 if no
-/// rank does.
+/// Determines the sizes of the parts, merged as in Zoltan: the largest size that any rank asks for;
+/// 1 if no rank asks for one.
 ///
-/// They are merged in pieces, for which every rank has the memory.
+/// They are merged in pieces, for which every rank has memory.
 void merge_part_sizes(int num_parts, const State& state, const Layout& layout,
                       std::vector<double>& merged, Participant& self) {
     self.attempt([&] { merged.resize(num_parts); });
@@ -64,7 +65,7 @@ Layout make_layout(const Outcome& outcome, const State& state, Participant& self
         layout.map = outcome.any_local_parts ? local_part_map(local_parts, num_parts)
                                              : even_part_map(num_parts, state.communicator->size());
     });
-    // A single part holds all objects, whatever its size.
+    // The size of a single part does not matter.
     if (outcome.any_part_sizes && num_parts > 1)
         merge_part_sizes(num_parts, state, layout, layout.part_sizes, self);
     return layout;

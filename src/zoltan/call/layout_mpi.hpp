@@ -15,11 +15,10 @@ struct Layout {
     std::vector<double> part_sizes;  ///< relative; empty: equal
 };
 
-/// Returns the layout asked for by the ranks together.
+/// Returns the layout that the ranks together ask for.
 ///
-/// Collective only if NUM_LOCAL_PARTS or part sizes are set on any rank. Throws the same
-/// ZoltanError on all ranks for numbers of parts that do not add up. `self` holds other errors
-/// back.
+/// Collective only if NUM_LOCAL_PARTS or part sizes are set on any rank. If the numbers of parts do
+/// not add up, throws the same ZoltanError on all ranks. Other errors are held back in `self`.
 Layout make_layout(const Outcome& outcome, const State& state, Participant& self);
 
 }  // namespace rrcb::zoltan

@@ -6,12 +6,12 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Keeps the indices up to `count` that move. Returns their number.
+/// Writes those indices below `count` that move. Returns their number.
 template <class IsMoving>
 int select(int count, const IsMoving& is_moving, int* indices) {
     int num_moving = 0;
     for (int i = 0; i < count; ++i) {
-        // Written in any case: the next index overwrites it unless it moves.
+        // Written in any case; the next index overwrites it unless this one moves.
         indices[num_moving] = i;
         num_moving += is_moving(static_cast<std::size_t>(i)) ? 1 : 0;
     }
@@ -40,7 +40,7 @@ Moves::Moves(Objects& objects, std::span<const Part> parts, const PartMap& map, 
     if (objects.moving == nullptr) return;
     const int* const named = objects.initial_parts;
     count_ = visit_ranks([&](const auto& rank_of) {
-        // No branch, which unordered objects would mispredict.
+        // Has no branch, because it would be mispredicted for objects in any order.
         const auto is_moving = [=](std::size_t i) {
             const int before = named == nullptr ? my_rank : named[i];
             return ((rank_of(i) != my_rank ? 1 : 0) | (parts[i] != before ? 1 : 0)) != 0;
@@ -51,7 +51,7 @@ Moves::Moves(Objects& objects, std::span<const Part> parts, const PartMap& map, 
 
 template <class Widths, class RankOf>
 void Moves::write_by(const Widths& widths, const RankOf& rank_of, List& list) const {
-    // Copies, so that the compiler knows that writes do not change them.
+    // These copies let the compiler assume that writes do not change them.
     IdWord* const global_ids = list.global_ids.get();
     IdWord* const local_ids = list.local_ids.get();
     int* const ranks = list.ranks.get();

@@ -33,28 +33,30 @@ struct CallerLists {
     CallerList exports;
 };
 
-/// The moving objects of this rank: their rank or part changes. Without a callback for parts an
-/// object is in the part of its rank's number, as in Zoltan.
+/// The moving objects of this rank: those whose rank or part changes. As in Zoltan, without a
+/// callback for parts the part of an object is the number of its rank.
 class Moves {
   public:
-    /// Finds these objects if `objects` has room for their indices. Borrows all. Never throws.
+    /// Finds the moving objects, if `objects` has memory for their indices. Borrows all arguments.
+    /// Never throws.
     Moves(Objects& objects, std::span<const Part> parts, const PartMap& map, int my_rank);
 
     int count() const { return count_; }
 
-    /// Writes the moving objects to `list` in their order. `list` has room for all of them. It may
-    /// be the room of the objects' own ids, since each is read before it is overwritten. Never
-    /// throws.
+    /// Writes the moving objects to `list`, in the order of the objects. `list` must have memory
+    /// for all of them. It may be the memory of the objects' own ids, because each id is read
+    /// before it is overwritten. Never throws.
     void write(const IdWidths& widths, List& list) const;
 
-    /// Lists all objects with their new ranks and parts, in the room of their ids.
+    /// Lists all objects with their new ranks and parts, in the memory of their ids.
     List list_all() const;
 
-    /// Takes the room of the ids.
+    /// Moves the memory of the ids out.
     List take_room() const { return std::move(objects_.room); }
 
   private:
-    /// Calls visit(rank_of) with a function of the index of an object, which loops can inline.
+    /// Calls visit(rank_of); rank_of(index) returns the rank of an object, and can be inlined in
+    /// loops.
     template <class Visit>
     auto visit_ranks(Visit&& visit) const;
     template <class Widths, class RankOf>
@@ -67,7 +69,7 @@ class Moves {
     int count_ = 0;
 };
 
-/// Lists all objects of this rank with their present parts, in the room of their ids.
+/// Lists all objects of this rank with their present parts, in the memory of their ids.
 List list_in_place(Objects&& objects, int my_rank);
 
 }  // namespace rrcb::zoltan

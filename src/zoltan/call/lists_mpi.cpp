@@ -10,8 +10,8 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Objects as sent: words of a global id, of a local id, and a part. Copies, so that the
-/// compiler knows that writes do not change them.
+/// Objects as they are sent: the words of a global id, of a local id, and a part. The members are
+/// copies, so that the compiler can assume that writes do not change them.
 template <class Widths>
 struct Records {
     Records(const Widths& words, const List& list)
@@ -33,7 +33,7 @@ struct Records {
     }
 
   private:
-    // Copied word by word: widths are small, and known only at run time.
+    // Copies word by word, because widths are small and known only at run time.
     static std::byte* put(const IdWord* words, std::size_t width, std::byte* place) {
         for (std::size_t word = 0; word < width; ++word, place += sizeof(IdWord))
             std::memcpy(place, &words[word], sizeof(IdWord));
@@ -52,7 +52,7 @@ struct Records {
     int* parts;
 };
 
-/// Returns the import list that answers the export lists of all ranks. Collective.
+/// Returns the import list that corresponds to the export lists of all ranks. Collective.
 List invert(const List& exports, const Parameters& parameters, ExchangeBuffers& memory,
             Participant& self) {
     const IdWidths widths(parameters);

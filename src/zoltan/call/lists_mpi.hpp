@@ -5,12 +5,13 @@
 
 namespace rrcb::zoltan {
 
-/// Makes the lists asked for by RETURN_LISTS, without imports if no object of any rank `changes`
-/// its rank or part. Imports answer the export lists of all ranks, by rank, in the order of that
-/// rank's list. Messages use `memory`, which grows.
+/// Makes the lists that RETURN_LISTS asks for. Leaves imports out if no object on any rank
+/// `changes` its rank or part. Imports are ordered by the exporting rank, and then as in the list
+/// of that rank. Messages use `memory`, which grows.
 ///
-/// Collective over `self.comm` if imports are asked for, as Exchange is, with a reduction. Throws
-/// Error on all ranks if one has no memory, on one alone if its message fails.
+/// Collective over `self.comm` if imports are asked for, as Exchange is, with one reduction. If a
+/// rank has no memory, throws Error on all ranks; if a message fails, throws Error on its rank
+/// only.
 Lists select_lists(const Parameters& parameters, const Moves& moves, bool changes,
                    ExchangeBuffers& memory, Participant& self);
 

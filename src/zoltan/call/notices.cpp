@@ -28,16 +28,16 @@ double imbalance_of(const Report& report) {
     return std::isnan(report.imbalance) ? report.details.estimated_imbalance : report.imbalance;
 }
 
-/// Returns whether RCB_OUTPUT_LEVEL or FINAL_OUTPUT is above 0, or DEBUG_LEVEL at least 10, as
-/// Zoltan then reports on REMAP.
+/// Returns whether RCB_OUTPUT_LEVEL or FINAL_OUTPUT is above 0, or DEBUG_LEVEL at least 10. In the
+/// last case Zoltan reports on REMAP.
 bool asks_for_report_line(const Parameters& parameters) {
     constexpr int debug_all = 10;
     return parameters.output_level > 0 || parameters.final_output > 0 ||
            parameters.debug_level >= debug_all;
 }
 
-/// Returns the line of RCB_OUTPUT_LEVEL: size, imbalance, rounds, and objects that new part numbers
-/// keep in place.
+/// Returns the line of RCB_OUTPUT_LEVEL: the size, the imbalance, the rounds, and the number of
+/// objects that new part numbers keep in place.
 std::string report_line(const Report& report, int num_parts, const Remap& remap) {
     const Summary summary = summary_of(report, num_parts);
     std::string text =
@@ -50,7 +50,7 @@ std::string report_line(const Report& report, int num_parts, const Remap& remap)
                          percent(remap.kept_before, remap.num_points));
 }
 
-/// Returns the causes of an imbalance above the tolerance, a sentence each.
+/// Returns the causes of an imbalance above the tolerance, one sentence for each.
 std::vector<std::string> balance_warnings(const Report& report, const Parameters& parameters) {
     std::vector<std::string> texts;
     const double least = report.details.least_imbalance;
@@ -78,7 +78,7 @@ bool leaves_parts_empty(const Report& report) {
     return report.details.num_points > 0 && report.details.surplus_parts > 0;
 }
 
-/// Prints warnings and line. Called on one rank.
+/// Prints the warnings and the line. Called on one rank.
 void print_messages(const Report& report, int num_parts, const Remap& remap,
                     const Parameters& parameters, const char* function) {
     if (asks_for_report_line(parameters))

@@ -9,7 +9,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// A registered callback with its data pointer; false if there is none.
+/// A registered callback and its data pointer. Converts to false if none is registered.
 template <typename Function>
 struct Callback {
     Function* function = nullptr;
@@ -31,7 +31,7 @@ Callback<Function> callback(Zoltan_Struct* zz, ZOLTAN_FN_TYPE type) {
     return {reinterpret_cast<Function*>(function), data};
 }
 
-/// Calls one handle's callbacks and turns their error codes into failures.
+/// Calls the callbacks of one handle, and turns their error codes into failures.
 class Collector {
   public:
     Collector(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace)
@@ -179,7 +179,8 @@ class Collector {
         }
     }
 
-    /// Allocates memory for later steps: they run between messages, when no rank may fail alone.
+    /// Allocates the memory of later steps, because those run between messages, where no rank may
+    /// fail alone.
     void allocate(std::size_t count) {
         const ReturnLists asked = parameters_.return_lists;
         if (asked != ReturnLists::none) objects_.moving = room_in(workspace_.moving, count);
@@ -196,12 +197,12 @@ class Collector {
 
     Zoltan_Struct* zz_;
     const Parameters& parameters_;
-    int gid_;  ///< entries of a global id
+    int gid_;  ///< number of entries of a global id
     int lid_;
     IdWidths widths_;
     Workspace& workspace_;
     Objects objects_;
-    float* weights_ = nullptr;  ///< as the callbacks give them, null without weights
+    float* weights_ = nullptr;  ///< weights from the callbacks; null if there are none
 };
 
 }  // namespace

@@ -14,16 +14,16 @@
 
 namespace rrcb::zoltan {
 
-/// A word of an id. An entry of NUM_GID_ENTRIES has one or two words. The Zoltan found at run time
-/// decides, not the ZOLTAN_ID_TYPE with which the plug-in was compiled.
+/// A word of an id. An entry of NUM_GID_ENTRIES has one or two words. That depends on the Zoltan
+/// found at run time, not on the ZOLTAN_ID_TYPE with which the plug-in was compiled.
 using IdWord = std::uint32_t;
 
-/// The same memory for Zoltan, whose own word may be wider.
+/// Returns the same memory with Zoltan's type, whose words may be wider.
 inline ZOLTAN_ID_PTR as_zoltan_ids(IdWord* words) {
     return reinterpret_cast<ZOLTAN_ID_PTR>(words);
 }
 
-/// Words of one object's ids.
+/// Number of words in the ids of one object.
 struct IdWidths {
     explicit IdWidths(const Parameters& parameters)
         : global(static_cast<std::size_t>(parameters.num_gid_entries) * words_per_id_entry()),
@@ -33,21 +33,21 @@ struct IdWidths {
     std::size_t local;
 };
 
-/// Widths of ids of one word, which most programs have: a compiler makes faster loops for them.
+/// Widths of ids with one word each, which most programs have. As constants they make loops faster.
 struct SingleWords {
     static constexpr std::size_t global = 1;
     static constexpr std::size_t local = 1;
 };
 
-/// Calls visit(widths) with constants if the widths are the usual ones.
+/// Calls visit(widths); the usual widths are passed as constants.
 template <class Visit>
 void visit_widths(const IdWidths& widths, Visit&& visit) {
     if (widths.global == 1 && widths.local == 1) return visit(SingleWords{});
     visit(widths);
 }
 
-/// One of Zoltan's two lists. Arrays of an empty list are null. A count of -1 stands for a list
-/// that was not asked for.
+/// One of Zoltan's two lists. If it is empty, its arrays are null. A count of -1 means that the
+/// list was not asked for.
 struct List {
     int count = 0;
     ZoltanArray<IdWord> global_ids;
@@ -56,25 +56,26 @@ struct List {
     ZoltanArray<int> parts;
 };
 
-/// Returns a list with room for so many entries. Throws std::bad_alloc.
+/// Returns a list with memory for `count` entries. Throws std::bad_alloc.
 List make_list(int count, const IdWidths& widths);
 
-/// One rank's objects, as its callbacks describe them, in memory of the workspace.
+/// The objects of one rank, as its callbacks describe them, in the memory of the workspace.
 struct Objects {
     int count = 0;
-    bool warned = false;       ///< a callback returned ZOLTAN_WARN
-    bool names_parts = false;  ///< a callback returns the part of each object
+    bool warned = false;       ///< whether a callback has returned ZOLTAN_WARN
+    bool names_parts = false;  ///< whether a callback returns the part of each object
     IdWord* global_ids = nullptr;
-    IdWord* local_ids = nullptr;   ///< null when ids have no local part
-    int* initial_parts = nullptr;  ///< null without such a callback
-    int* moving = nullptr;         ///< room for the indices of moving objects; null without lists
+    IdWord* local_ids = nullptr;   ///< null if there are no local ids
+    int* initial_parts = nullptr;  ///< null if no callback returns the parts
+    int* moving = nullptr;  ///< memory for the indices of moving objects; null if no lists are
+                            ///< asked for
     Points points;
-    List room;  ///< memory for the ids that are returned, if the ranks need not agree once more
+    List room;  ///< memory for the returned ids, if the ranks need no further agreement
 };
 
-/// Collects objects by the registered callbacks, with at most one weight each. Not collective.
-/// Throws ZoltanError for a missing or failing callback, a negative count, and a dimension other
-/// than 1, 2 or 3.
+/// Collects the objects from the registered callbacks, with at most one weight each. Throws
+/// ZoltanError for a missing or failing callback, a negative count, and a dimension other than 1, 2
+/// or 3. Not collective.
 Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace);
 
 }  // namespace rrcb::zoltan

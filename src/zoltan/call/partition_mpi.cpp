@@ -33,8 +33,8 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Collects the objects and checks the parameters of this rank. Errors and foreign exceptions
-/// become a status.
+/// Collects the objects and checks the parameters of this rank. Converts errors and exceptions of
+/// callbacks to a status.
 LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects,
                     std::optional<std::uint64_t>& checksum) {
     try {
@@ -72,7 +72,7 @@ int migrate(Zoltan_Struct* zz, const Partition& result) {
         as_zoltan_ids(exports.local_ids.get()), exports.ranks.get(), exports.parts.get());
 }
 
-/// One call of LB_Partition after the vote, and the partition of the call before it.
+/// One call of LB_Partition after the vote, with the partition of the call before it.
 struct Call {
     Zoltan_Struct* zz;
     State& state;
@@ -82,7 +82,7 @@ struct Call {
     std::optional<LastPartition> previous = {};
 };
 
-/// Takes the last partition out of the state: should this call fail, the next one must not build on
+/// Moves the last partition out of the state. If this call fails, the next one must not start from
 /// it.
 void take_previous(Call& call) {
     call.state.kept.reset();
@@ -90,7 +90,7 @@ void take_previous(Call& call) {
     if (call.outcome.any_lacks_cuts) call.previous.reset();
 }
 
-/// Returns whether no object and no parameter has changed on any rank since the last partition.
+/// Returns true if no object and no parameter has changed on any rank since the last partition.
 /// Collective if the objects may be kept: one reduction.
 bool are_kept(const Call& call, std::optional<std::uint64_t> here) {
     const State& state = call.state;
@@ -101,12 +101,12 @@ bool are_kept(const Call& call, std::optional<std::uint64_t> here) {
     return may_keep && checksum == state.kept->checksum;
 }
 
-/// Options and memory of a call, made before the ranks agree for the last time: no rank may fail
-/// alone afterwards.
+/// Options and memory of a call. They are made before the ranks agree for the last time, because no
+/// rank may fail alone afterwards.
 struct Preparation {
     Options options;
-    PaperOptions paper;              ///< in place of `options` if RRCB_DOMAIN asks for it
-    const Cuts* previous = nullptr;  ///< to start from, or null
+    PaperOptions paper;              ///< used instead of `options` if RRCB_DOMAIN asks for it
+    const Cuts* previous = nullptr;  ///< cuts to start from, or null
     std::optional<Renumbering> renumbering;
     std::optional<LastPartition> last;
 };
@@ -134,8 +134,8 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
     return made;
 }
 
-/// Returns true if an object moves on any rank, or if that is not known. Keeps the checksum by
-/// which the next call finds the objects unchanged. Collective unless RETURN_LISTS is NONE: one
+/// Returns true if an object moves on any rank, or if that is not known. Keeps the checksum with
+/// which the next call recognizes unchanged objects. Collective unless RETURN_LISTS is NONE: one
 /// reduction.
 bool may_change(State& state, const Moves& moves, const Points& points,
                 std::span<const Part> parts) {
@@ -144,7 +144,7 @@ bool may_change(State& state, const Moves& moves, const Points& points,
     return add_up(moves.count() > 0, kept.checksum, state.communicator->get());
 }
 
-/// Keeps cuts, numbers of parts and report for look-ups and for the next call.
+/// Keeps the cuts, the numbers of the parts and the report for look-ups and for the next call.
 void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&& numbering,
           State& state) {
     prepared.last->keep(std::move(balanced.cuts), std::move(map), std::move(numbering));
@@ -155,16 +155,16 @@ void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&&
     state.axes_changed = false;
 }
 
-/// Copies the lists into the caller's variables if Zoltan's Fortran interface is used on any rank.
-/// Collective then.
+/// If Zoltan's Fortran interface is used on any rank, copies the lists into the caller's variables;
+/// this is then collective.
 void serve_fortran(const Call& call, Partition& result, Participant& self) {
     if (!call.outcome.any_fortran) return;
     copy_for_fortran(call.zz, result, IdWidths(call.state.parameters), call.to, self);
     result.with_caller = true;
 }
 
-/// Returns whether each part has a rank of its own, and all objects of this rank are in its part,
-/// as they are if no callback names parts. Not collective.
+/// Returns true if each part has its own rank and all objects of this rank are in its part; without
+/// a callback for parts they are. Not collective.
 bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
     if (!map.one_each) return false;
     const int* named = objects.initial_parts;
@@ -172,8 +172,8 @@ bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
     return std::all_of(named, named + objects.count, [&](int part) { return part == rank; });
 }
 
-/// Answers a call whose objects stay in the parts of the last partition. Collective as
-/// serve_fortran is.
+/// Answers a call whose objects remain in the parts of the last partition. Collective in the same
+/// cases as serve_fortran().
 void keep_objects(const Call& call, Objects&& objects, Partition& result) {
     State& state = call.state;
     if (state.parameters.return_lists == ReturnLists::parts)
@@ -185,7 +185,7 @@ void keep_objects(const Call& call, Objects&& objects, Partition& result) {
     result.summary = summary_of(state.kept->report, state.last->map().num_parts);
 }
 
-/// Divides the objects by RRCB's own method, or by one of the paper's. Collective.
+/// Divides the objects by RRCB's own method or by a method of the paper. Collective.
 Balance divide(const Call& call, const Layout& layout, const Preparation& prepared,
                const Objects& objects, Participant& self) {
     State& state = call.state;
@@ -216,15 +216,15 @@ void balance_objects(const Call& call, Objects&& objects, Partition& result) {
          call.state);
 }
 
-/// Dumps the inputs of a call, with its code and message so far. Collective as dump() is.
+/// Dumps the inputs of a call, with its code and message so far. Collective as dump().
 void dump_inputs(DumpReason reason, const Call& call, const Objects& objects,
                  const LocalStatus& status) {
     dump(reason, call.outcome.dump, call.state,
          {call.function, objects.points, objects.initial_parts, status.code, status.text.data()});
 }
 
-/// Fails on all ranks alike: `speaker` prints the text. Dumps the inputs and empties the result;
-/// returns the code. Collective as dump() is.
+/// Makes the call fail in the same way on all ranks; rank `speaker` prints the text. Dumps the
+/// inputs, empties the result and returns the code. Collective as dump().
 int fail(const Call& call, const Objects& objects, const LocalStatus& status, Partition& result,
          int speaker = 0) {
     if (call.state.communicator->rank() == speaker)
@@ -234,7 +234,7 @@ int fail(const Call& call, const Objects& objects, const LocalStatus& status, Pa
     return status.code;
 }
 
-/// Fails for a parameter that differs between ranks.
+/// Makes the call fail because a parameter differs between ranks.
 int refuse_difference(const Call& call, const Objects& objects, Partition& result) {
     std::array<char, 128> text{};
     std::snprintf(text.data(), text.size(),
@@ -243,7 +243,7 @@ int refuse_difference(const Call& call, const Objects& objects, Partition& resul
     return fail(call, objects, {ZOLTAN_FATAL, text.data()}, result);
 }
 
-/// Leaves a call to the real Zoltan. Earlier cuts are useless afterwards.
+/// Leaves a call to the real Zoltan. Earlier cuts cannot be used afterwards.
 int leave_to_zoltan(const Call& call, Partition& result) {
     print_forwarding(call.state, call.function);
     call.state.last.reset();
@@ -261,7 +261,8 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects, checksum);
     const Outcome outcome = vote(local, state);
     if (outcome.lists_differ) {
-        // The memory for the lists was chosen before the vote.
+        // The memory for the lists was allocated before the vote, for other lists, so the call
+        // starts anew.
         state.parameters.return_lists = outcome.return_lists;
         return partition(zz, state, function, one_part_per_rank, to, result);
     }
@@ -290,7 +291,7 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
         return fail(call, objects, {error.code(), error.what()}, result);
     } catch (const Error& error) {
         result = Partition{};
-        // An MPI error may be on this rank only; the ranks can do nothing more together.
+        // An MPI error may have occurred on this rank only, so the ranks cannot fail together.
         if (error.code() == ErrorCode::mpi) throw;
         const bool memory = error.code() == ErrorCode::out_of_memory;
         return fail(call, objects, {memory ? ZOLTAN_MEMERR : ZOLTAN_FATAL, error.what()}, result);

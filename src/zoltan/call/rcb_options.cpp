@@ -13,8 +13,8 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Returns the axes in the order of RCB_SET_DIRECTIONS, 1 ... 6. Other values count as 1, as in
-/// Zoltan.
+/// Returns the order of axes that RCB_SET_DIRECTIONS (1 to 6) stands for. Other values count as 1,
+/// as in Zoltan.
 std::vector<int> axis_order(int set_directions, int dimension) {
     constexpr std::array<std::array<int, 3>, 6> orders = {
         {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
@@ -26,11 +26,11 @@ std::vector<int> axis_order(int set_directions, int dimension) {
     return axes;
 }
 
-/// Returns a setting left to Zoltan's RCB; null if there is none.
+/// Returns the setting because of which the call is left to Zoltan's RCB; null if there is none.
 const char* forwarded_setting(const Parameters& parameters) {
     if (parameters.weight_dimension > 1) return "OBJ_WEIGHT_DIM is above 1";
     if (parameters.reduce_dimensions != 0) return "REDUCE_DIMENSIONS is set";
-    // RRCB's own limits decide the places of cuts.
+    // If RRCB's own parameters limit the positions of cuts, AVERAGE_CUTS has no meaning.
     if (parameters.average_cuts != 0 && !are_cuts_limited(parameters.options))
         return "AVERAGE_CUTS is set";
     return nullptr;
@@ -79,7 +79,8 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;
     options.axes.plain = parameters.rectilinear_blocks != 0;
-    // Parts of a machine have consecutive numbers only if each rank has as many.
+    // The parts of a machine have consecutive numbers only if each rank has the same number of
+    // parts.
     const PartMap& map = layout.map;
     const bool are_alike = map.is_even && map.num_parts % map.num_ranks == 0;
     if (!map.one_each && !are_alike) options.tree.group_size = 1;

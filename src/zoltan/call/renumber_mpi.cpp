@@ -24,7 +24,7 @@ Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, boo
     rule.by_rank = map.one_each || !any_names_parts;
     rule.listed = map.listed;
     if (!parameters.paper_domain) rule.shape = shape;
-    // A single rank keeps its objects under any numbers.
+    // On a single rank objects remain in place whatever the numbers are.
     const bool matters = comm.size() > 1 || !rule.by_rank;
     if (!matters || !may_change_numbers(parameters, layout)) return;
     buffers_.emplace(rule, comm.rank());

@@ -11,31 +11,31 @@
 
 namespace rrcb::zoltan {
 
-/// The gain of REMAP, without numbers, and the numbers.
+/// Result of REMAP: its gain (without the numbers), and the numbers.
 struct Renumbered {
     Remap summary{};
     Numbering numbering{};
 };
 
-/// REMAP: numbers for the parts that keep objects in place, in the cases in which Zoltan does.
+/// REMAP: finds numbers for the parts that keep objects in place, in the same cases as Zoltan.
 ///
-/// Parts of a group of the cuts, such as those of a machine, stay in one group. The numbers are
-/// unchanged if REMAP is off, the parts differ in size, a part is on several ranks or there are
-/// more than 2^17 parts. With one part on each rank an object is to be kept on its rank. Otherwise
-/// it is to be kept in the part that the callbacks name, or on its rank if they name none on any
-/// rank.
+/// Parts of one group of the cuts, for example those of a machine, remain in one group. The numbers
+/// are unchanged if REMAP is off, if the parts differ in size, if a part is on several ranks, or if
+/// there are more than 2^17 parts. If each rank has one part, objects are to be kept on their rank.
+/// Otherwise they are to be kept in the part that the callbacks return; if no rank has such a
+/// callback, on their rank.
 class Renumbering {
   public:
-    /// Allocates all memory. `layout` outlives it. Throws std::bad_alloc, which all ranks must
-    /// agree on before run(). Not collective.
+    /// Allocates all memory. `layout` must outlive this object. Throws std::bad_alloc, on which all
+    /// ranks must agree before run(). Not collective.
     Renumbering(const Parameters& parameters, const Layout& layout, bool any_names_parts,
                 const TreeShape& shape, const Communicator& comm);
 
-    /// Writes the new numbers to `parts`. Collective if numbers may change, as find_numbers() is.
+    /// Writes the new numbers to `parts`. Collective as find_numbers() if numbers may change.
     Renumbered run(const Objects& objects, std::span<Part> parts, Participant& self);
 
   private:
-    std::optional<GroupBuffers> buffers_;  ///< if numbers may change
+    std::optional<GroupBuffers> buffers_;  ///< empty if numbers cannot change
     std::vector<Part> boxes_;              ///< memory for the box of each number
 };
 

@@ -12,7 +12,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Codes from the mildest to the gravest; the gravest of all ranks counts.
+/// Codes in ascending order of severity. The most severe code of all ranks is returned.
 constexpr std::array codes = {ZOLTAN_OK, ZOLTAN_WARN, ZOLTAN_FATAL, ZOLTAN_MEMERR};
 
 int severity(int code) {
@@ -22,8 +22,8 @@ int severity(int code) {
     return severity(ZOLTAN_FATAL);
 }
 
-/// Options of the balancer that are parameters, except the parts, which are agreed on separately,
-/// and those that the balancer compares itself.
+/// Returns true for options that are parameters, except the number of parts, on which the ranks
+/// agree separately, and options that the balancer itself compares.
 constexpr bool is_voted_on(const Option& option) {
     return option.parameter[0] != '\0' && is_compared(option) &&
            std::string_view(option.name) != "num_parts";
@@ -44,16 +44,16 @@ void for_each_shared(const Parameters& parameters, Visit&& visit) {
             visit(option.parameter, number_of(bits_of(option, parameters.options)));
 }
 
-/// Numbers of one rank in the vote, reduced by maximum. A minimum is sent as the maximum of
-/// the complement.
+/// Numbers of one rank in the vote, which are reduced by their maximum. A minimum is sent as the
+/// maximum of the complement.
 struct Ballot {
     int severity = 0;
-    int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
+    int failing_rank_from_last = 0;  ///< number of ranks minus lowest failing rank
     int num_global_parts = -1;
     int return_lists = 0;
     int complement_of_return_lists = 0;
     Votes votes{};
-    int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
+    int dumping_rank_from_last = 0;  ///< number of ranks minus lowest rank with a folder for dumps
     int dump_always = 0;
     std::array<int, num_shared> largest{};
     std::array<int, num_shared> complement_of_smallest{};

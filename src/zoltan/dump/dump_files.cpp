@@ -31,7 +31,7 @@ void finish(File file, const std::filesystem::path& path) {
     if (std::fputs("end\n", file.get()) < 0 || std::fclose(file.release()) != 0) fail(path);
 }
 
-/// Returns text without line breaks, which would end its entry.
+/// Returns the text without line breaks, because a line break ends an entry.
 std::string one_line(std::string text) {
     for (char& c : text)
         if (c == '\n' || c == '\r') c = ' ';
@@ -41,7 +41,8 @@ std::string one_line(std::string text) {
 void write_point(std::FILE* file, const State& state, const DumpInput& input, LocalIndex i) {
     for (int axis = 0; axis < input.points.dimension; ++axis)
         std::fprintf(file, "%a ", input.points.coordinate(i, axis));
-    // As the callbacks gave them, object by object.
+    // Weights are in the form in which the callbacks return them: all weights of an object
+    // together.
     const float* const weights = state.workspace.callback_weights.data();
     const auto num_weights = static_cast<std::size_t>(state.parameters.weight_dimension);
     for (std::size_t w = 0; w < num_weights; ++w)
@@ -54,7 +55,7 @@ void write_point(std::FILE* file, const State& state, const DumpInput& input, Lo
 
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent) {
     std::filesystem::create_directories(parent);
-    // Numbers to try first. An existing folder is never taken.
+    // Number to try next in each folder. An existing folder is never used.
     thread_local std::map<std::filesystem::path, int> numbers;
     while (true) {
         std::filesystem::path folder = parent / ("call-" + std::to_string(++numbers[parent]));

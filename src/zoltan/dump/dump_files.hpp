@@ -6,10 +6,10 @@
 
 namespace rrcb::zoltan {
 
-// A dump is text, one entry a line; comparisons/run --replay reads it. Numbers are as C's %a writes
-// them, so nothing is lost; nan and inf may occur.
+// A dump is a text with one entry a line, which comparisons/run --replay can read. Numbers are
+// written with %a, so that nothing is lost; nan and inf may occur.
 //
-// call.txt, written by the rank choosing the folder:
+// call.txt is written by the rank that chooses the folder:
 //
 //     rrcb-dump 1
 //     version 0.1.0
@@ -19,7 +19,7 @@ namespace rrcb::zoltan {
 //     parameter LB_METHOD RRCB        all that were set on the handle, as set on this rank
 //     end
 //
-// rank-0.txt, rank-1.txt, ..., written by every rank:
+// rank-0.txt, rank-1.txt, ... are written by every rank:
 //
 //     rrcb-dump-rank 1
 //     rank 0
@@ -35,22 +35,23 @@ namespace rrcb::zoltan {
 //     0x1.ap+0 0x1p-1 0x1p+0 0
 //     end
 
-/// Inputs of a partitioning call on this rank, besides those in the state of the handle.
+/// Inputs of a partitioning call on this rank that are not in the state of the handle.
 struct DumpInput {
     const char* function;
     const Points& points;
-    const int* initial_parts;  ///< one per point, null without a callback for them
+    const int* initial_parts;  ///< one for each point; null if no callback returns them
     int code;                  ///< code of the call, if it is known when the dump is written
-    const char* message;       ///< of an error; empty: none
+    const char* message;       ///< text of an error; empty if there is none
 };
 
-/// Makes the first folder of DIR/call-1, DIR/call-2, ... that does not exist. Throws if it cannot.
+/// Makes the first of the folders DIR/call-1, DIR/call-2, ... that does not exist. Throws if that
+/// fails.
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent);
 
-/// Writes call.txt. Throws if it cannot.
+/// Writes call.txt. Throws if that fails.
 void write_call(const std::filesystem::path& folder, const State& state, const DumpInput& input);
 
-/// Writes rank-N.txt. Throws if it cannot.
+/// Writes rank-N.txt. Throws if that fails.
 void write_rank(const std::filesystem::path& folder, const State& state, const DumpInput& input);
 
 }  // namespace rrcb::zoltan

@@ -12,7 +12,8 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Path in a message, of fixed length: no rank can run out of memory before the others know.
+/// Path in a message. Its length is fixed, so that no rank can run out of memory before the others
+/// know.
 using PathText = std::array<char, 4096>;
 
 PathText choose_folder(const State& state, const DumpInput& input) {
@@ -25,7 +26,7 @@ PathText choose_folder(const State& state, const DumpInput& input) {
     return text;
 }
 
-/// Runs a step whose failure must not affect the call.
+/// Runs a step whose failure must not affect the call. Warns about the first failure.
 template <typename Step>
 void warn_once_if_failing(const State& state, const char* function, Step step) {
     static std::atomic<bool> warned = false;
@@ -53,7 +54,7 @@ void dump(DumpReason reason, const DumpWish& wish, const State& state,
         MPI_Bcast(folder.data(), static_cast<int>(folder.size()), MPI_CHAR, wish.rank, comm.get());
     if (sent != MPI_SUCCESS || folder[0] == '\0') return;
     warn_once_if_failing(state, input.function, [&] {
-        // Needed if ranks do not share their file systems.
+        // Ranks on other file systems have to make the folder, too.
         std::filesystem::create_directories(folder.data());
         write_rank(folder.data(), state, input);
     });

@@ -4,19 +4,20 @@
 
 namespace rrcb::zoltan {
 
-/// Reason to write the inputs of a call.
+/// Reason for writing the inputs of a call.
 enum class DumpReason { asked, failure };
 
-/// Dumps, as all ranks together ask for.
+/// What all ranks together ask to dump.
 struct DumpWish {
-    int rank = -1;        ///< lowest rank with RRCB_DUMP, -1: none
-    bool always = false;  ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
+    int rank = -1;        ///< lowest rank with RRCB_DUMP; -1 if there is none
+    bool always = false;  ///< whether RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
 };
 
-/// Writes the inputs of a call if RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it now.
+/// Writes the inputs of a call if RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN includes this
+/// reason.
 ///
-/// Collective in that case, else does nothing. The lowest rank with a folder chooses it for all. A
-/// failure to write is warned about once, and never fails the call.
+/// Collective if it writes; otherwise does nothing. The lowest rank with a folder chooses it for
+/// all ranks. If writing fails, it warns once; the call does not fail because of it.
 void dump(DumpReason reason, const DumpWish& wish, const State& state,
           const DumpInput& input) noexcept;
 

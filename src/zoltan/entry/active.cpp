@@ -14,7 +14,7 @@ const void* library_of(const void* address) {
 }  // namespace
 
 RRCB_EXPORT int RRCB_Zoltan_Active(void) {
-    // The process-wide look-up finds the function that a program's own call would reach.
+    // dlsym() finds the function that a call of the program itself would reach.
     static const char own = 0;
     const void* reached = dlsym(RTLD_DEFAULT, "Zoltan_LB_Partition");
     return reached != nullptr && library_of(reached) == library_of(&own) ? 1 : 0;

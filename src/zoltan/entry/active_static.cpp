@@ -2,7 +2,7 @@
 
 extern "C" {
 
-// Files without the renaming header call this function: their calls bypass the plug-in.
+// Files without the renaming header call this function. Their calls of Zoltan bypass the plug-in.
 int RRCB_Zoltan_Active(void) {
     return 0;
 }

@@ -10,14 +10,14 @@
 #include <exception>
 #include <new>
 
-/// A symbol that the plug-in exports: a function of Zoltan's (real/functions.inc) or one of its
-/// own.
+/// Marks a function that the plug-in exports: a function of Zoltan (real/functions.inc) or one of
+/// its own.
 #define RRCB_EXPORT extern "C" __attribute__((visibility("default")))
 
 namespace rrcb::zoltan {
 
-/// Runs the body of an entry point; no exception leaves it. Not used for forwarded calls: the
-/// program catches the exceptions of its callbacks under Zoltan.
+/// Runs the body of an entry point. No exception leaves it. It is not used for forwarded calls,
+/// because with Zoltan the program catches the exceptions of its own callbacks.
 template <typename Body>
 int guarded(const char* function, const State* state, Body body) noexcept {
     const int rank = state == nullptr ? -1 : state->communicator->rank();
@@ -41,7 +41,7 @@ int guarded(const char* function, const State* state, Body body) noexcept {
     return code;
 }
 
-/// Returns the state of a handle whose method is RRCB; null if the real Zoltan is to answer.
+/// Returns the state of a handle whose method is RRCB; null if the real Zoltan has to answer.
 inline State* rrcb_state(const Zoltan_Struct* zz) {
     State* state = find_state(zz);
     return state != nullptr && state->parameters.rrcb ? state : nullptr;

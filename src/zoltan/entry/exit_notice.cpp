@@ -21,7 +21,8 @@ bool has_used_mpi() {
     return MPI_Initialized(&initialized) == MPI_SUCCESS && initialized != 0;
 }
 
-/// Returns whether this is the first process, by the launcher's environment: MPI has ended.
+/// Returns whether this is the first process. Asks the launcher's environment, because MPI has
+/// ended.
 bool is_first_process() {
     for (const char* name :
          {"PMIX_RANK", "OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "SLURM_PROCID"}) {
@@ -31,8 +32,9 @@ bool is_first_process() {
     return true;
 }
 
-/// Prints a notice if RRCB was asked for, but no handle came through it, for instance if a program
-/// has Zoltan as a static archive. Shells and launchers inherit the environment, but use no MPI.
+/// Prints a notice if RRCB was asked for but no handle was made through it, for example because the
+/// program has Zoltan as a static archive. Shells and launchers inherit the environment as well;
+/// they print nothing, because they do not use MPI.
 __attribute__((destructor)) void tell_if_asked_for_nothing() {
     if (any_call_answered() || !has_used_mpi() || !is_first_process()) return;
     if (is_verbosity_asked()) std::printf("RRCB %s: no calls\n", version());

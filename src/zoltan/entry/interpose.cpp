@@ -15,14 +15,15 @@ using namespace rrcb::zoltan;
 
 namespace {
 
-/// Switches to RRCB, and the real Zoltan to RCB, which answers the calls that RRCB leaves to it.
+/// Switches a handle to RRCB. Switches the real Zoltan to RCB, which answers the calls that RRCB
+/// leaves to it.
 template <typename SwitchZoltan>
 int switch_to_rrcb(State& state, SwitchZoltan switch_zoltan) {
     if (state.deserialized)
         throw_fatal(
             "a handle filled by Zoltan_Deserialize cannot be switched to RRCB; create "
             "one with Zoltan_Create");
-    // Zoltan frees its cuts even if its method does not change.
+    // Zoltan is switched only once, because it frees its cuts even if its method does not change.
     const int code = state.parameters.rrcb ? ZOLTAN_OK : switch_zoltan();
     if (code == ZOLTAN_OK) state.parameters.rrcb = true;
     return code;
@@ -35,13 +36,13 @@ int reject_value(const State& state, const std::string& name, const std::string&
     return ZOLTAN_WARN;
 }
 
-/// Returns whether Zoltan_Set_Param with this code has set the parameter. Zoltan warns of an
-/// unknown word for RETURN_LISTS, but sets the default.
+/// Returns whether Zoltan_Set_Param has set the parameter if it returned this code. For an unknown
+/// value of RETURN_LISTS Zoltan warns, but sets the default.
 bool is_taken(const std::string& name, int code) {
     return code == ZOLTAN_OK || name == "RETURN_LISTS";
 }
 
-/// Sets a parameter of the plug-in, or one of Zoltan by `forward_value`.
+/// Sets a parameter of the plug-in, or lets forward_value() set one of Zoltan.
 template <typename Forward>
 int set_parameter(State& state, const std::string& name, const char* raw_value,
                   Forward forward_value) {
@@ -57,10 +58,11 @@ int set_parameter(State& state, const std::string& name, const char* raw_value,
     return code;
 }
 
-/// Notes a parameter that was set: if it changed, the next partition may differ from the last one.
+/// Notes that a parameter was set. If its value has changed, the next partition may differ from the
+/// last one.
 void note_change(State& state, const std::string& name, const char* raw_value) {
     if (!state.parameters.given.note(name, raw_value)) return;
-    // These two decide which results are returned, not the parts.
+    // These two affect which results are returned, but not the parts.
     if (name != "RETURN_LISTS" && name != "KEEP_CUTS") state.kept.reset();
     if (chooses_axes(name)) state.axes_changed = true;
 }
@@ -86,7 +88,7 @@ int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value
 
 void hand_out(List&& list, bool with_caller, const CallerList& to) {
     *to.count = list.count;
-    // Empty lists are never in the caller's variables already.
+    // Only lists with entries can be in the caller's variables already.
     if (with_caller && list.count > 0) return;
     *to.global_ids = as_zoltan_ids(list.global_ids.release());
     *to.local_ids = as_zoltan_ids(list.local_ids.release());
@@ -101,7 +103,7 @@ struct Request {
     bool one_part_per_rank;
 };
 
-/// Lets the real Zoltan answer by `forward_it`, also for a handle of RRCB's.
+/// Lets the real Zoltan answer by forward_it(), even if the handle belongs to RRCB.
 template <typename Forward>
 int let_zoltan_answer(const Request& request, Forward forward_it) {
     State* state = find_state(request.zz);
@@ -114,7 +116,7 @@ int let_zoltan_answer(const Request& request, Forward forward_it) {
     return code;
 }
 
-/// Partitions with RRCB or, if the call is left to the real Zoltan, by `forward_it`.
+/// Partitions with RRCB. If the call is left to the real Zoltan, lets that answer by forward_it().
 template <typename Forward>
 int answer(const Request& request, const CallerLists& to, Forward forward_it) {
     State* state = rrcb_state(request.zz);
@@ -136,8 +138,9 @@ int answer(const Request& request, const CallerLists& to, Forward forward_it) {
     return code;
 }
 
-/// Names the default method, which Zoltan_Serialize of Zoltan 13.2 needs, but Zoltan_Create leaves
-/// uninitialized. At DEBUG_LEVEL 1, the default, Zoltan would print the name.
+/// Sets the name of the default method, which Zoltan_Create of Zoltan 13.2 leaves uninitialized
+/// although Zoltan_Serialize needs it. DEBUG_LEVEL is 0 meanwhile, because at level 1, the default,
+/// Zoltan would print the name.
 void name_method(Zoltan_Struct* zz) {
     constexpr int no_index = -1;
     forward<&RealZoltan::set_param_vec>(zz, "DEBUG_LEVEL", "0", no_index);
@@ -151,8 +154,8 @@ RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
     name_method(zz);
-    // A handle without a state is Zoltan's own. Zoltan refuses LB_METHOD=RRCB for it, which informs
-    // the program.
+    // Without a state the handle is Zoltan's own. Zoltan refuses LB_METHOD=RRCB for it, so the
+    // program gets an error.
     bool is_everywhere = true;
     guarded("Zoltan_Create", nullptr, [&] {
         is_everywhere = create_state(zz, user);
@@ -168,7 +171,7 @@ RRCB_EXPORT Zoltan_Struct* Zoltan_Copy(Zoltan_Struct const* from) {
         copy_state(copy, from);
         return ZOLTAN_OK;
     });
-    // Without its state a copy would not be RRCB's.
+    // A copy without the state could not be used with RRCB.
     if (code != ZOLTAN_OK) Zoltan_Destroy(&copy);
     return copy;
 }
@@ -251,7 +254,8 @@ RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int 
     });
 }
 
-// Declared in no public header: Zoltan's Fortran interface calls it when it is initialised.
+// No public header declares this function; Zoltan's Fortran interface calls it when it is
+// initialised.
 RRCB_EXPORT void Zoltan_Register_Fort_Malloc(void (*allocate)(), void (*free)(),
                                              void (*set_struct)()) {
     register_fortran(allocate, free, set_struct);

@@ -25,12 +25,13 @@ void hand_out_failure(int* values, int* count) {
     *count = 0;
 }
 
-/// Writes the ranks of ascending parts, ascending; returns their number.
+/// Writes the ranks of parts, which must ascend, in ascending order. Returns their number.
 int write_ranks(const PartMap& map, const rrcb::Part* parts, int num_parts, int* ranks) {
     int count = 0;
     for (int i = 0; i < num_parts; ++i) {
         const rrcb::RankRange range = map.ranks_of(parts[i]);
-        // The ranks of ascending parts ascend: only the last one can occur twice.
+        // The ranks of ascending parts ascend as well, so only the last rank written can occur
+        // again.
         const int next = count == 0 ? 0 : ranks[count - 1] + 1;
         for (int r = std::max(range.first_rank, next); r < range.first_rank + range.count; ++r) {
             ranks[count++] = r;
@@ -39,11 +40,11 @@ int write_ranks(const PartMap& map, const rrcb::Part* parts, int num_parts, int*
     return count;
 }
 
-/// Writes the parts that a closed box touches and the ranks that hold them, both ascending. Null
-/// arrays are not asked for.
+/// Writes the parts that a closed box touches and the ranks that hold them, both in ascending
+/// order. An array may be null if it is not needed.
 void look_up_box(const LastPartition& last, const rrcb::Box& box, int* ranks, int* num_ranks,
                  int* parts, int* num_parts) {
-    // Kept between calls: programs make tens of thousands of them.
+    // The memory is kept between calls, because programs make tens of thousands of them.
     thread_local std::vector<rrcb::Part> unasked;
     if (parts == nullptr) unasked.resize(last.map().num_parts);
     rrcb::Part* const touched = parts == nullptr ? unasked.data() : parts;
@@ -52,14 +53,15 @@ void look_up_box(const LastPartition& last, const rrcb::Box& box, int* ranks, in
     if (ranks != nullptr) *num_ranks = write_ranks(last.map(), touched, count, ranks);
 }
 
-/// Returns the state of a handle whose last partition RRCB made; null if the real Zoltan is to
-/// answer. The ranks of parts need no KEEP_CUTS.
+/// Returns the state of a handle whose last partition RRCB has made; null if the real Zoltan has to
+/// answer. Unlike other look-ups, the ranks of parts do not need KEEP_CUTS.
 const State* divided_state(const Zoltan_Struct* zz) {
     const State* state = rrcb_state(zz);
     return state != nullptr && state->last ? state : nullptr;
 }
 
-/// Returns the lowest rank of a part or, for an object, a rank of its part: this one if possible.
+/// Returns the lowest rank of a part. For an object, returns any rank of its part, preferably this
+/// one.
 int rank_of_part(const State& state, int part, ZOLTAN_ID_PTR object) {
     const PartMap& map = state.last->map();
     if (!map.one_each && (part < 0 || part >= map.num_parts))

@@ -15,7 +15,7 @@ RRCB_DECLARE_REAL(Zoltan_Deserialize)
 
 namespace {
 
-/// Sets a parameter by its name in `Parameters::given`, which has the index in brackets.
+/// Sets a parameter by its name in `Parameters::given`; an index is part of that name, in brackets.
 int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& value) {
     const auto bracket = name.find('[');
     if (bracket == name.npos) return Zoltan_Set_Param(zz, name.c_str(), value.c_str());
@@ -31,18 +31,19 @@ const char* initial_value_of(std::string_view name) {
     return name == "RETURN_LISTS" ? "ALL" : "DEFAULT";
 }
 
-/// Sets the parameters that a parcel leaves out as in a new handle, also those of the real Zoltan.
+/// Resets all parameters that a parcel does not contain to their values in a new handle, including
+/// those of the real Zoltan.
 void reset_others(Zoltan_Struct* zz, const State& state, const Parcel& parcel) {
     GivenParameters others = state.parameters.given;
-    // A buffer of Zoltan sets these without the plug-in.
+    // The plug-in does not see it when a buffer of Zoltan sets these two.
     others.note("NUM_GID_ENTRIES", "");
     others.note("NUM_LID_ENTRIES", "");
     for (const auto& [name, value] : others.entries)
         if (parcel.given.find(name) == nullptr) set_again(zz, name, initial_value_of(name));
 }
 
-/// Gives the real Zoltan its parameters, part sizes and cuts. These parameters pass through
-/// the plug-in again, which therefore keeps its own aside.
+/// Gives the real Zoltan its parameters, part sizes and cuts. Setting these parameters passes
+/// through the plug-in again, so its own are set aside meanwhile.
 int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     Parameters parameters = state.parameters;
     parameters.rrcb = true;
@@ -55,7 +56,7 @@ int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     return code;
 }
 
-/// Gives a handle all parameters of the packed one.
+/// Gives a handle all parameters of the serialized one.
 int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     reset_others(zz, state, parcel);
     const bool replace_rcb = state.parameters.replace_rcb;
@@ -81,7 +82,8 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     return ZOLTAN_OK;
 }
 
-/// Prints that a handle of the program is no longer replaced, although it was asked for.
+/// Prints that RRCB no longer replaces Zoltan for a handle of the program, although that was asked
+/// for.
 void tell_if_left_to_zoltan(const State& state) {
     if (!state.parameters.replace_rcb || state.parameters.debug_level <= 0) return;
     if (state.communicator->rank() != 0) return;
@@ -89,7 +91,8 @@ void tell_if_left_to_zoltan(const State& state) {
                   "the buffer is Zoltan's own, so the handle stays with Zoltan's methods");
 }
 
-/// Returns the bytes of a handle, with those of the real Zoltan if it made the last partition.
+/// Returns a handle as bytes. They contain the bytes of the real Zoltan if that made the last
+/// partition.
 std::vector<char> pack(const Zoltan_Struct* zz, const State& state) {
     std::vector<char> of_zoltan;
     if (state.zoltan_has_cuts) {
@@ -131,7 +134,7 @@ RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer)
         if (state != nullptr && is_parcel({buffer, size}))
             return unpack(zz, *state, deserialize({buffer, size}));
         auto* const real = RRCB_REAL(Zoltan_Deserialize, deserialize);
-        // The buffer comes from the real Zoltan and replaces every parameter.
+        // The buffer was made by the real Zoltan, and replaces every parameter.
         if (state != nullptr) {
             tell_if_left_to_zoltan(*state);
             state->parameters.rrcb = false;

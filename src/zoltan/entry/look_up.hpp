@@ -6,13 +6,14 @@
 
 namespace rrcb::zoltan {
 
-/// Returns the state of a handle whose look-ups RRCB answers; null if the real Zoltan is to answer.
+/// Returns the state of a handle whose look-ups RRCB answers; null if the real Zoltan has to
+/// answer.
 inline const State* look_up_state(const Zoltan_Struct* zz) {
     const State* state = rrcb_state(zz);
     return state != nullptr && !state->zoltan_has_cuts ? state : nullptr;
 }
 
-/// Runs a look-up in the last partition, as guarded(). It fails if no cuts were kept.
+/// Runs a look-up in the last partition, in the way of guarded(). It fails if no cuts were kept.
 template <typename Body>
 int look_up(const char* function, const State& state, Body body) noexcept {
     return guarded(function, &state, [&] {
@@ -23,7 +24,7 @@ int look_up(const char* function, const State& state, Body body) noexcept {
     });
 }
 
-/// Throws ZoltanError unless part p is on rank p: calls without parts need that.
+/// Throws ZoltanError unless part p is on rank p for every p, which calls without parts require.
 inline void require_one_part_per_rank(const PartMap& map, const char* alternative) {
     if (map.one_each) return;
     throw_fatal(

@@ -3,11 +3,12 @@
 #include "zoltan/entry/entry_point.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
-/// RRCB_DECLARE_REAL(function) declares the real one of a function that not every Zoltan has, and
-/// RRCB_REAL(function, member) is its address; it throws ZoltanError if the Zoltan behind lacks it.
+/// For a function that not every Zoltan has, RRCB_DECLARE_REAL(function) declares the real
+/// function, and RRCB_REAL(function, member) is its address. The latter throws ZoltanError if
+/// Zoltan lacks the function.
 ///
-/// A static archive must have those that the program calls, and no others: they are referred to in
-/// files of their own, by their names without the prefix.
+/// A static archive must contain those functions that the program calls, and need not contain
+/// others. Therefore each is called in a source file of its own, by its name without the prefix.
 #ifdef RRCB_ZOLTAN_STATIC
 #define RRCB_DECLARE_REAL(function) \
     extern "C" decltype(function) real_##function __asm__(#function);

@@ -18,22 +18,22 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Numbers of one rank in the vote on a new handle, reduced by maximum.
+/// Numbers of one rank in the vote on a new handle, which are reduced by their maximum.
 struct Ballot {
-    int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
+    int failing_rank_from_last = 0;  ///< number of ranks minus lowest failing rank
     int leaves_all_to_zoltan = 0;
     int asks_for_replacement = 0;
     int does_not_ask = 0;
     int is_verbose = 0;
 };
 
-/// Buffers of nonblocking calls, which write to them for as long as they are pending.
+/// Buffers of nonblocking calls. MPI may write to them as long as the calls are pending.
 struct Exchange {
     MPI_Comm duplicate = MPI_COMM_NULL;
     Ballot ballot;
 };
 
-/// Memory of a thread for one exchange at a time; replaced if calls stay pending.
+/// Buffers of this thread, for one exchange at a time. They are replaced if calls stay pending.
 thread_local Exchange first_exchange;
 thread_local Exchange* exchange = &first_exchange;
 
@@ -42,8 +42,8 @@ void leave_pending() {
     if (unused != nullptr) exchange = unused;
 }
 
-/// Reduces the ballots of all ranks, on the duplicate: calls of the program cannot meet these
-/// there. Returns false if some ranks take no part.
+/// Reduces the ballots of all ranks. Uses the duplicate, so that calls of the program cannot
+/// interfere. Returns false if some ranks do not take part.
 bool vote_on_environment(bool asks, RollCall& roll_call, Participant& self) {
     const int from_last = self.failed() ? mpi::size_of(self.comm) - mpi::rank_of(self.comm) : 0;
     exchange->ballot = {from_last, real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1,
@@ -53,7 +53,7 @@ bool vote_on_environment(bool asks, RollCall& roll_call, Participant& self) {
     MPI_Request request = MPI_REQUEST_NULL;
     const int code = MPI_Iallreduce(MPI_IN_PLACE, &exchange->ballot, 5, MPI_INT, MPI_MAX,
                                     has_duplicate ? exchange->duplicate : self.comm, &request);
-    // A request of a failed call may be pending nonetheless.
+    // Even if the call has failed, its request may be pending.
     const bool are_all_here = roll_call.complete(request, self);
     if (are_all_here) mpi::check(code, "MPI_Iallreduce");
     return are_all_here;
@@ -65,15 +65,15 @@ bool is_congruent(const Communicator& one, const Communicator& other) {
     return result == MPI_CONGRUENT;
 }
 
-/// Resources of a new handle, made before the ranks agree that all have them.
+/// Resources of a new handle. They are made before the ranks agree that all of them have succeeded.
 struct Draft {
-    MPI_Comm duplicate = MPI_COMM_NULL;  ///< until the state has it
-    State state;                         ///< until the table has it
+    MPI_Comm duplicate = MPI_COMM_NULL;  ///< owned here until the state takes it
+    State state;                         ///< owned here until the table takes it
     bool asks_for_replacement = false;
 };
 
-/// Makes a draft. All ranks duplicate the communicator, even if one of them fails. Returns false if
-/// some ranks take no part.
+/// Makes a draft. All ranks duplicate the communicator, even if one of them has failed. Returns
+/// false if some ranks do not take part.
 bool make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, RollCall& roll_call,
           Participant& self) {
     *exchange = {};
@@ -136,8 +136,8 @@ bool create_state(const Zoltan_Struct* zz, MPI_Comm user) {
 void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
     const State* source = find_state(from);
     if (source == nullptr || to == from) return;
-    // Zoltan_Copy makes the new handle with Zoltan_Create, which passes through here if Zoltan is
-    // a shared library.
+    // Zoltan_Copy makes the new handle by Zoltan_Create. If Zoltan is a shared library, that call
+    // has passed through the plug-in, and the copy has a state already.
     State* copy = find_state(to);
     const bool fits = copy != nullptr && is_congruent(*copy->communicator, *source->communicator);
     if (!fits) {

@@ -8,7 +8,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Sets a parameter to the value of a variable, if set.
+/// Sets a parameter to the value of an environment variable, if that is set.
 void read_variable(const char* variable, const std::string& name, State& state) {
     const char* value = std::getenv(variable);
     if (value == nullptr || *value == '\0') return;
@@ -21,7 +21,8 @@ void read_variable(const char* variable, const std::string& name, State& state) 
                   std::string("illegal value `") + value + "' of " + variable +
                       " in the environment; default value will be used.");
     } else if (!name.starts_with("RRCB_DUMP")) {
-        // Copies of a handle and replayed calls need all parameters except the folder of dumps.
+        // Copies of a handle and replayed calls need this parameter. Only the folder of dumps is
+        // left out.
         parameters.given.note(name, value);
     }
 }

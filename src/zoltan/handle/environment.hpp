@@ -4,9 +4,9 @@
 
 namespace rrcb::zoltan {
 
-/// Gives a new handle the parameters of RRCB that the environment has under their names, and
-/// IMBALANCE_TOL, as RRCB_IMBALANCE_TOL there. The program sets its own later, which override them.
-/// An illegal value leaves the default; rank 0 warns of it once. Not collective.
+/// Gives a new handle those of RRCB's parameters that are in the environment under their names, and
+/// IMBALANCE_TOL, which is RRCB_IMBALANCE_TOL there. The program may override them later. If a
+/// value is illegal, the default remains and rank 0 warns once. Not collective.
 void read_environment(State& state);
 
 }  // namespace rrcb::zoltan

@@ -26,7 +26,7 @@ LastPartition LastPartition::copy() const {
 TreeNode LastPartition::tree_node(int node) const {
     Descent at = root_of(cuts_);
     if (node == 0) return {0, 0, at.is_part() ? 0 : at.upper().first_part};
-    // A node has the number of the first part above its cut.
+    // The number of a node is that of the first part above its cut.
     int parent = -1;
     for (Part middle = 0; (middle = at.upper().first_part) != node;) {
         at = at.towards(node);

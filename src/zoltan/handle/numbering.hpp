@@ -7,13 +7,13 @@
 
 namespace rrcb::zoltan {
 
-/// Numbers by REMAP of the boxes, which are the parts as the cuts number them.
+/// Numbers that REMAP gives to the boxes. A box is a part as the cuts number it.
 class Numbering {
   public:
-    /// A part has the number of its box.
+    /// Gives each part the number of its box.
     Numbering() = default;
 
-    /// By the number of each box; `buffer` has as many entries.
+    /// Gives each box its entry in `numbers`. `buffer` must have the same length.
     Numbering(std::vector<Part>&& numbers, std::vector<Part>&& buffer) noexcept;
 
     bool is_unchanged() const { return numbers_.empty(); }
@@ -24,12 +24,12 @@ class Numbering {
     /// Replaces boxes by their numbers.
     void apply(std::span<Part> boxes) const;
 
-    /// Returns the numbers of all boxes, or none if they are unchanged.
+    /// Returns the numbers of all boxes; empty if they are unchanged.
     const std::vector<Part>& numbers() const { return numbers_; }
 
   private:
-    std::vector<Part> numbers_;  ///< of all boxes
-    std::vector<Part> boxes_;    ///< of all numbers
+    std::vector<Part> numbers_;  ///< number of each box
+    std::vector<Part> boxes_;    ///< box of each number
 };
 
 }  // namespace rrcb::zoltan

@@ -30,9 +30,11 @@ const ParameterRow* find_row(std::string_view name) {
     return row == std::end(parameter_table) ? nullptr : row;
 }
 
-/// Notes a tolerance whose text Zoltan has accepted. Zoltan reads the number at its beginning.
+/// Notes a tolerance whose text Zoltan has accepted. As Zoltan does, reads the number at the
+/// beginning of the text.
 ///
-/// Zoltan allows one tolerance per weight, as "[k]" behind the name. RRCB balances one weight.
+/// Zoltan has one tolerance for each weight, with "[k]" after the name. RRCB balances only one
+/// weight.
 void note_tolerance(Options& options, std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0;
@@ -103,7 +105,7 @@ bool read_dump_when(bool& always, std::string_view text) {
 
 Options default_options() {
     Options options;
-    options.coincident = Coincident::divide;  // as RCB
+    options.coincident = Coincident::divide;  // as Zoltan's RCB does
     return options;
 }
 

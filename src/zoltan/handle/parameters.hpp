@@ -20,35 +20,36 @@
 
 namespace rrcb::zoltan {
 
-/// Lists returned by a partitioning call (RETURN_LISTS). The largest of all ranks holds, as in
-/// Zoltan.
+/// Lists that a partitioning call returns (RETURN_LISTS). As in Zoltan, the largest value of all
+/// ranks applies.
 enum class ReturnLists { none, imports, exports, parts, all, candidates };
 
-/// NUM_GLOBAL_PARTS if it is set to its default or to no legal number.
+/// Value of NUM_GLOBAL_PARTS if it is set to its default or to a text that is not a legal number.
 inline constexpr int one_per_rank = 0;
 
 /// Value of an unset parameter whose default depends on others.
 inline constexpr int not_set = std::numeric_limits<int>::min();
 
-/// Returns the options of a new handle: coincident points are divided, as by RCB.
+/// Returns the options of a new handle, with which coincident points are divided, as by Zoltan's
+/// RCB.
 Options default_options();
 
-/// Names and values of parameters, in the order in which they were set last: set again in this
-/// order they have the same effect.
+/// Names and values of parameters, in the order in which they were last set. Setting them again in
+/// this order has the same effect.
 struct GivenParameters {
-    /// Notes a parameter. Returns whether its value changed.
+    /// Notes a parameter. Returns whether its value has changed.
     bool note(const std::string& name, const std::string& value);
 
-    /// Returns the value of a parameter, null if it was not set.
+    /// Returns the value of a parameter; null if it was not set.
     const std::string* find(std::string_view name) const;
 
     std::vector<std::pair<std::string, std::string>> entries{};
 };
 
-/// Parameters of a handle for the plug-in. The defaults are Zoltan's.
+/// Parameters of a handle that the plug-in needs. The defaults are Zoltan's.
 struct Parameters {
-    bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB and RCB is replaced
-    bool replace_rcb = false;  ///< RRCB answers LB_METHOD=RCB
+    bool rrcb = false;         ///< whether LB_METHOD is RRCB, or is RCB and RRCB replaces that
+    bool replace_rcb = false;  ///< whether RRCB answers for LB_METHOD=RCB
     int num_gid_entries = 1;
     int num_lid_entries = 1;
     int weight_dimension = 0;
@@ -67,37 +68,38 @@ struct Parameters {
     int final_output = 0;
     int debug_level = 1;
     ReturnLists return_lists = ReturnLists::all;
-    Options options = default_options();  ///< RRCB_* only; parts are filled in per call
+    Options options = default_options();  ///< only the parameters RRCB_*; the parts are filled in
+                                          ///< for each call
 
-    std::optional<PaperDomain> paper_domain;  ///< RRCB_DOMAIN; empty: RRCB's own method
+    std::optional<PaperDomain> paper_domain;  ///< RRCB_DOMAIN; empty for RRCB's own method
     CutRule cut_rule = PaperOptions{}.cut_rule;
     double sigma_multiplier = PaperOptions{}.sigma_multiplier;
     double sample_fraction = PaperOptions{}.sample_fraction;
     std::uint64_t seed = PaperOptions{}.seed;
 
-    std::string dump_folder;   ///< of the dumped inputs of calls; empty: no dumps
-    bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
-    GivenParameters given;     ///< all settings, as given
+    std::string dump_folder;   ///< folder for dumps of the inputs of calls; empty for no dumps
+    bool dump_always = false;  ///< whether all calls are dumped, not only failing ones
+    GivenParameters given;     ///< all settings in the form in which they were given
 };
 
-/// Returns whether RCB_REUSE holds. By default it does if RRCB replaces RCB: a balanced
-/// distribution is then kept.
+/// Returns whether RCB_REUSE is in effect. By default it is if RRCB replaces RCB, so that a
+/// balanced distribution is kept.
 bool reuses_cuts(const Parameters& parameters);
 
-// Readers of a value, in upper case except for RRCB_DUMP. They return false, and set nothing,
-// for an illegal value.
+// These functions read a value, which is in upper case except for RRCB_DUMP. For an illegal value
+// they return false and set nothing.
 bool read_integer(int& value, std::string_view text, int least);
 bool read_return_lists(ReturnLists& lists, std::string_view text);
 bool read_folder(std::string& folder, std::string_view text);
 bool read_dump_when(bool& always, std::string_view text);
 
-/// An integer for which Zoltan takes the default if it is below `least`.
+/// Reads an integer. Below `least` it is illegal, and Zoltan uses the default.
 template <int least = std::numeric_limits<int>::min()>
 bool read_integer(int& value, std::string_view text) {
     return read_integer(value, text, least);
 }
 
-/// Returns a number by which ranks compare values: equal ones for equal values.
+/// Returns a number by which ranks compare values; equal values have equal numbers.
 template <class Value>
 constexpr int number_of(const Value& value) {
     if constexpr (std::is_same_v<Value, std::optional<PaperDomain>>) {
@@ -110,19 +112,21 @@ constexpr int number_of(const Value& value) {
     }
 }
 
-/// Returns the value for DEFAULT and illegal texts: as in a new handle, with two exceptions.
+/// Returns the value that DEFAULT and illegal texts stand for: that of a new handle, with two
+/// exceptions.
 template <class Value>
 Value fallback_of(Value Parameters::*field) {
     return Parameters{}.*field;
 }
 int fallback_of(int Parameters::*field);
 
-/// A parameter with a field of its own.
+/// A parameter that has its own member in Parameters.
 struct ParameterRow {
     const char* name;
     bool (*read)(Parameters&, std::string_view text);
     void (*reset)(Parameters&);
-    /// Number that must be the same on all ranks, or their messages would not fit.
+    /// Returns a number that must be the same on all ranks, because otherwise their messages would
+    /// not match.
     std::optional<int (*)(const Parameters&)> compared;
 };
 
@@ -143,7 +147,7 @@ constexpr ParameterRow may_differ(const char* name) {
             [](Parameters& p) { p.*field = fallback_of(field); }, std::nullopt};
 }
 
-/// Row of a parameter whose value may not differ.
+/// Row of a parameter whose value must be the same on all ranks.
 template <auto field, auto read, int (*compared)(const Parameters&) = number_in<field>>
 constexpr ParameterRow must_agree(const char* name) {
     ParameterRow row = may_differ<field, read>(name);
@@ -151,14 +155,15 @@ constexpr ParameterRow must_agree(const char* name) {
     return row;
 }
 
-/// Row of a parameter, on for any number except 0, on all ranks or on none.
+/// Row of a parameter that is on for any number except 0. It must be on either on all ranks or on
+/// none.
 template <auto field>
 constexpr ParameterRow flag(const char* name) {
     return must_agree<field, read_integer<>, is_on<field>>(name);
 }
 
-/// All parameters except LB_METHOD and the parameters of Options, the compared ones in the order in
-/// which differences are reported.
+/// All parameters except LB_METHOD and those in Options. Compared ones are in the order in which
+/// differences are reported.
 inline constexpr ParameterRow parameter_table[] = {
     must_agree<&Parameters::num_gid_entries, read_integer<1>>("NUM_GID_ENTRIES"),
     must_agree<&Parameters::num_lid_entries, read_integer<0>>("NUM_LID_ENTRIES"),
@@ -190,27 +195,29 @@ inline constexpr ParameterRow parameter_table[] = {
 };
 
 enum class Setting {
-    accepted,  ///< stored
-    refused,   ///< illegal value; the previous one is kept
-    unknown    ///< not one of RRCB's own parameters
+    accepted,  ///< the value was stored
+    refused,   ///< the value is illegal; the previous one is kept
+    unknown    ///< RRCB has no parameter of this name
 };
 
-/// Sets a parameter of RRCB's own (RRCB_...). The name is in upper case, the value as it was given.
+/// Sets one of RRCB's own parameters (RRCB_...). The name must be in upper case; the value is as
+/// the program gives it.
 Setting set_own(Parameters& parameters, std::string_view name, const char* value);
 
-/// Sets IMBALANCE_TOL. Returns false for a value that is no number of at least 1, and leaves it.
+/// Sets IMBALANCE_TOL. If the value is not a number of at least 1, returns false and sets nothing.
 bool set_tolerance(Parameters& parameters, std::string_view value);
 
-/// Returns all names of set_own().
+/// Returns all names that set_own() accepts.
 std::vector<const char*> own_parameter_names();
 
-/// Notes a parameter accepted by Zoltan itself, if RRCB needs it. Both are in upper case.
+/// Notes a parameter that Zoltan itself has accepted, if RRCB needs it. Name and value are in upper
+/// case.
 void note_common(Parameters& parameters, std::string_view name, std::string_view value);
 
-/// Returns a name or value as Zoltan compares it: in upper case, without leading blanks.
+/// Returns a name or value in the form in which Zoltan compares it: upper case, no leading blanks.
 std::string clean(const char* text);
 
-/// Returns a text without trailing blanks, which belong to no value.
+/// Returns a text without trailing blanks, which are never part of a value.
 std::string_view without_trailing_blanks(std::string_view text);
 
 }  // namespace rrcb::zoltan

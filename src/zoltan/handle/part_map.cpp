@@ -11,12 +11,12 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Parts up to which a list of their ranks is kept, which is faster than a formula.
+/// Up to this number of parts a list of their ranks is kept, because it is faster than a formula.
 constexpr int most_listed = 4096;
 
 struct Asked {
     int parts = 0;
-    int free_ranks = 0;  ///< which leave it open
+    int free_ranks = 0;  ///< number of ranks that do not set it
 };
 
 Asked asked_by(std::span<const int> local_parts) {

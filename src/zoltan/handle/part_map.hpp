@@ -10,13 +10,14 @@
 
 namespace rrcb::zoltan {
 
-/// Ranks of each part, as Zoltan lays parts out.
+/// The ranks of each part, according to Zoltan's rules.
 struct PartMap {
     int num_parts = 0;
     int num_ranks = 0;
-    bool one_each = true;             ///< part p is on rank p and on no other
-    bool is_even = true;              ///< as in ranks_of_part()
-    std::vector<RankRange> listed{};  ///< of each part; empty: even, and many parts
+    bool one_each = true;             ///< whether part p is on rank p only, for every p
+    bool is_even = true;              ///< whether the ranks are those of ranks_of_part()
+    std::vector<RankRange> listed{};  ///< ranks of each part; empty if is_even and there are many
+                                      ///< parts
 
     bool has_one_rank_per_part() const { return !is_even || num_parts >= num_ranks; }
 
@@ -28,8 +29,8 @@ struct PartMap {
     /// Returns the parts on a rank.
     PartRange parts_on(int rank) const;
 
-    /// Returns the destination of object number `index` of rank `rank`: it stays if its part is
-    /// there already.
+    /// Returns the rank to which object number `index` of rank `rank` goes. The object remains on
+    /// its rank if that holds the part.
     int destination(Part part, LocalIndex index, int rank) const {
         const RankRange range = ranks_of(part);
         if (range.count == 1) return range.first_rank;
@@ -38,19 +39,19 @@ struct PartMap {
     }
 };
 
-/// Returns a map with equal numbers of parts on all ranks, or of ranks for all parts.
+/// Returns a map that gives all ranks equal numbers of parts, or all parts equal numbers of ranks.
 PartMap even_part_map(int num_parts, int num_ranks);
 
 /// Returns the number of parts that NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` has
-/// one number per rank. It and `num_global_parts` are -1 if they are not set. Throws ZoltanError if
-/// they do not add up.
+/// one number for each rank. Its numbers and `num_global_parts` are -1 where they are not set.
+/// Throws ZoltanError if they do not add up.
 int num_parts_of(std::span<const int> local_parts, int num_global_parts);
 
-/// Returns a map with as many parts on a rank as its NUM_LOCAL_PARTS. Ranks that do not set it
-/// share the rest.
+/// Returns a map that gives each rank as many parts as its NUM_LOCAL_PARTS. Ranks that do not set
+/// it share the remaining parts.
 PartMap local_part_map(std::span<const int> local_parts, int num_parts);
 
-/// Returns the lowest part on a rank, -1 if there is none.
+/// Returns the lowest part on a rank; -1 if the rank has no part.
 int first_part_of(const PartMap& map, int rank);
 
 }  // namespace rrcb::zoltan

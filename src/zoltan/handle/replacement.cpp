@@ -21,7 +21,7 @@ bool read_environment() {
     return false;
 }
 
-/// Method that a user may expect to be replaced, and the reason that Zoltan keeps it.
+/// A method that users may expect to be replaced, and the reason why Zoltan still answers for it.
 struct Left {
     const char* method;
     bool in_hier_only;
@@ -88,7 +88,7 @@ void tell_if_not_replaced(const State* state, const char* function) noexcept try
         if (method == left.method && (!left.in_hier_only || state->inside_hier))
             warn_once(programs.communicator->rank(), function, left.reason);
 } catch (const std::bad_alloc&) {
-    // If memory is short, only the notice is lost.
+    // Without memory only the notice is lost.
 }
 
 }  // namespace rrcb::zoltan

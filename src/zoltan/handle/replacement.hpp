@@ -6,8 +6,9 @@
 
 namespace rrcb::zoltan {
 
-/// Marks a call of the real Zoltan's partitioning, for a handle with `outer` (null: unknown).
-/// Handles created while one is under way are Zoltan's own, of HIER or PHG for instance.
+/// Marks a partitioning call of the real Zoltan for a handle with the state `outer`, which may be
+/// null. Handles that are created during the call are Zoltan's own, for example those of HIER or
+/// PHG.
 class InsideZoltan {
   public:
     explicit InsideZoltan(const State* outer) noexcept;
@@ -23,22 +24,23 @@ class InsideZoltan {
 /// Returns LB_METHOD in the form in which Zoltan compares it.
 std::string method_of(const State& state);
 
-/// Returns whether RRCB_REPLACE=RCB is in the environment of this process; another value is warned
-/// about.
+/// Returns whether RRCB_REPLACE=RCB is in the environment of this process. Warns about any other
+/// value.
 bool is_replacement_asked();
 
-/// Parameters of a handle that is just created. Zoltan's own handles get those that HIER writes
-/// without Zoltan_Set_Param: the outer OBJ_WEIGHT_DIM and DEBUG_LEVEL, and REMAP=0.
+/// Returns the parameters of a handle that has just been created. Zoltan's own handles get those
+/// that HIER sets without Zoltan_Set_Param: OBJ_WEIGHT_DIM and DEBUG_LEVEL of the outer handle, and
+/// REMAP=0.
 Parameters initial_parameters();
 
-/// Returns whether a handle that is just created is for a level of HIER.
+/// Returns whether a handle that has just been created is for a level of HIER.
 bool is_inside_hier();
 
-/// Makes a handle that is just created answer LB_METHOD=RCB, also as Zoltan's default, with RRCB,
-/// unless it is one of Zoltan's own.
+/// Lets RRCB answer for LB_METHOD=RCB in a handle that has just been created, also if RCB is only
+/// Zoltan's default. Does nothing if the handle is Zoltan's own.
 void replace_rcb(State& state) noexcept;
 
-/// Prints once in a process, on rank 0, that Zoltan answers a geometric method although its
+/// Prints on rank 0, once in a process, that Zoltan answers for a geometric method although its
 /// replacement was asked for. `state` may be null.
 void tell_if_not_replaced(const State* state, const char* function) noexcept;
 

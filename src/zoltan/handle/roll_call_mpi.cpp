@@ -15,12 +15,12 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Greatest tag that every MPI allows, as the messages are on the program's communicator. It is
-/// used only when the program is about to get an error.
+/// The largest tag that every MPI allows. The messages use the program's communicator, but only
+/// when the program is about to get an error.
 constexpr int roll_call_tag = 32767;
 
-/// Tests of a request in which ranks that run at the same time complete it. Each yield to a busy
-/// thread may take milliseconds.
+/// Number of tests within which ranks that run at the same time complete a request. Later tests
+/// yield the processor; each yield to a busy thread may take milliseconds.
 constexpr int tests_without_yield = 100;
 
 double read_limit() {
@@ -59,13 +59,14 @@ bool RollCall::complete(MPI_Request request, Participant& self) {
     return false;
 }
 
-/// Returns true if some ranks take no part. Removes the limit if all ranks take part, even if some
-/// of them are slow, and if there is no memory.
+/// Returns true if some ranks do not take part. Removes the time limit if all ranks take part, even
+/// if some are slow, and also if there is no memory.
 bool RollCall::is_missed() {
     if (limit_.count() == 0) return false;
     const Seconds now = waited();
     if (present_.empty()) {
-        // The program's own messages may have any tag, so none is looked for earlier.
+        // Messages of the roll call are not received earlier, because the program's own messages
+        // may have the same tag.
         if (now < limit_ * 0.75) return false;
         if (attempt([&] { call_all(); }).failed) limit_ = {};
         end_ = now + limit_ / 4;
@@ -91,7 +92,7 @@ void RollCall::call(int rank) const {
     if (request != MPI_REQUEST_NULL) MPI_Request_free(&request);
 }
 
-/// Receives a message of the roll call, if one is there.
+/// Receives a message of the roll call if one has arrived.
 bool RollCall::receive() {
     int is_there = 0;
     MPI_Status status{};
@@ -104,7 +105,7 @@ bool RollCall::receive() {
     return true;
 }
 
-/// Returns "0, 2-5 of 8": the ranks that take no part.
+/// Returns the ranks that do not take part, as "0, 2-5 of 8".
 std::string RollCall::absent() const {
     std::string text;
     for (std::size_t i = 0; i < present_.size(); ++i) {
@@ -122,7 +123,7 @@ void RollCall::report() {
     const auto lowest = static_cast<int>(std::ranges::find(present_, 1) - present_.begin());
     const int rank = mpi::rank_of(comm_);
     if (rank != lowest) {
-        // That rank is to print before this one ends the program.
+        // The lowest rank must have printed before this rank ends the program.
         int is_there = 0;
         const Seconds end = waited() + limit_ / 4;
         while (is_there == 0 && waited() < end)

@@ -10,24 +10,25 @@
 
 namespace rrcb::zoltan {
 
-/// Waits for all ranks of a communicator, of which some may lack the plug-in, up to a time limit.
+/// Waits for all ranks of a communicator, up to a time limit, because some of them may not have the
+/// plug-in.
 ///
-/// The limit is RRCB_AGREE_SECONDS, 20 by default; 0 means none. The clock starts with the object:
-/// make it when every rank is known to be in the call, so that a late rank is not taken for one
-/// without the plug-in.
+/// The limit is RRCB_AGREE_SECONDS, 20 by default; 0 means that there is none. The time starts when
+/// the object is made: make it when every rank is known to be in the call, so that a late rank is
+/// not mistaken for one without the plug-in.
 ///
-/// The last quarter of the limit serves for the roll call: the ranks in the call send a message
-/// each to all others.
+/// The last quarter of the limit is for the roll call: each rank in the call sends a message to all
+/// others.
 class RollCall {
   public:
     explicit RollCall(MPI_Comm comm);
 
-    /// Completes a nonblocking collective call. Returns false if some ranks take no part in it.
+    /// Completes a nonblocking collective call. Returns false if some ranks do not take part in it.
     /// Holds back errors of MPI in `self`.
     ///
-    /// Then the lowest rank with the plug-in prints which ranks have none, and all ranks with it
-    /// raise MPI_ERR_OTHER on the communicator: by default that ends the program. The collective
-    /// call is left pending, and its buffers must not be freed.
+    /// If some ranks are missing, the lowest rank with the plug-in prints which ranks have none,
+    /// and all ranks with it raise MPI_ERR_OTHER on the communicator, which by default ends the
+    /// program. The collective call is left pending, and its buffers must not be freed.
     bool complete(MPI_Request request, Participant& self);
 
   private:
@@ -46,7 +47,7 @@ class RollCall {
     Seconds limit_;
     Seconds end_ = limit_;
     Clock::time_point start_ = Clock::now();
-    std::vector<char> present_;  ///< a flag for each rank, in the roll call
+    std::vector<char> present_;  ///< a flag for each rank; filled in the roll call
     std::size_t num_present_ = 0;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '7'};
 
-/// Begins a parcel. The saved state of `size` bytes follows.
+/// Beginning of a parcel. The saved state of `size` bytes follows.
 struct Header {
     std::array<char, 8> signature = zoltan::signature;
     std::uint64_t size = 0;
@@ -26,7 +26,7 @@ struct Header {
     throw_fatal(std::string("the buffer of Zoltan_Serialize is ") + why);
 }
 
-/// Writes or reads a list by `store_entry`.
+/// Writes or reads a list; store_entry() does so for each entry.
 template <class Entry, class StoreEntry>
 void store_list(SavedState& saved, std::vector<Entry>& list, StoreEntry store_entry) {
     std::size_t size = list.size();
@@ -35,7 +35,7 @@ void store_list(SavedState& saved, std::vector<Entry>& list, StoreEntry store_en
     for (Entry& entry : list) store_entry(entry);
 }
 
-/// Writes or reads bytes, eight in a word.
+/// Writes or reads bytes, eight of them in a word.
 template <class Bytes>
 void store_bytes(SavedState& saved, Bytes& bytes) {
     std::size_t size = bytes.size();
@@ -80,7 +80,7 @@ LastPartition make_last(Cuts&& cuts, PartMap&& map, std::vector<Part>&& numbers)
     return last;
 }
 
-/// Writes or reads a partition, which may be none.
+/// Writes or reads a partition, or that there is none.
 void store(SavedState& saved, std::optional<LastPartition>& last) {
     bool has_cuts = last.has_value();
     saved.each(has_cuts);

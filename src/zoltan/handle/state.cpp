@@ -14,12 +14,13 @@ namespace rrcb::zoltan {
 namespace {
 
 struct Place {
-    std::atomic<const Zoltan_Struct*> zz = nullptr;  ///< null: free for another handle
-    State* state = nullptr;                          ///< touched by the thread of the handle only
+    std::atomic<const Zoltan_Struct*> zz = nullptr;  ///< null if the place is free for another
+                                                     ///< handle
+    State* state = nullptr;                          ///< used by the thread of the handle only
 };
 
-/// Places for handles. They are never freed, so look-ups need no lock, for which creating a handle
-/// could wait without end.
+/// Places for handles. They are never freed, so that look-ups need no lock; with a lock they might
+/// have to wait for the creation of another handle.
 struct Block {
     std::array<Place, 4> places{};
     std::atomic<Block*> next = nullptr;
@@ -27,8 +28,8 @@ struct Block {
 
 constexpr int num_bits = 9;
 
-/// Lists of places, by a hash of the handle. At exit they stay: handles that outlive MPI must not
-/// free their communicators.
+/// Lists of places, selected by a hash of the handle. They are not destroyed at exit, because
+/// handles that outlive MPI must not free their communicators.
 constinit std::array<Block, 1 << num_bits> first_blocks{};
 constinit std::mutex adding;
 constinit std::atomic<bool> any_made = false;
@@ -38,7 +39,7 @@ Block& first_block_for(const Zoltan_Struct* zz) {
     return first_blocks[mixed >> (64 - num_bits)];
 }
 
-/// Returns the place of a handle, or a free one for null; null if there is none.
+/// Returns the place of a handle, or, for null, a free place. Returns null if there is none.
 Place* find_place(Block& first, const Zoltan_Struct* zz) {
     for (Block* block = &first; block != nullptr; block = block->next.load())
         for (Place& place : block->places)
@@ -46,7 +47,7 @@ Place* find_place(Block& first, const Zoltan_Struct* zz) {
     return nullptr;
 }
 
-/// Takes a place for a handle without one. Throws std::bad_alloc.
+/// Takes a free place for a handle that has none. Throws std::bad_alloc.
 Place& take_place(const Zoltan_Struct* zz) {
     Block& first = first_block_for(zz);
     const std::scoped_lock lock(adding);

@@ -17,10 +17,11 @@
 
 namespace rrcb::zoltan {
 
-/// A duplicate of the communicator with which a handle was created, only for this handle.
+/// A duplicate of the communicator with which a handle was created. Only this handle uses it.
 class Communicator {
   public:
-    /// Takes over `duplicate`. Throws Error or std::bad_alloc; then the caller keeps it.
+    /// Takes ownership of `duplicate`. If it throws Error or std::bad_alloc, the caller still owns
+    /// it.
     explicit Communicator(MPI_Comm duplicate);
     ~Communicator();
     Communicator(const Communicator&) = delete;
@@ -30,8 +31,8 @@ class Communicator {
     int rank() const { return rank_; }
     int size() const { return size_; }
 
-    /// Scratch, a number for each rank, to receive into when memory is short. Pages that are not
-    /// used take none.
+    /// Returns one number for each rank as scratch memory, into which a rank can receive when
+    /// memory is short. Its pages take no memory until they are used.
     std::span<int> per_rank() { return {per_rank_.get(), static_cast<std::size_t>(size_)}; }
 
   private:
@@ -44,29 +45,32 @@ class Communicator {
 /// One entry of Zoltan_LB_Set_Part_Sizes.
 struct PartSize {
     int part = 0;
-    bool global = true;  ///< false: the part is counted from the first one on this rank
+    bool global = true;  ///< if false, the part is counted from the first one on this rank
     float size = 0;
     int weight = 0;  ///< index of the weight that the size is for
 };
 
-/// Result of the last partition. It is valid while the objects are unchanged and in the parts they
-/// were sent to: a program that balances until nothing changes comes to an end.
+/// Result of the last partition. It is valid as long as the objects are unchanged and in the parts
+/// that they were sent to. A program that balances until nothing changes therefore ends.
 struct KeptObjects {
     Report report;
-    std::uint64_t checksum = 0;  ///< of the objects of all ranks and their parts
+    std::uint64_t checksum = 0;  ///< sum over the objects of all ranks and their parts
 };
 
-/// State of a handle, shared with its copies.
+/// The part of a handle's state that copies of the handle get as well.
 struct Settings {
     Parameters parameters;
     std::vector<PartSize> part_sizes;
-    std::optional<KeptObjects> kept;  ///< of the last partition; none once a parameter was changed
-    bool zoltan_has_cuts = false;     ///< of the last partition, which the real Zoltan made
-    bool axes_changed = false;        ///< a parameter that chooses axes was changed after it
-    bool deserialized = false;        ///< Zoltan's parameters were set without the plug-in
-    bool replacement_asked = false;   ///< by RRCB_REPLACE, on any rank of the communicator
-    bool is_verbose = false;          ///< by RRCB_VERBOSE, on any rank of the communicator
-    bool inside_hier = false;         ///< made by Zoltan, for one of HIER's levels
+    std::optional<KeptObjects> kept;  ///< empty when a parameter has been changed since the last
+                                      ///< partition
+    bool zoltan_has_cuts = false;     ///< whether the real Zoltan has made the last partition
+    bool axes_changed = false;  ///< whether a parameter that affects the axes of cuts has changed
+                                ///< since the last partition
+    bool deserialized = false;  ///< whether Zoltan's parameters were set without the plug-in
+    bool replacement_asked =
+        false;                 ///< whether RRCB_REPLACE is set on any rank of the communicator
+    bool is_verbose = false;   ///< whether RRCB_VERBOSE is set on any rank of the communicator
+    bool inside_hier = false;  ///< whether Zoltan has made the handle for a level of HIER
 };
 
 /// The plug-in's state of a Zoltan_Struct.
@@ -76,21 +80,21 @@ struct State : Settings {
     Workspace workspace;
 };
 
-/// Returns NUM_GLOBAL_PARTS as Zoltan takes it, -1 if it is not set.
+/// Returns the value of NUM_GLOBAL_PARTS according to Zoltan's rules; -1 if it is not set.
 inline int asked_global_parts(const State& state) {
     const int asked = state.parameters.num_global_parts;
     return asked == one_per_rank ? state.communicator->size() : asked;
 }
 
-/// Side table of handles. Threads may use it at the same time; a handle belongs to one of them.
-/// Returns the state of a handle, or null if the plug-in has not made the handle.
+/// Access to the side table of handles. Threads may call these at the same time, but each handle
+/// must be used by one thread only. find_state() returns the state of a handle, or null if the
+/// plug-in has not made the handle.
 State* find_state(const Zoltan_Struct* zz);
 void add_state(const Zoltan_Struct* zz, State&& state);
-void remove_state(const Zoltan_Struct* zz);  ///< collective, as it frees the communicator
-bool any_handle_made();                      ///< since the process began
+void remove_state(const Zoltan_Struct* zz);  ///< collective, because it frees the communicator
+bool any_handle_made();                      ///< in this process, at any time
 
-/// Copies everything except the communicator and what is shared by it. Throws std::bad_alloc; then
-/// `to` is unchanged.
+/// Copies the settings and the last partition. If it throws std::bad_alloc, `to` is unchanged.
 void copy_contents(State& to, const State& from);
 
 }  // namespace rrcb::zoltan

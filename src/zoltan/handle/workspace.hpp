@@ -11,8 +11,8 @@
 
 namespace rrcb::zoltan {
 
-/// Returns room for `size` entries in memory that grows and is kept, so that repeated calls touch
-/// the same pages. Old entries are lost. Throws std::bad_alloc.
+/// Returns memory for `size` entries. The memory grows and is kept, so that repeated calls use the
+/// same pages. Old entries are lost. Throws std::bad_alloc.
 template <typename T>
 T* room_in(detail::Uninitialized<T>& memory, std::size_t size) {
     memory.clear();
@@ -20,7 +20,7 @@ T* room_in(detail::Uninitialized<T>& memory, std::size_t size) {
     return memory.data();
 }
 
-/// Memory shared by one handle's calls.
+/// Memory that the calls of one handle share.
 struct Workspace {
     detail::Uninitialized<double> coordinates;
     detail::Uninitialized<double> weights;
@@ -30,7 +30,7 @@ struct Workspace {
     detail::Uninitialized<int> initial_parts;
     detail::Uninitialized<int> moving;  ///< indices of moving objects
     std::vector<Part> parts;
-    ExchangeBuffers records;  ///< of moving objects
+    ExchangeBuffers records;  ///< buffers for sending moving objects
 };
 
 }  // namespace rrcb::zoltan

@@ -37,7 +37,7 @@ void warn_once(int rank, const char* function, std::string_view text) noexcept t
     const std::scoped_lock lock(mutex);
     if (printed.emplace(text).second) print_warning(rank, function, text);
 } catch (const std::bad_alloc&) {
-    // Only the warning is lost.
+    // Without memory only the warning is lost.
 }
 
 }  // namespace rrcb::zoltan

@@ -11,8 +11,8 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Finds functions behind the plug-in. Notes those that are missing, and those of another library
-/// than the first.
+/// Finds functions of the Zoltan behind the plug-in. Notes those that are missing, and those that
+/// are in another library than the first.
 class Finder {
   public:
     template <typename Function>
@@ -22,11 +22,11 @@ class Finder {
         require(found);
     }
 
-    /// Throws unless Zoltan has a function of this name, which callers look up by it.
+    /// Throws unless Zoltan has a function of this name. Callers look it up by its name later.
     void find(const char* name) { require(Found(name)); }
 
-    /// Finds a function in the library of those found so far; null if it has none. One in another
-    /// library would not know the handles.
+    /// Finds a function in the library of the functions found so far; null if that has none. A
+    /// function of another library could not use the handles.
     template <typename Function>
     void find_beside(Function& function, const char* name) const {
         const Found found(name);
@@ -87,7 +87,8 @@ Finder find_all(RealZoltan& real) {
     return finder;
 }
 
-/// Returns the bytes of an id. Libraries that cannot be asked are older than ids of another width.
+/// Returns the number of bytes of an id entry. Libraries without a function for this have ids of
+/// one width only.
 std::size_t ask_id_bytes(const Finder& finder) {
     decltype(&Zoltan_get_global_id_type) ask = nullptr;
     finder.find_beside(ask, "Zoltan_get_global_id_type");

@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <type_traits>
 
-// Declared in no public header of Zoltan, but exported by it and called by its users.
+// No public header of Zoltan declares these functions, but Zoltan exports them and programs call
+// them.
 extern "C" {
 int Zoltan_LB_Part_To_Proc(struct Zoltan_Struct* zz, int part, ZOLTAN_ID_PTR global_id);
 int Zoltan_LB_Proc_To_Part(struct Zoltan_Struct* zz, int rank, int* num_parts, int* first_part);
@@ -17,31 +18,32 @@ void Zoltan_Register_Fort_Malloc(void (*allocate)(), void (*free)(), void (*set_
 
 namespace rrcb::zoltan {
 
-/// Real Zoltan behind the plug-in: the functions of functions.inc, those of Fortran, and its ids.
+/// The real Zoltan behind the plug-in: the functions in functions.inc, those of Fortran, and the
+/// width of its ids.
 struct RealZoltan {
 #define RRCB_FORWARDED(function, member) decltype(&function) member;
 #define RRCB_OPTIONAL(function, member) decltype(&function) member = nullptr;
 #include "zoltan/real/functions.inc"
 
-    /// Functions under Zoltan's Fortran interface; null if there is none.
+    /// Functions that Zoltan's Fortran interface uses; null if there is none.
     int (*special_malloc)(Zoltan_Struct* zz, void** array, int size, int type) = nullptr;
     int (*special_free)(Zoltan_Struct* zz, void** array, int type) = nullptr;
 
-    std::size_t words_per_id_entry = 1;  ///< of 32 bits
-    bool serves_rrcb = true;             ///< otherwise every call goes to Zoltan
+    std::size_t words_per_id_entry = 1;  ///< words of 32 bits
+    bool serves_rrcb = true;             ///< if false, every call goes to Zoltan
 };
 
-/// Returns the real Zoltan, looked up once. Null, with one message on stderr, if there is none
-/// behind the plug-in.
+/// Returns the real Zoltan, which is looked up once. If there is none behind the plug-in, prints
+/// one message on stderr and returns null.
 const RealZoltan* real_zoltan() noexcept;
 
-/// Returns the words in an entry of an id: 2 if Zoltan was built with ids of 64 bits. For handles
-/// that RRCB serves.
+/// Returns the number of words in an entry of an id: 2 if Zoltan was built with ids of 64 bits,
+/// otherwise 1. Call it only for handles that RRCB serves.
 inline std::size_t words_per_id_entry() {
     return real_zoltan()->words_per_id_entry;
 }
 
-/// Calls the real function as if the plug-in were not there, also for callbacks and their
+/// Calls the real function as if there were no plug-in, also with regard to callbacks and their
 /// exceptions.
 template <auto member, typename... Arguments>
 auto forward(Arguments... arguments) {

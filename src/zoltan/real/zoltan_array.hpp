@@ -17,7 +17,7 @@ struct ZoltanFree {
     void operator()(void* array) const { Zoltan_Free(&array, file_of_arrays(), __LINE__); }
 };
 
-/// Array from Zoltan's allocator, so that Zoltan_LB_Free_Part can free the lists.
+/// An array from Zoltan's allocator, which Zoltan_LB_Free_Part can therefore free.
 template <typename T>
 using ZoltanArray = std::unique_ptr<T[], ZoltanFree>;
 
@@ -30,7 +30,7 @@ ZoltanArray<T> make_array(std::size_t size) {
     return ZoltanArray<T>(static_cast<T*>(made));
 }
 
-/// Frees the memory behind the first `size` entries of a longer array.
+/// Frees the memory after the first `size` entries of a longer array.
 template <typename T>
 void shrink(ZoltanArray<T>& array, std::size_t size) {
     if (size == 0) array.reset();

@@ -144,14 +144,9 @@ if(RRCB_TESTS)
   rrcb_needs(RRCB_TESTS GTest_FOUND "GoogleTest" GTest)
 endif()
 
-# Kokkos as Kokkos::kokkos, which tests and examples use: its own package, or that of Trilinos.
-if((RRCB_TESTS OR RRCB_EXAMPLES) AND NOT TARGET Kokkos::kokkos)
-  rrcb_find_trilinos(KokkosCore)
-  if(TARGET KokkosCore::kokkoscore)
-    add_library(Kokkos::kokkos ALIAS KokkosCore::kokkoscore)
-  else()
-    rrcb_find_package(Kokkos)
-  endif()
+# The library's own code needs no Kokkos: tests and examples do.
+if(RRCB_TESTS OR RRCB_EXAMPLES)
+  rrcb_find_kokkos()
   if(NOT TARGET Kokkos::kokkos)
     rrcb_absence(absence Kokkos KokkosCore Kokkos)
     rrcb_left_out("tests and example of Kokkos" "${absence}")

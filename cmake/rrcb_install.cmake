@@ -20,7 +20,7 @@ if(BUILD_SHARED_LIBS)
   set(archive static)
 endif()
 rrcb_install_targets(rrcbStaticTargets ${archive} ${archive} rrcb_static)
-rrcb_install_targets(rrcbTargets development runtime rrcb rrcb_shared)
+rrcb_install_targets(rrcbTargets development runtime rrcb rrcb_shared rrcb_experimental)
 install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

@@ -26,6 +26,20 @@ function(rrcb_find_trilinos package)
   target_link_libraries(${target} INTERFACE MPI::MPI_CXX ${files})
 endfunction()
 
+# rrcb_find_kokkos()
+#
+# Finds Kokkos, that of a Trilinos, such as Debian's, or its own package, and offers it as Kokkos::kokkos.
+macro(rrcb_find_kokkos)
+  if(NOT TARGET Kokkos::kokkos)
+    rrcb_find_trilinos(KokkosCore)
+    if(TARGET KokkosCore::kokkoscore)
+      add_library(Kokkos::kokkos ALIAS KokkosCore::kokkoscore)
+    else()
+      rrcb_find_package(Kokkos)
+    endif()
+  endif()
+endmacro()
+
 # Debian's files of Teuchos include those of Kokkos, which are in a package that they do not depend on. What is used
 # of Teuchos does without them: its headers and libraries are looked for where its files are.
 function(rrcb_find_teuchos_beside_its_files)

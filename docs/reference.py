@@ -13,13 +13,13 @@ import reference_members
 import reference_python
 
 CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts", "neighbours",
-       "groups", "remap", "quality", "part_sizes", "controller", "cost", "restart", "stages", "error", "version", "eigen",
-       "kokkos", "kokkos/passes", "paper", "passes", "method/support_mesh", "method/moments", "method/statistical_domain",
-       "method/bisection", "teuchos/parameters", "teuchos/zoltan_parameters")
+       "groups", "remap", "quality", "part_sizes", "controller", "restart", "error", "version", "eigen", "paper",
+       "teuchos/parameters", "teuchos/zoltan_parameters", "experimental/cost", "experimental/join_keys",
+       "experimental/verify", "experimental/kokkos", "experimental/kokkos/passes")
 C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/neighbours", "c/groups", "c/controller",
-     "c/quality", "zoltan/rrcb_zoltan", "zoltan/optional_functions")
+     "c/quality", "zoltan/rrcb_zoltan", "zoltan/optional_functions", "experimental/cost", "experimental/join_keys")
 FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "arrays.F90", "neighbours.f90", "groups.f90",
-           "controllers.F90", "functions.f90")
+           "controllers.F90", "functions.f90", "experimental.F90")
 # What a header is for, in the lists of headers.
 TASKS = {"points": "describe points", "views": "describe views", "kokkos": "divide on a device", "options": "choose", "balance": "divide",
          "cuts": "look up", "plan": "plan a move", "transfer": "move columns", "balancer": "divide, look up, move",
@@ -139,8 +139,8 @@ def items_of(lines, where):
     while at < len(lines):
         line = lines[at]
         bare = line.strip()
-        if re.match(r"namespace detail", bare):
-            while not re.match(r"\}\s*// namespace detail", lines[at].strip()):
+        if re.match(r"namespace (rrcb::)?detail", bare):
+            while not re.match(r"\}\s*// namespace (rrcb::)?detail", lines[at].strip()):
                 at += 1
             at += 1
         elif bare == "private:":
@@ -228,9 +228,10 @@ def fortran_items(text, public):
 
 
 def public_names(sources):
-    """The names that the module rrcb exports."""
+    """The names that the modules rrcb and rrcb_experimental export."""
     text = re.sub(r"&\s*\n", "", (sources / "rrcb.f90").read_text())
-    return set(re.findall(r"\brrcb_\w+", " ".join(re.findall(r"only:(.*)", text))))
+    names = re.findall(r"\brrcb_\w+", " ".join(re.findall(r"only:(.*)", text)))
+    return {*names, *re.findall(r"public :: (rrcb_\w+)", (sources / "experimental.F90").read_text())}
 
 
 def faults(file, name, comment, parameters):
@@ -316,7 +317,7 @@ def pages(root):
                                             links_from(os.path.dirname(title), items))
               for title, of_page in items.items()}
     for language, heading, text in (
-            ("cpp", "C++", "Include `rrcb/rrcb.hpp`, which has all but the last twelve headers."),
+            ("cpp", "C++", "Include `rrcb/rrcb.hpp`, which has all but the last nine headers."),
             ("c", "C", "Include `rrcb/rrcb.h`."), ("fortran", "Fortran", "The module is `rrcb`.")):
         titles = [title for title in items if languages[title] == language]
         result[f"reference/{language}.md"] = overview(heading, text, titles, items)

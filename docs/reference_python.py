@@ -8,12 +8,12 @@ import re
 from pathlib import Path
 
 
-def exported(package):
-    """The names that the package exports, and the definitions of its modules."""
-    text = (package / "__init__.py").read_text()
+def exported(package, module):
+    """The names that a module exports, and the definitions of all modules."""
+    text = (package / f"{module}.py").read_text()
     names = ast.literal_eval(re.search(r"__all__ = (\[.*?\])", text, re.S)[1])
     found = {}
-    for file in [package / "__init__.py", *sorted(package.glob("_*.py"))]:
+    for file in [package / f"{module}.py", *sorted(package.glob("_*.py"))]:
         lines = file.read_text().splitlines()
         for node in ast.parse(file.read_text()).body:
             if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
@@ -80,9 +80,11 @@ def entry(name, node, lines):
 
 def page(root):
     package = Path(root) / "python" / "rrcb"
-    names, found = exported(package)
     parts = ["# Functions of the Python package", "The package is `rrcb`. Without `comm` calls are over `MPI.COMM_WORLD`, and "
              "collective over `comm` if they say so."]
-    for name in sorted(names, key=str.lower):
-        parts += entry(name, *found[name])
+    for module, title in (("__init__", ""), ("experimental", "# rrcb.experimental")):
+        names, found = exported(package, module)
+        parts += [title, ast.get_docstring(ast.parse((package / f"{module}.py").read_text()))] * bool(title)
+        for name in sorted(names, key=str.lower):
+            parts += entry(name, *found[name])
     return "\n\n".join(parts) + "\n"

@@ -4,7 +4,6 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/machines_mpi.hpp"
-#include "collective/stage_scope.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "estimate/earlier_cuts.hpp"
 #include "estimate/keeping_mpi.hpp"
@@ -71,13 +70,9 @@ Options introduce(const Given& given, const PointSummary& summary, Contribution&
 /// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
 Report decide_on_all(const Given& given, const Options& options, Contribution& mine,
                      Decision& decision, Participant& self) {
-    {
-        const StageScope stage(given.options.observer, Stage::gather, self.arithmetic);
-        merge_up(mine, given.points.dimension(), MergeTree{given.ranks.number}, most_cells(options),
-                 self);
-    }
-    decide_together(mine, given.options.observer, decision, self,
-                    [&] { decide(mine, options, decision); });
+    merge_up(mine, given.points.dimension(), MergeTree{given.ranks.number}, most_cells(options),
+             self);
+    decide_together(mine, decision, self, [&] { decide(mine, options, decision); });
     given.points.use_weights(!decision.verdict.is_counted());
     return report_of(decision.verdict, options.num_parts, options.part_sizes);
 }
@@ -102,7 +97,6 @@ Balance weigh_earlier(const Given& given, Participant& self) {
     Contribution mine;
     Decision decision;
     self.attempt([&] {
-        const StageScope stage(given.options.observer, Stage::assignment, self.arithmetic);
         given.points.use_weights(true);
         const PointSummary summary = given.points.summary(are_cuts_limited(given.options));
         options = introduce(given, summary, mine, self);
@@ -128,7 +122,6 @@ Balance weigh_earlier(const Given& given, Participant& self) {
 /// Prepares a call that makes cuts. Not collective.
 void prepare(const Given& given, Options& options, Contribution& mine, Decision& decision,
              std::optional<Settlement>& settlement, const Participant& self) {
-    const StageScope stage(given.options.observer, Stage::moments, self.arithmetic);
     PointPasses& points = given.points;
     points.use_weights(true);
     const PointSummary summary = points.summary(true);
@@ -160,10 +153,6 @@ SettledCuts settle(const Given& given, const Options& options, const Box& here, 
     const bool counts = may_keep || given.previous;
     // The message is freed unless it is needed once more, to send kept parts.
     if (!may_keep) decision.message = std::vector<std::byte>();
-    const bool is_searched = is_spread(options, given.ranks.number) ||
-                             (is_refined(options) && report.details.num_points > 0);
-    const StageScope stage(given.options.observer,
-                           is_searched ? Stage::refinement : Stage::assignment, self.arithmetic);
     const AllPoints all{verdict.num_points,
                         verdict.balanced_weight(),
                         verdict.balanced_heaviest(),
@@ -188,8 +177,6 @@ void take(SettledCuts&& made, double tolerance, Balance& result) {
 void keep(const Given& given, const Options& options, Decision& decision, Balance& result,
           Participant& self) {
     const bool is_known = decision.verdict.answer == Answer::kept;
-    const StageScope stage(given.options.observer, is_known ? Stage::assignment : Stage::broadcast,
-                           self.arithmetic);
     if (is_known) {
         agree(self);
     } else {
@@ -212,7 +199,6 @@ void keep(const Given& given, const Options& options, Decision& decision, Balanc
 /// Gives every rank all cuts, after many ranks have found them, and the weights of all parts.
 /// Collective: two reductions.
 void complete_cuts(Balance& result, const Options& options, Participant& self) {
-    const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
     join_cuts(result.cuts.tree, self);
     if (result.report.details.num_points == 0) return result.report.part_weights.clear();
     std::vector<double>& weights = result.report.part_weights;

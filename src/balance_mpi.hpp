@@ -3,7 +3,7 @@
 #include "collective/participant.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
 
 #include <vector>
 

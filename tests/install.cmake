@@ -144,8 +144,8 @@ function(rrcb_add_bare_test name text)
 endfunction()
 rrcb_add_bare_test(sets_its_own_policies "rrcb is found")
 rrcb_add_bare_test(names_missing_components "component fortran needs an rrcb built with" fortran)
-rrcb_add_bare_test(names_unknown_components "there is no component kokkos.*zoltan, teuchos and fortran"
-                   kokkos)
+rrcb_add_bare_test(names_unknown_components "there is no component openmp.*zoltan, teuchos, kokkos and fortran"
+                   openmp)
 
 find_program(RRCB_PKG_CONFIG pkg-config)
 if(RRCB_PKG_CONFIG)
@@ -166,7 +166,9 @@ if(Python3_FOUND)
        ${PROJECT_SOURCE_DIR}/src/c/for_fortran.h
        ${PROJECT_SOURCE_DIR}/src/c/for_python.h
        ${PROJECT_SOURCE_DIR}/include/rrcb/*.hpp
-       ${PROJECT_SOURCE_DIR}/include/rrcb/method/*.hpp)
+       ${PROJECT_SOURCE_DIR}/include/rrcb/detail/*.hpp
+       ${PROJECT_SOURCE_DIR}/include/rrcb/experimental/*.h
+       ${PROJECT_SOURCE_DIR}/include/rrcb/experimental/*.hpp)
   file(GLOB listed ${PROJECT_SOURCE_DIR}/packaging/debian/librrcb[0-9]*.symbols)
   add_test(NAME install.symbols
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/symbols.py

@@ -10,6 +10,7 @@
 #include "partitioner_mpi.hpp"
 #include "row.hpp"
 
+#include <rrcb/experimental/cost.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <exception>
@@ -110,7 +111,7 @@ class Loop {
     MPI_Comm comm_;
     bool learns_;
     int columns_;
-    rrcb::CostModel model_;
+    rrcb::experimental::CostModel model_;
     Particles particles_;
     /// RCB_SET_DIRECTIONS orders cuts, but their axes are the longest.
     bool sees_x_only_;

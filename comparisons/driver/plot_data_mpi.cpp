@@ -6,6 +6,7 @@
 #include "text.hpp"
 #include "workload_mpi.hpp"
 
+#include <rrcb/detail/paper_steps.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "progress.hpp"
 
 #include <rrcb/controller.hpp>
-#include <rrcb/cost.hpp>
+#include <rrcb/experimental/cost.hpp>
 
 #include <balancers_mpi.hpp>
 #include <mpm/simulation.hpp>
@@ -114,7 +114,7 @@ class TimedSimulation {
     int num_ranks_ = 1;
     std::unique_ptr<mpm::Simulation> simulation_;
     std::optional<rrcb::Controller> controller_;
-    std::optional<rrcb::CostModel> model_;
+    std::optional<rrcb::experimental::CostModel> model_;
     SimulationRun run_;
     PhaseLog steps_;
     PhaseLog balances_;

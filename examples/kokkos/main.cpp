@@ -1,7 +1,7 @@
 // Balances positions in the memory of a device, sends them to their ranks, and fetches the
 // neighbours of each rank's.
+#include <rrcb/experimental/kokkos.hpp>
 #include <rrcb/ghosts.hpp>
-#include <rrcb/kokkos.hpp>
 #include <rrcb/transfer.hpp>
 #include <rrcb/views.hpp>
 
@@ -25,8 +25,8 @@ int main(int argc, char** argv) {
             });
 
         const Kokkos::DefaultExecutionSpace exec;
-        const auto balance = rrcb::balance(exec, x, rrcb::Options{}, MPI_COMM_WORLD);
-        const auto plan = rrcb::plan(exec, balance, MPI_COMM_WORLD);
+        const auto balance = rrcb::experimental::balance(exec, x, rrcb::Options{}, MPI_COMM_WORLD);
+        const auto plan = rrcb::experimental::plan(exec, balance, MPI_COMM_WORLD);
         // Packed by rank on the device, exchanged in memory of the host.
         const Positions sorted("sorted", x.extent(0));
         const auto order = plan.order;

@@ -6,6 +6,7 @@
 #include "particles.hpp"
 #include "restart.hpp"
 
+#include <rrcb/experimental/cost.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <mpi.h>
@@ -46,8 +47,9 @@ int main(int argc, char** argv) {
     {
         rrcb::Controller controller =
             continues ? rrcb::load<rrcb::Controller>(run.controller, comm) : rrcb::Controller(comm);
-        rrcb::CostModel model = continues ? rrcb::load<rrcb::CostModel>(run.model, controller)
-                                          : rrcb::CostModel(controller, 2);
+        rrcb::experimental::CostModel model =
+            continues ? rrcb::experimental::load_cost_model(run.model, controller)
+                      : rrcb::experimental::CostModel(controller, 2);
         if (continues && rank == 0)
             std::printf("continued at step %d: %s\n", run.step, model.report().c_str());
         rrcb::Cuts cuts;

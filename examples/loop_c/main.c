@@ -1,6 +1,7 @@
 // The loop of examples/loop in C: the same numbers on as many ranks, and the same file.
 #include "restart.h"
 
+#include <rrcb/experimental/cost.h>
 #include <rrcb/rrcb.h>
 
 #include <math.h>

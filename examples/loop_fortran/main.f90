@@ -3,6 +3,7 @@ program loop
   use, intrinsic :: iso_c_binding
   use mpi_f08
   use rrcb
+  use rrcb_experimental
   implicit none
 
   integer, parameter :: dp = c_double, cells_per_axis = 101

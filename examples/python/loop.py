@@ -78,7 +78,7 @@ cuts = None
 if path and os.path.exists(path):
     (first, rebalances, heaviest, total), saved, x, columns = read_run(path)
     controller = rrcb.Controller.load(saved[0], comm)
-    model = rrcb.CostModel.load(saved[1], controller, comm)
+    model = rrcb.experimental.CostModel.load(saved[1], controller, comm)
     if saved[2]:
         cuts = rrcb.Cuts.load(saved[2])
         near = rrcb.Neighbours(cuts, RADIUS, TRAVEL, comm=comm)
@@ -89,7 +89,7 @@ else:
     x = strip()
     columns = np.zeros((len(x), 2))
     controller = rrcb.Controller(comm)
-    model = rrcb.CostModel(controller, 2, comm)
+    model = rrcb.experimental.CostModel(controller, 2, comm)
 with controller, model:
     for step in range(int(first), num_steps):
         if cuts is None or controller.due:

@@ -1,5 +1,5 @@
 // Balances the coordinates in a MultiVector of Tpetra, and redistributes it by an Import.
-#include <rrcb/kokkos.hpp>
+#include <rrcb/experimental/kokkos.hpp>
 #include <rrcb/transfer.hpp>
 
 #include <Tpetra_Core.hpp>
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
 
     const auto x = before.getLocalViewDevice(Tpetra::Access::ReadOnly);
     const Vectors::execution_space exec;
-    const auto balance = rrcb::balance(exec, x, rrcb::Options{}, MPI_COMM_WORLD);
+    const auto balance = rrcb::experimental::balance(exec, x, rrcb::Options{}, MPI_COMM_WORLD);
 
     // The ids of the nodes go to the ranks of their parts; an Import moves all else.
     const auto parts = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), balance.parts);

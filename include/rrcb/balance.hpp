@@ -85,7 +85,7 @@ RRCB_API void balance_into(Balance& result, const Points& points, const Options&
 
 /// Frees the buffers that calls on `comm` keep for the next ones, before `comm` frees them.
 ///
-/// Not collective, and not during a call, as from a StageObserver. Searches of cuts, as with
+/// Not collective. Searches of cuts, as with
 /// Refine::exact, keep a copy of the points; other calls keep less.
 RRCB_API void release_buffers(MPI_Comm comm);
 

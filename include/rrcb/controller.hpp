@@ -11,6 +11,9 @@ namespace rrcb {
 namespace detail {
 struct Restart;
 }  // namespace detail
+namespace experimental {
+class CostModel;
+}  // namespace experimental
 
 /// Decides when a rebalance pays, from the time of the steps and of the rebalances.
 ///
@@ -80,7 +83,7 @@ class Controller {
     RRCB_API void rebalanced(double cost);
 
   private:
-    friend class CostModel;
+    friend class experimental::CostModel;
     friend struct detail::Restart;
     struct State;
     explicit Controller(std::unique_ptr<State> state);

@@ -57,21 +57,6 @@ struct Groups {
 RRCB_API Groups groups(const Points& points, std::span<const std::uint64_t> keys, MPI_Comm comm,
                        GroupPlace place = GroupPlace::centre);
 
-/// Returns one key for each point of overlapping groups: the same for points sharing a key,
-/// directly or through other points, over all ranks. Collective.
-///
-///     const rrcb::Groups wells = rrcb::groups(points, rrcb::join_keys(keys, 2, comm), comm);
-///
-/// @param keys           `keys_per_point` for each point, no_group in place of missing ones
-/// @param keys_per_point 1 or more, the same on every rank
-/// @param comm           of the ranks with points
-/// @return the least key of the joined groups, no_group for a point without keys
-/// Throws Error on every rank alike: for keys of another length, or no memory. Cost: two exchanges,
-/// as of groups(), and as many more as joined groups pass from one rank to the next.
-[[nodiscard]] RRCB_API std::vector<std::uint64_t> join_keys(std::span<const std::uint64_t> keys,
-                                                            std::size_t keys_per_point,
-                                                            MPI_Comm comm);
-
 /// Returns the sums of values over the points of each group of this rank, in the order of
 /// groups.points(). Collective.
 ///

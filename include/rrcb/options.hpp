@@ -1,6 +1,5 @@
 #pragma once
 
-#include <rrcb/stages.hpp>
 #include <rrcb/tree_shape.hpp>
 
 #include <cstdint>
@@ -130,8 +129,6 @@ struct Options {
     /// shape.
     TreeShape tree{0};
     Tuning tuning{};  ///< for experts
-
-    StageObserver* observer = nullptr;  ///< of this rank only, not compared; borrowed for the call
 };
 
 }  // namespace rrcb

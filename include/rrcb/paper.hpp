@@ -1,14 +1,11 @@
 #pragma once
 
 #include <rrcb/balance.hpp>
-#include <rrcb/method/bisection.hpp>
-#include <rrcb/method/moments.hpp>
 #include <rrcb/points.hpp>
 
 #include <mpi.h>
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 /// @file
@@ -41,7 +38,6 @@ struct PaperOptions {
     double sigma_multiplier = 1.5;  ///< half-width of a cell's sampling box in sigmas, > 0
     double sample_fraction = 1.0;   ///< points drawn per real point, in (0, 1]
     std::uint64_t seed = 1;         ///< the same seed gives the same points
-    StageObserver* observer = nullptr;  ///< as Options::observer
 };
 
 /// Divides the points of all ranks into parts by the paper's RRCB, or by its RCB. Collective.
@@ -57,41 +53,5 @@ struct PaperOptions {
 /// or gathered.
 RRCB_API Balance balance_as_in_paper(const Points& points, const PaperOptions& options,
                                      MPI_Comm comm);
-
-/// Weight concentrated at a position.
-struct MassPoint {
-    Vector position{};  ///< of the weight
-    double weight = 0;  ///< of the point
-};
-
-/// Draws pseudo-random points of weight 1, uniform in mean +- multiplier * sigma of each cell. Not
-/// collective.
-///
-/// @param cells     of all ranks
-/// @param dimension of the points
-/// @param options   multiplier, share and seed; the same give the same points on every machine
-/// @return `sample_fraction` times the number of real points, at least one, shared among the cells
-/// in proportion to their weight by largest remainder
-/// Throws Error for options out of range.
-RRCB_API std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dimension,
-                                              const PaperOptions& options);
-
-/// Copies points with their weights; if all weights are 0, each copy weighs 1. Not collective.
-/// Throws Error for arrays of another length than the points.
-RRCB_API std::vector<MassPoint> mass_points(const Points& points);
-
-/// Bisects points recursively across the longest extent of the points in each box. Not collective.
-///
-/// @param points     a copy, which is sorted
-/// @param dimension  of the points
-/// @param num_parts  1 or more
-/// @param part_sizes relative, one per part, or empty; a part of size 0 gets an empty region
-/// @param rule       position of cuts
-/// @param plain_cuts points on a cut are not divided by their other coordinates
-/// Throws Error as bisect().
-RRCB_API Bisection bisect_points(std::vector<MassPoint> points, int dimension, int num_parts,
-                                 std::span<const double> part_sizes = {},
-                                 CutRule rule = CutRule::weighted_fraction,
-                                 bool plain_cuts = false);
 
 }  // namespace rrcb

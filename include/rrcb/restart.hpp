@@ -1,7 +1,6 @@
 #pragma once
 
 #include <rrcb/controller.hpp>
-#include <rrcb/cost.hpp>
 #include <rrcb/cuts.hpp>
 
 #include <mpi.h>
@@ -18,10 +17,7 @@ namespace detail {
 /// Saves and loads what has private members.
 struct Restart {
     RRCB_API static std::vector<std::byte> save(const Controller& controller);
-    RRCB_API static std::vector<std::byte> save(const CostModel& model);
     RRCB_API static Controller load_controller(std::span<const std::byte> bytes, MPI_Comm comm);
-    RRCB_API static CostModel load_model(std::span<const std::byte> bytes, MPI_Comm comm);
-    RRCB_API static CostModel load_model(std::span<const std::byte> bytes, Controller& controller);
 };
 RRCB_API Cuts load_cuts(std::span<const std::byte> bytes);
 
@@ -41,21 +37,14 @@ inline std::vector<std::byte> save(const Controller& controller) {
     return detail::Restart::save(controller);
 }
 
-/// Returns the state of a cost model as bytes, the same on every rank; save its controller too.
-/// Collective as save() of a controller. At most 1 kB for 5 columns on 8 ranks.
-inline std::vector<std::byte> save(const CostModel& model) {
-    return detail::Restart::save(model);
-}
-
-/// Restores a saved state: Cuts, not collective, or a Controller or CostModel, collective.
+/// Restores a saved state: Cuts, not collective, or a Controller, collective.
 ///
 ///     std::vector<std::byte> state = rrcb::save(controller);  // to be written by one rank
 ///     controller = rrcb::load<rrcb::Controller>(state, comm);
 ///
-/// On as many ranks as before a controller or model goes on with the same bits. On another number a
-/// controller begins anew; a model keeps its costs and its judgement, as its report() says. Cuts
-/// keep their number of parts; on other ranks balance() ignores them unless Options::num_parts is
-/// that number.
+/// On as many ranks as before a controller goes on with the same bits. On another number it begins
+/// anew. Cuts keep their number of parts; on other ranks balance() ignores them unless
+/// Options::num_parts is that number.
 /// @param bytes of save(), the same on every rank, in either byte order
 /// @param comm  as for the constructors; ignored for Cuts
 /// Throws Error, collective ones on every rank alike, if the bytes are truncated, of another kind,
@@ -64,7 +53,6 @@ template <class State>
 [[nodiscard]] State load(std::span<const std::byte> bytes, MPI_Comm comm) {
     if constexpr (std::is_same_v<State, Controller>)
         return detail::Restart::load_controller(bytes, comm);
-    if constexpr (std::is_same_v<State, CostModel>) return detail::Restart::load_model(bytes, comm);
     if constexpr (std::is_same_v<State, Cuts>) return detail::load_cuts(bytes);
 }
 
@@ -75,16 +63,6 @@ template <class State>
 requires std::is_same_v<State, Cuts>
 [[nodiscard]] State load(std::span<const std::byte> bytes) {
     return detail::load_cuts(bytes);
-}
-
-/// Restores a model that was made with a controller, before the next step of that. Collective.
-///
-/// @param bytes      as above
-/// @param controller loaded before; must outlive the model
-template <class State>
-requires std::is_same_v<State, CostModel>
-[[nodiscard]] State load(std::span<const std::byte> bytes, Controller& controller) {
-    return detail::Restart::load_model(bytes, controller);
 }
 
 }  // namespace rrcb

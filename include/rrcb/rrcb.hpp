@@ -2,7 +2,6 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/controller.hpp>
-#include <rrcb/cost.hpp>
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
@@ -15,7 +14,6 @@
 #include <rrcb/quality.hpp>
 #include <rrcb/remap.hpp>
 #include <rrcb/restart.hpp>
-#include <rrcb/stages.hpp>
 #include <rrcb/transfer.hpp>
 #include <rrcb/version.hpp>
 #include <rrcb/views.hpp>

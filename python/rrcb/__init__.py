@@ -8,19 +8,18 @@
 The calls are collective over the communicator, and raise rrcb.Error on every rank alike.
 """
 
-from . import _library
+from . import _library, experimental as experimental
 from ._balance import Balance, Distribution, Plan, Report, assign_all, balance, balanced_sizes, plan
-from ._controller import Controller, CostModel
+from ._controller import Controller
 from ._cuts import Cuts
-from ._ghosts import Ghosts, Verification
-from ._groups import Groups, groups, join_keys
+from ._ghosts import Ghosts
+from ._groups import Groups, groups
 from ._library import Error
 from ._neighbours import Neighbours
 
 __all__ = [
     "Balance",
     "Controller",
-    "CostModel",
     "Cuts",
     "Distribution",
     "Error",
@@ -29,13 +28,11 @@ __all__ = [
     "Neighbours",
     "Plan",
     "Report",
-    "Verification",
     "assign_all",
     "balance",
     "balanced_sizes",
     "build_info",
     "groups",
-    "join_keys",
     "plan",
 ]
 __version__: str = _library.text(_library.library.rrcb_version())

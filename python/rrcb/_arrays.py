@@ -51,7 +51,7 @@ def refuse_device(values: Any) -> None:
     if hasattr(values, "__cuda_array_interface__") or (device and device()[0] not in HOSTS):
         raise c.Error(
             f"an array of type {type(values).__name__} is on a device, which Python calls cannot "
-            "read: copy it to numpy (cupy.asnumpy(x), x.cpu().numpy()), or use rrcb/kokkos.hpp"
+            "read: copy it to numpy (cupy.asnumpy(x), x.cpu().numpy()), or use rrcb/experimental/kokkos.hpp"
         )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import dataclasses
 from typing import Any, Callable
 
 import numpy as np
@@ -14,20 +13,6 @@ from ._agreement import communicator, prepare, together
 from ._arrays import NUMBERS, Array, Columns, Points, axes_of, copied, move, numbers_in, pointer
 
 NEEDS = ("sender", "receiver", "either")
-
-
-FAULT = np.dtype([("id", "u8"), ("rank", "i4"), ("needed_by", "u8")], align=True)
-
-
-@dataclasses.dataclass(frozen=True)
-class Verification:
-    """Result of Ghosts.verify(), with the faults that concern this rank: fields id, rank, needed_by."""
-
-    num_pairs: int  #: of the sample, over all ranks
-    num_faults: int  #: over all ranks
-    missing: Array  #: near points that are no ghosts, ids that are lost
-    twice: Array  #: ghosts that came twice, ids that another rank has too
-    strangers: Array  #: own points that came as ghosts, new ids
 
 
 class Ghosts:
@@ -112,43 +97,6 @@ class Ghosts:
         )
         c.call("ghosts_accumulate", self._own, *columns.as_numbers(), None, None)
         return columns.result()
-
-    def verify(
-        self, x: Any, sample: int = 1000, radius: Any = None, ids: Any = None, ids_before: Any = None
-    ) -> Verification:
-        """Compares the ghosts with all pairs of a random sample of the points. Collective.
-
-        `x` are the positions on this rank. `sample` is the most points, over all ranks, whose
-        neighbours are looked for. `radius` is the true one, if the ghosts have a skin. `ids` are
-        numbers of the points, `ids_before` those of the points of this rank before distribute().
-        """
-        seen, kept = c.Verification(), []
-
-        def numbers(values: Any) -> tuple[int, int | None]:
-            if values is None:
-                return 0, None
-            kept.append(np.ascontiguousarray(values, dtype=np.uint64).ravel())
-            return len(kept[-1]), pointer(kept[-1])
-
-        def local() -> tuple[Points, c.VerifyOptions]:
-            points = Points(x)
-            radii = self._radii if radius is None else radius_of(radius, points.count)
-            each = pointer(radii) if radii.ndim else None
-            once = 0.0 if radii.ndim or radius is None else float(radii)
-            return points, c.VerifyOptions(sample, once, each, *numbers(ids), *numbers(ids_before))
-
-        together(
-            self.comm, local, lambda p=None, o=None: c.call("ghosts_verify", self._own, p, o, seen)
-        )
-        lists = [
-            copied(address, (count,), FAULT)
-            for address, count in (
-                (seen.missing, seen.num_missing),
-                (seen.twice, seen.num_twice),
-                (seen.strangers, seen.num_strangers),
-            )
-        ]
-        return Verification(seen.num_pairs, seen.num_faults, *lists)
 
     def _fetch(self, data: Any, check: Callable[[], None]) -> Any:
         def local() -> Columns:

@@ -86,48 +86,23 @@ def groups(
     """Finds the groups of all points with equal keys. Collective over `comm`.
 
     `x` and `weights` are as for balance(). `keys` has an integer for each point, -1 for one that
-    is a group of its own, or a row of keys for join_keys(). `place` of a group is its "centre" of
+    is a group of its own. `place` of a group is its "centre" of
     weight or its "first_point". Raises Error on every rank alike.
     """
     chosen = communicator(comm)
-    given = keys if np.ndim(keys) < 2 else join_keys(keys, chosen)
     balancer = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
 
     def local() -> tuple[Points, Array, int]:
         points = Points(x, weights)
         if place not in PLACES:
             raise c.Error(f"place must be one of {', '.join(PLACES)}, not {place!r}")
-        return points, keys_of(given, (points.count,)), PLACES.index(place)
+        return points, keys_of(keys, (points.count,)), PLACES.index(place)
 
     def collective(points: Any = None, numbers: Any = None, number: int = 0) -> Groups:
         own = c.OwnedHandle("groups_create", "groups_destroy", balancer, points, numbers, number)
         return Groups(chosen, own, points.count)
 
     return together(chosen, local, collective)
-
-
-def join_keys(keys: Any, comm: MPI.Comm | None = None) -> Array:
-    """Returns one key for each point of overlapping groups. Collective over `comm`.
-
-    `keys` are (n, k) integers, -1 for those that a point lacks; k is the same on every rank. Points
-    that share a key, directly or through others, get the least key of all of them.
-    """
-    chosen = communicator(comm)
-
-    def local() -> Array:
-        values = as_array(keys)
-        if values.ndim != 2:
-            raise c.Error(f"keys must have the shape (n, k), not {values.shape}")
-        return keys_of(values, values.shape)
-
-    def signature(made: Array) -> str:
-        return f"keys of the shape (n, {made.shape[1]})"
-
-    given = prepare(chosen, local, signature)
-    balancer = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
-    joined = np.empty(len(given), dtype=np.uint64)
-    c.call("join_keys", balancer, *given.shape, given, joined)
-    return joined
 
 
 def keys_of(keys: Any, shape: tuple[int, ...]) -> Array:

@@ -14,20 +14,8 @@ class NonStop {
     NonStop& operator=(const NonStop&) = delete;
     ~NonStop() { std::fesetenv(&before_); }
 
-    /// Calls a function of the caller, which must not throw, with the caller's floating-point
-    /// environment.
-    template <class Call>
-    void outside(Call&& call) const {
-        std::fenv_t inside;
-        std::fegetenv(&inside);
-        std::fesetenv(&before_);
-        call();
-        std::fegetenv(&before_);
-        std::fesetenv(&inside);
-    }
-
   private:
-    mutable std::fenv_t before_;
+    std::fenv_t before_;
 };
 
 }  // namespace rrcb

@@ -11,7 +11,7 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/method/bisection.hpp>
+#include <rrcb/detail/bisection.hpp>
 
 #include <algorithm>
 #include <cmath>

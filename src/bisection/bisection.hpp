@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/method/bisection.hpp>
+#include <rrcb/detail/bisection.hpp>
 
 namespace rrcb {
 

@@ -2,7 +2,7 @@
 
 #include "bisection/cell_density.hpp"
 
-#include <rrcb/method/statistical_domain.hpp>
+#include <rrcb/detail/statistical_domain.hpp>
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
-#include <rrcb/method/statistical_domain.hpp>
+#include <rrcb/detail/statistical_domain.hpp>
 
 #include <vector>
 

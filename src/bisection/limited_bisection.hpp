@@ -3,8 +3,8 @@
 #include "bisection/profile.hpp"
 #include "cuts/cut_limits.hpp"
 
-#include <rrcb/method/bisection.hpp>
-#include <rrcb/method/statistical_domain.hpp>
+#include <rrcb/detail/bisection.hpp>
+#include <rrcb/detail/statistical_domain.hpp>
 
 namespace rrcb {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/method/statistical_domain.hpp>
+#include <rrcb/detail/statistical_domain.hpp>
 
 #include <array>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "options/rejection.hpp"
 
 #include <rrcb/controller.hpp>
-#include <rrcb/cost.hpp>
+#include <rrcb/experimental/cost.hpp>
 #include <rrcb/restart.hpp>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct rrcb_controller {
 
 struct rrcb_cost_model {
     static constexpr const char* name = "model";
-    std::optional<rrcb::CostModel> model{};
+    std::optional<rrcb::experimental::CostModel> model{};
     std::string report{};
     std::vector<std::byte> saved{};
 };
@@ -61,21 +61,22 @@ int make_model(MPI_Comm comm, rrcb_controller* const* controller, CallName call,
 
 int make_new_model(MPI_Comm comm, rrcb_controller* const* controller, int num_columns,
                    rrcb_cost_model** model) {
-    return make_model(comm, controller, CallName::cost_model, model,
-                      [&](auto& where) { return rrcb::CostModel(where, num_columns); });
+    return make_model(comm, controller, CallName::cost_model, model, [&](auto& where) {
+        return rrcb::experimental::CostModel(where, num_columns);
+    });
 }
 
 int load_model(MPI_Comm comm, rrcb_controller* const* controller, const void* bytes, size_t size,
                rrcb_cost_model** model) {
     return make_model(comm, controller, CallName::load, model, [&](auto& where) {
-        return rrcb::load<rrcb::CostModel>(saved_bytes(bytes, size), where);
+        return rrcb::experimental::load_cost_model(saved_bytes(bytes, size), where);
     });
 }
 
 /// Saves the object that a handle refers to. Collective.
 template <class Handle, class Object>
 void save(Handle& own, const Object& object, const void** bytes, size_t* size) {
-    own.saved = rrcb::save(object);
+    own.saved = save(object);
     if (bytes != nullptr && size != nullptr) rrcb::c::show(own.saved, bytes, size);
     rrcb::c::require(bytes, "bytes");
     rrcb::c::require(size, "size");

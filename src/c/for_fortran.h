@@ -5,6 +5,7 @@
 #define RRCB_SRC_C_FOR_FORTRAN_H
 
 #include <rrcb/c/controller.h>
+#include <rrcb/experimental/cost.h>
 
 #ifdef __cplusplus
 extern "C" {

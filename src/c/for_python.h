@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/** Scope of rrcb_ghosts_verify, as rrcb::VerifyOptions. */
+/** Scope of rrcb_ghosts_verify, as rrcb::experimental::VerifyOptions. */
 typedef struct rrcb_verify_options {
     size_t sample; /**< most points, over all ranks, whose neighbours are looked for; 0: only ids */
     double radius; /**< true cut-off, if the ghosts have a skin; 0: that of these */
@@ -21,14 +21,14 @@ typedef struct rrcb_verify_options {
     const uint64_t* ids_before; /**< of these */
 } rrcb_verify_options;
 
-/** Point that is not where it should be, as rrcb::Fault. */
+/** Point that is not where it should be, as rrcb::experimental::Fault. */
 typedef struct rrcb_fault {
     uint64_t id;        /**< of the point; without ids its index */
     int rank;           /**< that holds it, or did before the transfer */
     uint64_t needed_by; /**< point of this rank, or the same id */
 } rrcb_fault;
 
-/** Result of rrcb_ghosts_verify, as rrcb::Verification. */
+/** Result of rrcb_ghosts_verify, as rrcb::experimental::Verification. */
 typedef struct rrcb_verification {
     int64_t num_pairs;           /**< of the sample, over all ranks */
     int64_t num_faults;          /**< over all ranks */
@@ -40,7 +40,8 @@ typedef struct rrcb_verification {
     const rrcb_fault* strangers; /**< own points that came as ghosts, new ids */
 } rrcb_verification;
 
-/** Compares ghosts with all pairs of a sample of the points, as rrcb::verify. Collective.
+/** Compares ghosts with all pairs of a sample of the points, as rrcb::experimental::verify.
+ * Collective.
  *
  * @param ghosts  own the lists of the result, until the next call
  * @param points  of this rank

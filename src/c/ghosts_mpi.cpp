@@ -15,7 +15,7 @@ struct rrcb_ghosts {
     static constexpr const char* name = "ghosts";
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::GhostPlan plan{};
-    rrcb::Verification seen{};
+    rrcb::experimental::Verification seen{};
 };
 
 namespace rrcb::c {
@@ -64,8 +64,8 @@ void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
     *ghosts = made.release();
 }
 
-VerifyOptions options_of(const rrcb_verify_options* from, LocalIndex num_points) {
-    VerifyOptions options;
+experimental::VerifyOptions options_of(const rrcb_verify_options* from, LocalIndex num_points) {
+    experimental::VerifyOptions options;
     if (from == nullptr) return options;
     if (from->sample == 0 && from->num_ids == 0 && num_points > 0)
         reject("sample is 0, and there are no ids; give one of them, or no options");
@@ -79,23 +79,23 @@ VerifyOptions options_of(const rrcb_verify_options* from, LocalIndex num_points)
     return options;
 }
 
-const rrcb_fault* faults_at(const std::vector<Fault>& faults) {
+const rrcb_fault* faults_at(const std::vector<experimental::Fault>& faults) {
     // Both structs consist of an id, a rank and an id.
-    static_assert(sizeof(rrcb_fault) == sizeof(Fault) &&
-                  offsetof(rrcb_fault, needed_by) == offsetof(Fault, needed_by));
+    static_assert(sizeof(rrcb_fault) == sizeof(experimental::Fault) &&
+                  offsetof(rrcb_fault, needed_by) == offsetof(experimental::Fault, needed_by));
     return reinterpret_cast<const rrcb_fault*>(faults.data());
 }
 
 void verify(rrcb_ghosts& own, const rrcb_points* given, const rrcb_verify_options* given_options,
             rrcb_verification* seen, Participant& self) {
     Points points;
-    VerifyOptions options;
+    experimental::VerifyOptions options;
     self.attempt([&] {
         require(seen, "seen");
         points = points_of(given);
         options = options_of(given_options, points.count);
     });
-    own.seen = rrcb::verify(own.plan, points, options, self);
+    own.seen = experimental::verify(own.plan, points, options, self);
     const auto& [num_pairs, num_faults, missing, twice, strangers] = own.seen;
     *seen = {num_pairs,    num_faults,       missing.size(),   faults_at(missing),
              twice.size(), faults_at(twice), strangers.size(), faults_at(strangers)};

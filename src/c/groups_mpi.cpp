@@ -2,6 +2,8 @@
 #include "c/handle_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 
+#include <rrcb/experimental/join_keys.h>
+
 #include <algorithm>
 
 struct rrcb_groups {
@@ -53,7 +55,7 @@ int rrcb_join_keys(const rrcb_balancer* balancer, size_t count, size_t keys_per_
                     "points of this rank");
         });
         const auto given = rrcb::c::view(keys, self.failed() ? 0 : count * keys_per_point);
-        std::ranges::copy(rrcb::join_keys(given, keys_per_point, self), joined);
+        std::ranges::copy(rrcb::experimental::join_keys(given, keys_per_point, self), joined);
     });
 }
 

@@ -4,15 +4,14 @@
 #include "controller/cost_rule.hpp"
 #include "options/rejection.hpp"
 
-#include <rrcb/cost.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/restart.hpp>
+#include <rrcb/experimental/cost.hpp>
 
 #include <algorithm>
 #include <cstdio>
 #include <optional>
 
-namespace rrcb {
+namespace rrcb::experimental {
 
 namespace {
 
@@ -66,6 +65,11 @@ struct CostModel::State {
     /// Makes a model; if `saved` is not null, restores it from there. Collective.
     static std::unique_ptr<State> make(Controller& controller, CallName call, int num_columns,
                                        const std::span<const std::byte>* saved);
+
+    /// Makes a controller for a model without one. Collective.
+    static Controller own_controller(MPI_Comm comm, CallName call) {
+        return Controller(Controller::State::make(comm, call));
+    }
 
     /// Writes or reads everything except the numbers that differ between ranks. Returns whether the
     /// saved model had the present number of ranks.
@@ -124,7 +128,7 @@ std::unique_ptr<CostModel::State> CostModel::State::make(Controller& controller,
 }
 
 CostModel::CostModel(MPI_Comm comm, int num_columns) {
-    Controller own(Controller::State::make(comm, CallName::cost_model));
+    Controller own = State::own_controller(comm, CallName::cost_model);
     *this = CostModel(own, num_columns);
     state_->own = std::move(own);
 }
@@ -195,7 +199,7 @@ std::string CostModel::report() const {
     });
 }
 
-std::vector<std::byte> detail::Restart::save(const CostModel& model) {
+std::vector<std::byte> save(const CostModel& model) {
     CostModel::State& state = CostModel::State::of(model);
     Participant self = state.reducer.enter(CallName::save);
     return save_together(
@@ -208,15 +212,15 @@ std::vector<std::byte> detail::Restart::save(const CostModel& model) {
         self);
 }
 
-CostModel detail::Restart::load_model(std::span<const std::byte> bytes, Controller& controller) {
+CostModel load_cost_model(std::span<const std::byte> bytes, Controller& controller) {
     return CostModel(CostModel::State::make(controller, CallName::load, 0, &bytes));
 }
 
-CostModel detail::Restart::load_model(std::span<const std::byte> bytes, MPI_Comm comm) {
-    Controller own(Controller::State::make(comm, CallName::load));
-    CostModel model = load_model(bytes, own);
+CostModel load_cost_model(std::span<const std::byte> bytes, MPI_Comm comm) {
+    Controller own = CostModel::State::own_controller(comm, CallName::load);
+    CostModel model = load_cost_model(bytes, own);
     model.state_->own = std::move(own);
     return model;
 }
 
-}  // namespace rrcb
+}  // namespace rrcb::experimental

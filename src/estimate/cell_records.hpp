@@ -1,7 +1,7 @@
 #pragma once
 
-#include <rrcb/method/moments.hpp>
-#include <rrcb/method/statistical_domain.hpp>
+#include <rrcb/detail/moments.hpp>
+#include <rrcb/detail/statistical_domain.hpp>
 
 #include <cstddef>
 #include <limits>

@@ -3,8 +3,8 @@
 #include "collective/failure.hpp"
 #include "options/request.hpp"
 
-#include <rrcb/method/statistical_domain.hpp>
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
+#include <rrcb/detail/statistical_domain.hpp>
 
 #include <cstdint>
 #include <limits>

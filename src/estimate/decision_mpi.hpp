@@ -3,12 +3,11 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/merge_tree.hpp"
 #include "collective/participant.hpp"
-#include "collective/stage_scope.hpp"
 #include "estimate/contribution.hpp"
 #include "estimate/kept_tree.hpp"
 
 #include <rrcb/balance.hpp>
-#include <rrcb/method/bisection.hpp>
+#include <rrcb/detail/bisection.hpp>
 
 #include <limits>
 #include <optional>
@@ -126,17 +125,13 @@ void broadcast(Decision& decision, Participant& self);
 
 /// Calls decide() on rank 0, and sends every rank the decision by broadcast(). Collective.
 template <class Decide>
-void decide_together(const Contribution& all, StageObserver* observer, Decision& decision,
-                     Participant& self, Decide&& decide) {
+void decide_together(const Contribution& all, Decision& decision, Participant& self,
+                     Decide&& decide) {
     if (mpi::rank_of(self.comm) == root) {
         self.hear_of(all.summary.failing_rank);
-        self.attempt([&] {
-            const StageScope stage(observer, Stage::bisection, self.arithmetic);
-            decide();
-        });
+        self.attempt(decide);
         decision.verdict.failing_rank = self.failing_rank();
     }
-    const StageScope stage(observer, Stage::broadcast, self.arithmetic);
     broadcast(decision, self);
 }
 

@@ -2,7 +2,7 @@
 
 #include "estimate/decision_mpi.hpp"
 
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
 
 #include <span>
 

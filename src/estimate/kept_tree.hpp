@@ -1,8 +1,8 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/detail/passes.hpp>
 #include <rrcb/options.hpp>
-#include <rrcb/passes.hpp>
 
 #include <optional>
 #include <span>

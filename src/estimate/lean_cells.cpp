@@ -1,6 +1,6 @@
 #include "estimate/cell_records.hpp"
 
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 
 #include <algorithm>
 #include <array>

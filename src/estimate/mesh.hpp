@@ -1,8 +1,8 @@
 #pragma once
 
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/passes.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 #include <rrcb/options.hpp>
-#include <rrcb/passes.hpp>
 
 namespace rrcb {
 

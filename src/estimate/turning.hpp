@@ -2,7 +2,7 @@
 
 #include "estimate/contribution.hpp"
 
-#include <rrcb/method/bisection.hpp>
+#include <rrcb/detail/bisection.hpp>
 #include <rrcb/options.hpp>
 
 #include <span>

@@ -7,7 +7,6 @@ module rrcb_group_lists
   use rrcb_balancers
   implicit none
   private
-  public :: rrcb_join_keys
 
   !> A copy is the same groups; one of them is destroyed.
   type, public :: rrcb_groups
@@ -44,24 +43,6 @@ contains
     code = c_groups_create(balancer%handle, points, address, place, room_for(self%handle))
     if (code == rrcb_ok) self%num_points = points%count
     call settle(code, error)
-  end subroutine
-
-  !> Writes one key for each point of overlapping groups. Collective.
-  !> @param balancer whose communicator is used, not its cuts
-  !> @param keys     of shape (keys of a point, points); -1 for those that a point lacks
-  !> @param joined   gets one for each point, for create()
-  subroutine rrcb_join_keys(balancer, keys, joined, error)
-    class(rrcb_balancer), intent(in) :: balancer
-    integer(c_int64_t), intent(in), target, contiguous :: keys(:, :)
-    integer(c_int64_t), intent(inout), target, contiguous :: joined(:)
-    integer, intent(out), optional :: error
-    type(c_ptr) :: from, to
-    from = c_null_ptr
-    to = c_null_ptr
-    if (size(keys) > 0) from = c_loc(keys)
-    if (size(joined) > 0 .and. size(joined) == size(keys, 2)) to = c_loc(joined)
-    call settle(c_join_keys(balancer%handle, size(keys, 2, kind=c_size_t), &
-      size(keys, 1, kind=c_size_t), from, to), error)
   end subroutine
 
   !> Frees the groups. Not collective.

@@ -18,6 +18,6 @@ module rrcb
   use rrcb_ghost_lists, only: rrcb_ghosts
   use rrcb_arrays, only: rrcb_array
   use rrcb_neighbour_lists, only: rrcb_neighbours
-  use rrcb_group_lists, only: rrcb_groups, rrcb_join_keys
-  use rrcb_controllers, only: rrcb_controller, rrcb_cost_model
+  use rrcb_group_lists, only: rrcb_groups
+  use rrcb_controllers, only: rrcb_controller
 end module rrcb

@@ -3,6 +3,8 @@
 #include "collective/participant.hpp"
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/experimental/join_keys.hpp>
+#include <rrcb/experimental/verify.hpp>
 #include <rrcb/ghosts.hpp>
 #include <rrcb/groups.hpp>
 #include <rrcb/quality.hpp>
@@ -34,8 +36,6 @@ void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                  Participant& self);
-Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,
-                    Participant& self);
 // These return true if all messages of the same columns fit into the limits, each as one piece.
 bool move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
@@ -47,8 +47,6 @@ void move(const detail::Replies& replies, std::span<const detail::ByteColumn> co
 
 Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPlace place,
               Participant& self);
-std::vector<std::uint64_t> join_keys(std::span<const std::uint64_t> keys,
-                                     std::size_t keys_per_point, Participant& self);
 void move(const Groups& groups, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
 std::vector<double> sums(const Groups& groups, std::span<const double> values,
@@ -58,5 +56,14 @@ std::vector<double> part_weights(const Points& points, std::span<const Part> par
                                  Participant& self);
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       Participant& self);
+
+namespace experimental {
+
+Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,
+                    Participant& self);
+std::vector<std::uint64_t> join_keys(std::span<const std::uint64_t> keys,
+                                     std::size_t keys_per_point, Participant& self);
+
+}  // namespace experimental
 
 }  // namespace rrcb

@@ -304,6 +304,8 @@ bool lower_labels(LocalKeys& local, std::size_t keys_per_point, Participant& sel
 
 }  // namespace
 
+namespace experimental {
+
 std::vector<std::uint64_t> join_keys(std::span<const std::uint64_t> keys,
                                      std::size_t keys_per_point, Participant& self) {
     LocalKeys local;
@@ -329,5 +331,7 @@ std::vector<std::uint64_t> join_keys(std::span<const std::uint64_t> keys,
     Participant self = mpi::enter(comm, CallName::join_keys);
     return join_keys(keys, keys_per_point, self);
 }
+
+}  // namespace experimental
 
 }  // namespace rrcb

@@ -12,7 +12,7 @@
 #include <random>
 #include <tuple>
 
-namespace rrcb {
+namespace rrcb::experimental {
 
 namespace {
 
@@ -310,4 +310,4 @@ Verification verify(const GhostPlan& plan, const Points& points, const VerifyOpt
     return seen;
 }
 
-}  // namespace rrcb
+}  // namespace rrcb::experimental

@@ -165,7 +165,7 @@ std::vector<double> grid_of(const Options& options);
 bool set_grid(Options& options, const std::vector<double>& numbers);
 void check_grid(const Options& options, int dimension);
 
-/// All options except the observer, which may be different on each rank.
+/// All options.
 inline constexpr Option option_table[] = {
     {"num_parts", "NUM_GLOBAL_PARTS", "Parts to make",
      Range<int>{field<&Options::num_parts>, 1, std::numeric_limits<int>::max(), false,

@@ -3,7 +3,6 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "collective/stage_scope.hpp"
 #include "estimate/cell_records.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "options/rejection.hpp"
@@ -12,7 +11,7 @@
 #include "paper/paper_words.hpp"
 #include "paper/point_selection.hpp"
 
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -85,8 +84,7 @@ Contribution reduce_points(const Points& points, const Box& box, const PaperOpti
 }
 
 /// Step 2: gathers the cells or points of all ranks on rank 0. Collective.
-void gather(Contribution& mine, int dimension, StageObserver* observer, Participant& self) {
-    const StageScope stage(observer, Stage::gather, self.arithmetic);
+void gather(Contribution& mine, int dimension, Participant& self) {
     const int num_ranks = mpi::size_of(self.comm);
     merge_up(mine, dimension, {num_ranks, num_ranks}, std::numeric_limits<std::size_t>::max(),
              self);
@@ -133,7 +131,6 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
     Contribution mine;
     Decision decision;
     self.attempt([&] {
-        const StageScope stage(given.observer, Stage::moments, self.arithmetic);
         options = given;
         if (options.num_parts == 0) options.num_parts = mpi::size_of(self.comm);
         const Box box = check_points(points);
@@ -147,14 +144,13 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
         result.parts.resize(points.count);
     });
     agree_on(options, points, self);
-    gather(mine, points.dimension, options.observer, self);
+    gather(mine, points.dimension, self);
     // Step 5: every rank gets the cuts.
-    decide_together(mine, options.observer, decision, self,
+    decide_together(mine, decision, self,
                     [&] { bisect_domain(mine, options, plain.part_sizes, decision); });
     result.report = report_of(decision.verdict, options.num_parts, plain.part_sizes);
     result.cuts = std::move(decision.cuts);
     result.cuts.group = mpi::size_of(self.comm) > 1 ? self.group() : 0;
-    const StageScope stage(options.observer, Stage::assignment, self.arithmetic);
     self.attempt([&] {
         assign(result.cuts, points, result.parts);
         result.cuts.points = hash_if_leaving(points, result.parts, options.num_parts,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/paper.hpp>
+#include <rrcb/detail/paper_steps.hpp>
 
 #include <span>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
 
 #include <span>
 #include <vector>

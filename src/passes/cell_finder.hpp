@@ -4,7 +4,7 @@
 #include "arithmetic/vector_clones.hpp"
 #include "passes/point_layout.hpp"
 
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 
 #include <cmath>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "cuts/axis_limits.hpp"
 #include "passes/bins.hpp"
 
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
 
 #include <cstddef>
 #include <span>

@@ -2,7 +2,7 @@
 
 #include "passes/assignment.hpp"
 
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
 
 #include <span>
 #include <vector>

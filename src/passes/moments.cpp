@@ -5,7 +5,7 @@
 #include "passes/cell_finder.hpp"
 #include "passes/host_passes.hpp"
 
-#include <rrcb/method/moments.hpp>
+#include <rrcb/detail/moments.hpp>
 
 #include <algorithm>
 #include <cmath>

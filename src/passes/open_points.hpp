@@ -3,7 +3,7 @@
 #include "cuts/tree.hpp"
 #include "passes/histogram.hpp"
 
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
 
 #include <array>
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
 
 namespace rrcb {
 

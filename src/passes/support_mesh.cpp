@@ -2,7 +2,7 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include "search/target_rule.hpp"
 
 #include <rrcb/cuts.hpp>
-#include <rrcb/method/bisection.hpp>
-#include <rrcb/method/statistical_domain.hpp>
+#include <rrcb/detail/bisection.hpp>
+#include <rrcb/detail/statistical_domain.hpp>
 
 #include <array>
 #include <cstdint>

@@ -60,7 +60,8 @@ def repeated_titles(pages):
 
 def interface():
     """Names that the headers export, and those of the Fortran module, without classes' members."""
-    for path in (ROOT / "include" / "rrcb").rglob("*.h*"):
+    headers = ROOT / "include" / "rrcb"
+    for path in {*headers.rglob("*.h*")} - {*headers.glob("detail/*")}:
         text = re.sub(r"namespace (?:rrcb::)?detail \{.*?\}  // namespace (?:rrcb::)?detail", "", path.read_text(),
                       flags=re.S)
         text = re.sub(r"^(class.*?^\};)", "", re.sub(r"//.*|/\*.*?\*/", "", text, flags=re.S)

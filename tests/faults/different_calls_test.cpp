@@ -4,7 +4,8 @@
 #include "ranks.hpp"
 #include "same_error.hpp"
 
-#include <rrcb/cost.hpp>
+#include <rrcb/experimental/cost.hpp>
+#include <rrcb/experimental/verify.hpp>
 #include <rrcb/paper.hpp>
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
@@ -26,7 +27,7 @@ struct Input {
     std::vector<std::uint64_t> keys;
     std::vector<double> of_ghosts;
     std::optional<Controller> controller;
-    std::optional<CostModel> model;
+    std::optional<experimental::CostModel> model;
 
     Input() {
         for (int i = 0; i < 40; ++i)
@@ -81,7 +82,8 @@ std::vector<NamedCall> all_calls() {
              accumulate(in.near, column(in.of_ghosts), column(sums), world);
          }},
         {"reply", [](Input& in) { static_cast<void>(reply(in.near, in.of_ghosts, world)); }},
-        {"verify", [](Input& in) { verify(in.near, in.points, {.sample = 5}, world); }},
+        {"verify",
+         [](Input& in) { experimental::verify(in.near, in.points, {.sample = 5}, world); }},
         {"groups", [](Input& in) { groups(in.points, in.keys, world); }},
         {"fetch of groups",
          [](Input& in) { fetch(in.clusters, column(in.clusters.weights), world); }},
@@ -102,7 +104,7 @@ std::vector<NamedCall> all_calls() {
         {"Controller", [](Input&) { Controller{world}; }},
         {"CostModel",
          [](Input&) {
-             CostModel{world, 1};
+             experimental::CostModel{world, 1};
          }},
         {"rrcb_balancer_create (Python: balance, assign_all)",
          [](Input&) {

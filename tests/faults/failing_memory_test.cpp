@@ -3,7 +3,8 @@
 #include "clouds.hpp"
 #include "part_ranks.hpp"
 
-#include <rrcb/paper.hpp>
+#include <rrcb/detail/paper_steps.hpp>
+#include <rrcb/experimental/cost.hpp>
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
 
@@ -250,7 +251,7 @@ TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
 
 TEST(FailingMemory, in_a_cost_model_whose_controller_goes_on) {
     const auto call = [] {
-        std::pair<std::optional<Controller>, std::optional<CostModel>> made;
+        std::pair<std::optional<Controller>, std::optional<experimental::CostModel>> made;
         Controller& controller = made.first.emplace(MPI_COMM_WORLD);
         try {
             made.second.emplace(controller, 3);
@@ -268,7 +269,9 @@ TEST(FailingMemory, in_a_cost_model_whose_controller_goes_on) {
 }
 
 TEST(FailingMemory, in_a_cost_model_of_its_own) {
-    const auto call = [] { return std::optional<CostModel>(std::in_place, MPI_COMM_WORLD, 3); };
+    const auto call = [] {
+        return std::optional<experimental::CostModel>(std::in_place, MPI_COMM_WORLD, 3);
+    };
     fail_in(call, [](auto& made) {
         const std::array columns{1.0, 2.0, 3.0};
         for (int step = 0; step < 3; ++step) made->step(1, columns);
@@ -282,7 +285,7 @@ TEST(FailingMemory, in_a_cost_model_on_a_new_communicator) {
         {ok, static_cast<int>(ErrorCode::out_of_memory)},
         [&] {
             MPI_Comm_dup(MPI_COMM_WORLD, &comm);
-            const int code = code_of([&] { CostModel(comm, 3); });
+            const int code = code_of([&] { experimental::CostModel(comm, 3); });
             MPI_Comm_free(&comm);
             return code;
         },
@@ -308,7 +311,7 @@ void fail_locally(const char* name, Call&& call) {
 }
 
 TEST(FailingMemory, in_functions_of_one_rank) {
-    CostModel model(MPI_COMM_WORLD, 2);
+    experimental::CostModel model(MPI_COMM_WORLD, 2);
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
     const Cuts cuts = balance(points, refining(Refine::exact), {}, MPI_COMM_WORLD).cuts;

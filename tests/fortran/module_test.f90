@@ -3,6 +3,7 @@ program module_test
   use, intrinsic :: iso_c_binding
   use mpi
   use rrcb
+  use rrcb_experimental
   implicit none
 
   type(rrcb_balancer) :: balancer, other

@@ -13,7 +13,7 @@ from pathlib import Path
 TYPE_DATA = re.compile(r"(typeinfo|typeinfo name|vtable) for rrcb::(\w+)$")
 
 # What has no body in the library.
-ELSEWHERE = re.compile(r"(template|using|typedef|static_assert|constexpr|inline)\b"
+ELSEWHERE = re.compile(r"(template|using|typedef|static_assert|constexpr|inline|friend)\b"
                        r"|.*=\s*(0|default|delete)$", re.S)
 
 

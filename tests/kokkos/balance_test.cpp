@@ -3,7 +3,7 @@
 #include "views.hpp"
 
 #include <rrcb/balance.hpp>
-#include <rrcb/kokkos.hpp>
+#include <rrcb/experimental/kokkos.hpp>
 
 #include <string_view>
 
@@ -21,8 +21,8 @@ Cloud cloud_of_rank(int dimension, bool is_weighted, bool is_lattice) {
 
 template <class T, class Layout>
 auto balance_views(const Cloud& cloud, const Options& options, const Cuts& previous) {
-    return balance(Device(), view_of<T, Layout>(cloud), on_device(cloud.weights), options, previous,
-                   MPI_COMM_WORLD);
+    return experimental::balance(Device(), view_of<T, Layout>(cloud), on_device(cloud.weights),
+                                 options, previous, MPI_COMM_WORLD);
 }
 
 void expect_same_cuts(const Cuts& cuts, const Cuts& expected) {
@@ -97,12 +97,14 @@ TEST(KokkosBalance, reuses_its_memory) {
     const Cloud cloud = cloud_of_rank(2, true, false);
     const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
     const auto weights = on_device(cloud.weights);
-    const auto expected = balance(Device(), x, weights, Options{}, {}, MPI_COMM_WORLD);
+    const auto expected =
+        experimental::balance(Device(), x, weights, Options{}, {}, MPI_COMM_WORLD);
     const std::vector<Part> expected_parts = on_host(expected.parts);
     auto found = expected;
     const Part* const parts = found.parts.data();
     for (const Cuts& previous : {Cuts{}, expected.cuts}) {
-        balance_into(found, Device(), x, weights, Options{}, previous, MPI_COMM_WORLD);
+        experimental::balance_into(found, Device(), x, weights, Options{}, previous,
+                                   MPI_COMM_WORLD);
         expect_same_cuts(found.cuts, expected.cuts);
         EXPECT_EQ(on_host(found.parts), expected_parts);
         EXPECT_EQ(found.parts.data(), parts);
@@ -111,8 +113,9 @@ TEST(KokkosBalance, reuses_its_memory) {
     const std::pair<std::size_t, std::size_t> half(0, cloud.count() / 2);
     const auto fewer = Kokkos::subview(x, half, Kokkos::ALL);
     const auto lighter = Kokkos::subview(weights, half);
-    const auto of_fewer = balance(Device(), fewer, lighter, Options{}, {}, MPI_COMM_WORLD);
-    balance_into(found, Device(), fewer, lighter, Options{}, {}, MPI_COMM_WORLD);
+    const auto of_fewer =
+        experimental::balance(Device(), fewer, lighter, Options{}, {}, MPI_COMM_WORLD);
+    experimental::balance_into(found, Device(), fewer, lighter, Options{}, {}, MPI_COMM_WORLD);
     EXPECT_EQ(on_host(found.parts), on_host(of_fewer.parts));
     EXPECT_EQ(found.parts.data(), parts);
 }
@@ -120,10 +123,10 @@ TEST(KokkosBalance, reuses_its_memory) {
 TEST(KokkosBalance, reads_points_without_weights) {
     const Cloud cloud = cloud_of_rank(3, false, false);
     const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
-    const auto found = balance(Device(), x, Options{}, MPI_COMM_WORLD);
+    const auto found = experimental::balance(Device(), x, Options{}, MPI_COMM_WORLD);
     const auto axis = [&](int a) { return Kokkos::subview(x, Kokkos::ALL, a); };
-    const auto of_axes =
-        balance(Device(), std::array{axis(0), axis(1), axis(2)}, Options{}, Cuts{}, MPI_COMM_WORLD);
+    const auto of_axes = experimental::balance(Device(), std::array{axis(0), axis(1), axis(2)},
+                                               Options{}, Cuts{}, MPI_COMM_WORLD);
     expect_same_cuts(of_axes.cuts, found.cuts);
 }
 
@@ -187,7 +190,8 @@ TEST(KokkosBalance, copies_little_and_rarely_waits) {
         const auto weights = on_device(cloud.weights);
         const auto traffic_to = [&](Refine refine) {
             const Options options{.num_parts = 8, .refine = refine};
-            return traffic_of([&] { balance(Device(), x, weights, options, {}, MPI_COMM_WORLD); });
+            return traffic_of(
+                [&] { experimental::balance(Device(), x, weights, options, {}, MPI_COMM_WORLD); });
         };
         // Summary, with weights also their sum; sample; moments; parts.
         const int steps = is_weighted ? 5 : 4;

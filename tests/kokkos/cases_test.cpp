@@ -3,7 +3,7 @@
 #include "views.hpp"
 
 #include <rrcb/balance.hpp>
-#include <rrcb/kokkos.hpp>
+#include <rrcb/experimental/kokkos.hpp>
 
 #include <gtest/gtest.h>
 
@@ -86,9 +86,9 @@ struct Answer {
 
 template <class T, class Layout>
 Answer answer(const Case& test, const Cuts& previous) {
-    const auto found =
-        balance(Device(), view_of<T, Layout>(test.cloud), on_device(test.cloud.weights),
-                test.options, previous, MPI_COMM_WORLD);
+    const auto found = experimental::balance(Device(), view_of<T, Layout>(test.cloud),
+                                             on_device(test.cloud.weights), test.options, previous,
+                                             MPI_COMM_WORLD);
     return {found.cuts, found.report, on_host(found.parts)};
 }
 

@@ -1,7 +1,7 @@
 #include "ranks.hpp"
 #include "views.hpp"
 
-#include <rrcb/kokkos.hpp>
+#include <rrcb/experimental/kokkos.hpp>
 #include <rrcb/plan.hpp>
 
 namespace rrcb::test {
@@ -10,17 +10,19 @@ namespace {
 TEST(Plan, lists_points_by_rank) {
     for (const int num_parts : {1, 2, 7, 40}) {
         const Cloud cloud = lattice_cloud(20000, 2, 3 + rank(), false);
-        KokkosBalance<Memory> balance{cuts_through(cloud, num_parts, 4), {}, {}, {}};
+        experimental::KokkosBalance<Memory> balance{cuts_through(cloud, num_parts, 4), {}, {}, {}};
         balance.parts = Kokkos::View<Part*, Memory>("parts", cloud.count());
-        assign(Device(), balance.cuts, view_of<double, Kokkos::LayoutLeft>(cloud), balance.parts);
+        experimental::assign(Device(), balance.cuts, view_of<double, Kokkos::LayoutLeft>(cloud),
+                             balance.parts);
         const std::vector<Part> parts = on_host(balance.parts);
         const Plan expected = plan(parts, num_parts, MPI_COMM_WORLD);
-        const KokkosPlan<Memory> found = plan(Device(), balance, MPI_COMM_WORLD);
+        const experimental::KokkosPlan<Memory> found =
+            experimental::plan(Device(), balance, MPI_COMM_WORLD);
         std::vector<int> ranks(cloud.count(), rank());
         for (std::size_t k = 0; k < expected.export_indices.size(); ++k)
             ranks[expected.export_indices[k]] = expected.export_ranks[k];
         EXPECT_EQ(on_host(found.ranks), ranks);
-        EXPECT_EQ(on_host(destinations(Device(), balance, MPI_COMM_WORLD)), ranks);
+        EXPECT_EQ(on_host(experimental::destinations(Device(), balance, MPI_COMM_WORLD)), ranks);
         std::vector<LocalIndex> order(cloud.count());
         std::iota(order.begin(), order.end(), LocalIndex{0});
         std::ranges::stable_sort(order, {}, [&](LocalIndex i) { return ranks[i]; });
@@ -35,8 +37,9 @@ TEST(Plan, lists_points_by_rank) {
 }
 
 TEST(Plan, of_no_points_is_empty) {
-    const KokkosBalance<Memory> balance{{.dimension = 2, .tree = {}}, {}, {}, {}};
-    const KokkosPlan<Memory> found = plan(Device(), balance, MPI_COMM_WORLD);
+    const experimental::KokkosBalance<Memory> balance{{.dimension = 2, .tree = {}}, {}, {}, {}};
+    const experimental::KokkosPlan<Memory> found =
+        experimental::plan(Device(), balance, MPI_COMM_WORLD);
     EXPECT_TRUE(found.counts.empty());
     EXPECT_EQ(found.order.extent(0), 0u);
 }
@@ -47,20 +50,20 @@ TEST(Assign, numbers_dealt_parts_and_refuses_others) {
     cuts.shape = {4, false, 2};
     const auto x = view_of<float, Kokkos::LayoutRight>(cloud);
     const Kokkos::View<Part*, Memory> parts("parts", 500);
-    assign(Device(), cuts, x, parts);
+    experimental::assign(Device(), cuts, x, parts);
     std::vector<Part> expected(500);
     assign(cuts, cloud.points(), expected);
     EXPECT_EQ(on_host(parts), expected);
     const Kokkos::View<Part*, Memory> fewer("parts", 499);
-    EXPECT_EQ(error_of([&] { assign(Device(), cuts, x, fewer); }),
+    EXPECT_EQ(error_of([&] { experimental::assign(Device(), cuts, x, fewer); }),
               "parts must have one entry per point");
     Cuts planar = cuts;
     planar.dimension = 2;
     for (Cut& cut : planar.tree) cut.axis = 0;
-    EXPECT_EQ(error_of([&] { assign(Device(), planar, x, parts); }),
+    EXPECT_EQ(error_of([&] { experimental::assign(Device(), planar, x, parts); }),
               "positions must have the dimension of the cuts");
     cuts.tree.pop_back();
-    EXPECT_NE(error_of([&] { assign(Device(), cuts, x, parts); }), "no error");
+    EXPECT_NE(error_of([&] { experimental::assign(Device(), cuts, x, parts); }), "no error");
 }
 
 }  // namespace

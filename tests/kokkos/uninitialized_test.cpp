@@ -1,7 +1,7 @@
 #include "ranks.hpp"
 #include "same_error.hpp"
 
-#include <rrcb/kokkos.hpp>
+#include <rrcb/experimental/kokkos.hpp>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,10 @@ TEST(Uninitialized, is_an_error_on_all_ranks) {
                            Kokkos::MemoryTraits<Kokkos::Unmanaged>>
             x(values.data(), 3);
         expect_same_error(
-            [&] { balance(Kokkos::DefaultHostExecutionSpace(), x, Options{}, MPI_COMM_WORLD); },
+            [&] {
+                experimental::balance(Kokkos::DefaultHostExecutionSpace(), x, Options{},
+                                      MPI_COMM_WORLD);
+            },
             "Kokkos is not initialized; call Kokkos::initialize()");
     }
     if (rank() != 1) Kokkos::finalize();

@@ -4,7 +4,7 @@
 #include "clouds.hpp"
 
 #include <rrcb/cuts.hpp>
-#include <rrcb/kokkos/passes.hpp>
+#include <rrcb/experimental/kokkos/passes.hpp>
 
 namespace rrcb::test {
 
@@ -99,7 +99,7 @@ auto view_of(const Cloud& cloud) {
 template <class T, class Layout>
 auto passes_of(const Cloud& cloud) {
     const auto view = view_of<T, Layout>(cloud);
-    return KokkosPasses<Device, std::remove_const_t<decltype(view)>, WeightView>(
+    return experimental::KokkosPasses<Device, std::remove_const_t<decltype(view)>, WeightView>(
         Device(), view, on_device(cloud.weights));
 }
 

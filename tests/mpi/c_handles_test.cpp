@@ -1,6 +1,8 @@
 // Handles of C that are null, in use or destroyed, and options that are all 0.
 #include "c_calls.hpp"
 
+#include <rrcb/experimental/cost.h>
+
 namespace rrcb {
 namespace {
 

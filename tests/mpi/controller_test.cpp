@@ -3,8 +3,8 @@
 #include "ranks.hpp"
 
 #include <rrcb/controller.hpp>
-#include <rrcb/cost.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/experimental/cost.hpp>
 
 namespace rrcb {
 namespace {
@@ -186,7 +186,7 @@ TEST(Controller, that_was_moved_from_throws) {
         [&] { (void)old.due(); },
         [&] { old.rebalanced(1); },
         [&] { old.rebalanced(Report{}, 1); },
-        [&] { CostModel model(old, 2); },
+        [&] { experimental::CostModel model(old, 2); },
     };
     for (const auto& call : calls) {
         test::expect_same_error([&] { call(); }, text);

@@ -3,8 +3,8 @@
 #include "ranks.hpp"
 #include "same_error.hpp"
 
-#include <rrcb/cost.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/experimental/cost.hpp>
 
 namespace rrcb {
 namespace {
@@ -28,7 +28,7 @@ void record(Model& model, int num_steps) {
 }
 
 TEST(CostModel, learns_costs_and_weighs_points_by_them) {
-    CostModel model(MPI_COMM_WORLD, 2);
+    experimental::CostModel model(MPI_COMM_WORLD, 2);
     EXPECT_FALSE(model.uses_costs());
     EXPECT_EQ(model.weights(std::vector<double>{1, 0.5, 1, 0.25}), (std::vector<double>{1, 1}));
     record(model, 30);
@@ -49,14 +49,14 @@ TEST(CostModel, learns_costs_and_weighs_points_by_them) {
 }
 
 TEST(CostModel, counts_what_takes_as_long_on_every_rank) {
-    CostModel model(MPI_COMM_WORLD, 2);
+    experimental::CostModel model(MPI_COMM_WORLD, 2);
     for (int step = 0; step < 30; ++step) model.step(1, columns_at(step));
     EXPECT_FALSE(model.uses_costs());
     EXPECT_EQ(model.report().find("points are counted: "), 0U);
 }
 
 TEST(CostModel, takes_steps_without_work_and_columns_without_cost) {
-    CostModel model(MPI_COMM_WORLD, 3);
+    experimental::CostModel model(MPI_COMM_WORLD, 3);
     for (int step = 0; step < 30; ++step) model.step(0, std::vector<double>{0, 0, 0});
     EXPECT_EQ(model.costs(), (std::vector<double>{0, 0, 0}));
     EXPECT_FALSE(model.uses_costs());
@@ -65,7 +65,7 @@ TEST(CostModel, takes_steps_without_work_and_columns_without_cost) {
 TEST(CostModel, steps_the_controller_by_the_same_reduction) {
     Controller alone(MPI_COMM_WORLD);
     Controller tied(MPI_COMM_WORLD);
-    CostModel model(tied, 2);
+    experimental::CostModel model(tied, 2);
     alone.rebalanced(0.5);
     tied.rebalanced(0.5);
     // As long as points are counted the controller gets what step(seconds, points) gives it.
@@ -79,7 +79,7 @@ TEST(CostModel, steps_the_controller_by_the_same_reduction) {
 TEST(CostModel, makes_the_controller_ask_once_costs_are_learned) {
     if (num_ranks() == 1) GTEST_SKIP() << "nothing is learned";
     Controller controller(MPI_COMM_WORLD);
-    CostModel model(controller, 2);
+    experimental::CostModel model(controller, 2);
     // Each rebalance so far has left the same imbalance, so none is due.
     int num_due = 0;
     for (int step = 0; step < 200; ++step) {
@@ -99,11 +99,11 @@ TEST(CostModel, refuses_numbers_of_one_rank_on_all) {
     const std::string last = "rank " + std::to_string(num_ranks() - 1);
     const double infinity = std::numeric_limits<double>::infinity();
     for (const double bad : {-1.0, std::nan(""), infinity, 1e101}) {
-        CostModel seconds(MPI_COMM_WORLD, 1);
+        experimental::CostModel seconds(MPI_COMM_WORLD, 1);
         seconds.step(is_last_rank() ? bad : 1, std::vector<double>{1});
-        CostModel columns(MPI_COMM_WORLD, 2);
+        experimental::CostModel columns(MPI_COMM_WORLD, 2);
         columns.step(1, std::vector<double>{1, is_last_rank() ? bad : 1});
-        for (CostModel* model : {&seconds, &columns})
+        for (experimental::CostModel* model : {&seconds, &columns})
             for (int call = 0; call < 2; ++call)
                 expect_same_error(
                     [&] {
@@ -111,7 +111,7 @@ TEST(CostModel, refuses_numbers_of_one_rank_on_all) {
                     },
                     last + ": the load, the points or a column of a step are");
     }
-    CostModel model(MPI_COMM_WORLD, 2);
+    experimental::CostModel model(MPI_COMM_WORLD, 2);
     model.step(1, std::vector<double>(is_last_rank() ? 3 : 2, 1.0));
     expect_same_error(
         [&] {
@@ -122,18 +122,22 @@ TEST(CostModel, refuses_numbers_of_one_rank_on_all) {
 
 TEST(CostModel, refuses_what_it_cannot_be_made_with) {
     for (const int bad : {-1, 0, 17})
-        expect_same_error([&] { CostModel(MPI_COMM_WORLD, is_last_rank() ? bad : 2); },
-                          "a cost model has 1 to 16 columns, not " + std::to_string(bad));
+        expect_same_error(
+            [&] { experimental::CostModel(MPI_COMM_WORLD, is_last_rank() ? bad : 2); },
+            "a cost model has 1 to 16 columns, not " + std::to_string(bad));
     if (num_ranks() > 1)
-        expect_same_error([&] { CostModel(MPI_COMM_WORLD, is_last_rank() ? 3 : 2); },
+        expect_same_error([&] { experimental::CostModel(MPI_COMM_WORLD, is_last_rank() ? 3 : 2); },
                           "the number of columns differs between rank 0 and rank");
-    expect_same_error([] { CostModel(MPI_COMM_NULL, 1); }, "MPI_COMM_NULL has no ranks");
+    expect_same_error([] { experimental::CostModel(MPI_COMM_NULL, 1); },
+                      "MPI_COMM_NULL has no ranks");
     Controller controller(MPI_COMM_WORLD);
-    CostModel model(controller, 2);
-    expect_same_error([&] { CostModel(controller, 2); }, "the controller has a cost model already");
+    experimental::CostModel model(controller, 2);
+    expect_same_error([&] { experimental::CostModel(controller, 2); },
+                      "the controller has a cost model already");
     Controller old(MPI_COMM_WORLD);
     old.step(1);
-    expect_same_error([&] { CostModel(old, 2); }, "the controller has recorded steps");
+    expect_same_error([&] { experimental::CostModel(old, 2); },
+                      "the controller has recorded steps");
     expect_same_error(
         [&] {
             model.weights(std::vector<double>{1, 1, 1});
@@ -144,19 +148,19 @@ TEST(CostModel, refuses_what_it_cannot_be_made_with) {
 TEST(CostModel, may_outlive_the_communicator_and_be_moved) {
     MPI_Comm comm = MPI_COMM_NULL;
     MPI_Comm_dup(MPI_COMM_WORLD, &comm);
-    std::optional<CostModel> first(std::in_place, comm, 2);
+    std::optional<experimental::CostModel> first(std::in_place, comm, 2);
     MPI_Comm_free(&comm);
     record(*first, 5);
-    CostModel second(std::move(*first));
+    experimental::CostModel second(std::move(*first));
     first.reset();
     record(second, 5);
-    second = CostModel(MPI_COMM_WORLD, 2);
+    second = experimental::CostModel(MPI_COMM_WORLD, 2);
     record(second, 1);
 }
 
 TEST(CostModel, that_was_moved_from_throws) {
-    CostModel old(MPI_COMM_WORLD, 2);
-    const CostModel model(std::move(old));
+    experimental::CostModel old(MPI_COMM_WORLD, 2);
+    const experimental::CostModel model(std::move(old));
     const std::vector<double> columns{1, 1};
     const char* text = "the cost model was moved from; use the one that it was moved to";
     expect_same_error([&] { old.step(1, columns); }, text);
@@ -167,7 +171,7 @@ TEST(CostModel, that_was_moved_from_throws) {
 }
 
 // Ends after MPI has.
-std::optional<CostModel> left_over;
+std::optional<experimental::CostModel> left_over;
 
 TEST(CostModel, may_outlive_mpi) {
     left_over.emplace(MPI_COMM_WORLD, 2);

@@ -3,7 +3,7 @@
 #include "../support/common.hpp"
 #include "ranks.hpp"
 
-#include <rrcb/cost.hpp>
+#include <rrcb/experimental/cost.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <cfenv>
@@ -42,7 +42,7 @@ TEST(Exceptions, are_raised_by_no_bad_input) {
 TEST(Exceptions, are_raised_by_neither_controller_nor_cost_model) {
     const Watch watch("loop");
     Controller controller(MPI_COMM_WORLD);
-    CostModel model(controller, 2);
+    experimental::CostModel model(controller, 2);
     for (int step = 0; step < 50; ++step) {
         model.step(step % 5 == 0 ? 0 : 1 + rank(), {{100.0 * rank(), 1.0 * step}});
         if (controller.due()) controller.rebalanced(0.5);

@@ -3,7 +3,7 @@
 #include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
 
-#include <rrcb/cost.hpp>
+#include <rrcb/experimental/cost.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <gtest/gtest.h>
@@ -117,7 +117,7 @@ TEST(EmptyRanks, take_part_in_all_that_follows_a_balance) {
         options.part_sizes.assign(static_cast<std::size_t>(num_ranks()), 0);
         std::fill_n(options.part_sizes.begin(), std::clamp(count / 10, 1, num_ranks()), 1);
         Controller controller(MPI_COMM_WORLD);
-        CostModel model(controller, 1);
+        experimental::CostModel model(controller, 1);
         const Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
         controller.rebalanced(result.report, 1);
         const std::vector<double> mine =

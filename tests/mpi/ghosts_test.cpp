@@ -6,6 +6,7 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/experimental/verify.hpp>
 #include <rrcb/ghosts.hpp>
 
 namespace rrcb {
@@ -121,8 +122,9 @@ GlobalCount expect_ghosts(const Division& division, double radius, const GhostPl
             EXPECT_EQ(is_ghost[j], 1);
         }
     }
-    const VerifyOptions everything{.sample = std::numeric_limits<std::size_t>::max()};
-    const Verification seen = verify(lists, division.points(), everything, MPI_COMM_WORLD);
+    const experimental::VerifyOptions everything{.sample = std::numeric_limits<std::size_t>::max()};
+    const experimental::Verification seen =
+        experimental::verify(lists, division.points(), everything, MPI_COMM_WORLD);
     EXPECT_EQ(seen.num_faults, 0);
     return seen.num_pairs;
 }

@@ -3,6 +3,8 @@
 #include "../support/same_error.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/experimental/join_keys.h>
+#include <rrcb/experimental/join_keys.hpp>
 #include <rrcb/groups.hpp>
 #include <rrcb/rrcb.h>
 
@@ -59,7 +61,7 @@ TEST(JoinedKeys, are_those_of_all_points_in_one_place) {
         std::vector<int> homes(count);
         for (int& home : homes)
             home = static_cast<int>(engine() % static_cast<unsigned>(num_ranks()));
-        EXPECT_EQ(join_keys(here(keys, width, homes), width, MPI_COMM_WORLD),
+        EXPECT_EQ(experimental::join_keys(here(keys, width, homes), width, MPI_COMM_WORLD),
                   here(joined_in_one_place(keys, width), 1, homes))
             << "round " << round;
     }
@@ -68,7 +70,7 @@ TEST(JoinedKeys, are_those_of_all_points_in_one_place) {
 TEST(JoinedKeys, pass_along_a_chain_through_all_ranks) {
     // Rank r joins keys R - r and R - r - 1.
     const auto top = static_cast<std::uint64_t>(num_ranks() - rank());
-    EXPECT_EQ(join_keys(Keys{top, top - 1}, 2, MPI_COMM_WORLD), Keys{0});
+    EXPECT_EQ(experimental::join_keys(Keys{top, top - 1}, 2, MPI_COMM_WORLD), Keys{0});
 }
 
 TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
@@ -82,7 +84,7 @@ TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
     for (std::size_t i = 0; i < x.size(); ++i)
         if (homes[i] == rank()) mine.push_back(x[i]);
     const Points points = interleaved_points(mine, 1);
-    const Keys joined = join_keys(here(all, 2, homes), 2, MPI_COMM_WORLD);
+    const Keys joined = experimental::join_keys(here(all, 2, homes), 2, MPI_COMM_WORLD);
     const Groups wells = groups(points, joined, MPI_COMM_WORLD);
     Options options{.num_parts = 3};
     const Balance result = balance(wells.points(), options, {}, MPI_COMM_WORLD);
@@ -105,8 +107,10 @@ TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
 
 TEST(JoinedKeys, of_a_wrong_length_are_refused_on_all_ranks) {
     const Keys keys(is_last_rank() ? 3 : 4);
-    test::expect_same_error([&] { (void)join_keys(keys, 2, MPI_COMM_WORLD); }, "keys_per_point");
-    test::expect_same_error([&] { (void)join_keys({}, 0, MPI_COMM_WORLD); }, "keys_per_point");
+    test::expect_same_error([&] { (void)experimental::join_keys(keys, 2, MPI_COMM_WORLD); },
+                            "keys_per_point");
+    test::expect_same_error([&] { (void)experimental::join_keys({}, 0, MPI_COMM_WORLD); },
+                            "keys_per_point");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "../support/common.hpp"
 #include "../support/ranks.hpp"
 
+#include <rrcb/experimental/join_keys.hpp>
 #include <rrcb/rrcb.hpp>
 
 namespace {
@@ -68,7 +69,8 @@ void call_all(const std::vector<double>& cloud, const Options& options) {
     const std::vector<double> others = fetch(near, column(mine, 2), MPI_COMM_WORLD);
     EXPECT_EQ(others.size() % 2, 0U);
     const std::vector<std::uint64_t> keys(2 * moved.count, 7);
-    const Groups one = groups(moved, join_keys(keys, 2, MPI_COMM_WORLD), MPI_COMM_WORLD);
+    const Groups one =
+        groups(moved, experimental::join_keys(keys, 2, MPI_COMM_WORLD), MPI_COMM_WORLD);
     EXPECT_EQ(fetch(one, std::vector<int>(one.weights.size(), 3), MPI_COMM_WORLD),
               std::vector<int>(moved.count, 3));
 }

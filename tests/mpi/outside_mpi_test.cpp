@@ -2,6 +2,7 @@
 #include "../support/common.hpp"
 #include "c/for_fortran.h"
 
+#include <rrcb/experimental/cost.hpp>
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
 
@@ -28,7 +29,7 @@ void expect_errors() {
     expect_error([&] { (void)plan(std::vector<Part>(2), 1, MPI_COMM_WORLD); });
     expect_error([&] { release_buffers(MPI_COMM_WORLD); });
     expect_error([&] { Controller controller(MPI_COMM_WORLD); });
-    expect_error([&] { CostModel model(MPI_COMM_WORLD, 2); });
+    expect_error([&] { experimental::CostModel model(MPI_COMM_WORLD, 2); });
     rrcb_balancer* balancer = nullptr;
     EXPECT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_INVALID_ARGUMENT);
     EXPECT_EQ(rrcb_last_error(), text);
@@ -41,7 +42,7 @@ TEST(OutsideMpi, calls_are_errors) {
     expect_errors();
     MPI_Init(nullptr, nullptr);
     std::optional<Controller> controller(MPI_COMM_WORLD);
-    std::optional<CostModel> model(std::in_place, MPI_COMM_WORLD, 1);
+    std::optional<experimental::CostModel> model(std::in_place, MPI_COMM_WORLD, 1);
     controller->step(1);
     model->step(1, {{1.0}});
     rrcb_balancer* balancer = nullptr;

@@ -1,7 +1,7 @@
 #include "paper_shares.hpp"
 
-#include <rrcb/method/support_mesh.hpp>
-#include <rrcb/paper.hpp>
+#include <rrcb/detail/paper_steps.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 #include <rrcb/quality.hpp>
 
 namespace rrcb {

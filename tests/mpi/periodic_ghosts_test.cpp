@@ -4,6 +4,7 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/experimental/verify.hpp>
 #include <rrcb/ghosts.hpp>
 
 namespace rrcb {
@@ -103,8 +104,8 @@ void expect_ghosts(const Scene& scene, double radius) {
         plan, columns(scene.mine, column(scene.here, static_cast<std::size_t>(scene.dimension))),
         MPI_COMM_WORLD);
     apply_shifts(plan, positions);
-    EXPECT_EQ(verify(plan, interleaved_points(scene.here, scene.dimension), {.sample = 20},
-                     MPI_COMM_WORLD)
+    EXPECT_EQ(experimental::verify(plan, interleaved_points(scene.here, scene.dimension),
+                                   {.sample = 20}, MPI_COMM_WORLD)
                   .num_faults,
               0);
     ASSERT_EQ(plan.shifts.size(), numbers.size());
@@ -236,7 +237,8 @@ void expect_images_outside(const Box& box) {
     const std::vector<T> x = transfer(plan(made, MPI_COMM_WORLD), scattered, MPI_COMM_WORLD);
     const GhostPlan near = ghosts(made.cuts, interleaved_points(x, 1),
                                   {.radius = 0.03, .periodic = box}, MPI_COMM_WORLD);
-    EXPECT_EQ(verify(near, interleaved_points(x, 1), {}, MPI_COMM_WORLD).num_faults, 0);
+    EXPECT_EQ(experimental::verify(near, interleaved_points(x, 1), {}, MPI_COMM_WORLD).num_faults,
+              0);
     std::vector<T> images = fetch(near, x, MPI_COMM_WORLD);
     apply_shifts(near, images);
     for (std::size_t k = 0; k < images.size(); ++k) {

@@ -4,6 +4,7 @@
 #include "../support/ranks.hpp"
 #include "../support/same_error.hpp"
 
+#include <rrcb/experimental/cost.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <bit>
@@ -18,7 +19,7 @@ using Bytes = std::vector<std::byte>;
 /// A loop whose controller and model may be saved and loaded between two steps.
 struct Loop {
     Controller controller;
-    CostModel model;
+    experimental::CostModel model;
     std::vector<int> rebalances{};
     std::vector<std::uint64_t> bits{};  ///< of costs and loads after each step
     int last = 0;
@@ -27,7 +28,8 @@ struct Loop {
         controller.rebalanced(0.5);
     }
     Loop(const Bytes& state, const Bytes& of_model, MPI_Comm comm)
-        : controller(load<Controller>(state, comm)), model(load<CostModel>(of_model, controller)) {}
+        : controller(load<Controller>(state, comm)),
+          model(experimental::load_cost_model(of_model, controller)) {}
 
     void run(int begin, int end, bool rebalances_too = true) {
         for (int step = begin; step < end; ++step) {
@@ -125,7 +127,7 @@ TEST(Restart, uses_costs_from_the_first_step_on_with_another_number_of_ranks) {
             EXPECT_TRUE(other.model.uses_costs()) << step << ": " << other.model.report();
             other.run(step, step + 1, false);
         }
-        CostModel alone = load<CostModel>(of_model, fewer);
+        experimental::CostModel alone = experimental::load_cost_model(of_model, fewer);
         EXPECT_TRUE(alone.uses_costs());
     }
     MPI_Comm_free(&fewer);
@@ -185,7 +187,8 @@ void set_word(Bytes& bytes, std::size_t place, std::uint64_t word) {
 TEST(Restart, refuses_what_is_truncated_foreign_newer_or_changed) {
     const auto expect_refused = [](const Bytes& bytes, const std::string& text) {
         expect_same_error([&] { (void)load<Controller>(bytes, MPI_COMM_WORLD); }, text);
-        expect_same_error([&] { (void)load<CostModel>(bytes, MPI_COMM_WORLD); }, text);
+        expect_same_error([&] { (void)experimental::load_cost_model(bytes, MPI_COMM_WORLD); },
+                          text);
         expect_same_error([&] { (void)load<Cuts>(bytes); }, text);
     };
     const Bytes good = save(cuts_of(5));

@@ -5,6 +5,7 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/experimental/verify.hpp>
 #include <rrcb/ghosts.hpp>
 
 namespace rrcb {
@@ -33,9 +34,10 @@ struct Scene {
     GhostPlan near(const GhostOptions& options) const {
         return ghosts(cuts, points(), options, MPI_COMM_WORLD);
     }
-    Verification seen(const GhostPlan& plan, VerifyOptions options = {everything}) const {
+    experimental::Verification seen(const GhostPlan& plan,
+                                    experimental::VerifyOptions options = {everything}) const {
         options.ids = ids;
-        return verify(plan, points(), options, MPI_COMM_WORLD);
+        return experimental::verify(plan, points(), options, MPI_COMM_WORLD);
     }
 
     int dimension;
@@ -46,7 +48,7 @@ struct Scene {
     std::vector<double> radii{};
 };
 
-void expect_sound(const Verification& seen) {
+void expect_sound(const experimental::Verification& seen) {
     EXPECT_EQ(seen.num_faults, 0);
     EXPECT_TRUE(seen.missing.empty() && seen.twice.empty() && seen.strangers.empty());
 }
@@ -79,7 +81,7 @@ TEST(Verify, finds_all_pairs_and_no_faults_in_sound_plans) {
         for (const bool is_periodic : {false, true}) {
             GhostOptions options{.radius = radius};
             if (is_periodic) options.periodic = unit;
-            const Verification seen = scene.seen(scene.near(options));
+            const experimental::Verification seen = scene.seen(scene.near(options));
             expect_sound(seen);
             EXPECT_EQ(seen.num_pairs, num_pairs(scene, radius, is_periodic ? 1 : 0));
         }
@@ -100,12 +102,12 @@ TEST(Verify, looks_at_no_more_than_a_sample) {
 TEST(Verify, names_the_pairs_whose_ghosts_are_missing) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const Scene scene(2);
-    const Verification less =
+    const experimental::Verification less =
         scene.seen(scene.near({.radius = 0.05}), {.sample = everything, .radius = 0.1});
     EXPECT_GT(less.num_faults, 0);
     const std::vector<std::uint64_t> wide =
         fetch(scene.near({.radius = 0.1}), scene.ids, MPI_COMM_WORLD);
-    for (const Fault& fault : less.missing) {
+    for (const experimental::Fault& fault : less.missing) {
         EXPECT_EQ(std::ranges::count(wide, fault.id), 1);
         EXPECT_EQ(std::ranges::count(scene.ids, fault.needed_by), 1);
         EXPECT_NE(fault.rank, rank());
@@ -124,7 +126,7 @@ TEST(Verify, names_ghosts_that_came_twice_and_own_points) {
     plan.send = {{next, 3}};
     plan.send_indices = {5, 7, 7};
     plan.receive = {{(rank() + num_ranks() - 1) % num_ranks(), 3}};
-    const Verification seen = scene.seen(plan);
+    const experimental::Verification seen = scene.seen(plan);
     EXPECT_EQ(seen.twice.size(), 1u);
     EXPECT_EQ(seen.twice.at(0).rank, plan.receive[0].rank);
     EXPECT_EQ(seen.strangers.size(), num_ranks() == 1 ? 3u : 0u);
@@ -134,24 +136,24 @@ TEST(Verify, names_ghosts_that_came_twice_and_own_points) {
 TEST(Verify, names_ids_that_are_lost_or_new_or_on_two_ranks) {
     Scene scene(2);
     const GhostPlan near = scene.near({.radius = 0.1});
-    VerifyOptions options{.sample = 0, .ids_before = scene.before};
+    experimental::VerifyOptions options{.sample = 0, .ids_before = scene.before};
     expect_sound(scene.seen(near, options));
     const std::uint64_t lost = scene.ids[3];
     const auto own = static_cast<std::uint64_t>(rank());
     scene.ids[3] = 500 + 1000 * own;
-    const Verification seen = scene.seen(near, options);
+    const experimental::Verification seen = scene.seen(near, options);
     EXPECT_EQ(seen.num_faults, 2 * num_ranks());
     ASSERT_EQ(seen.strangers.size(), 1u);
     EXPECT_EQ(seen.strangers[0].id, scene.ids[3]);
     EXPECT_EQ(seen.strangers[0].rank, rank());
-    for (const Fault& fault : seen.missing) {
+    for (const experimental::Fault& fault : seen.missing) {
         EXPECT_EQ(std::ranges::count(scene.before, fault.id), 1);
         EXPECT_EQ(fault.rank, rank());
     }
     scene.ids[3] = lost;
     if (is_last_rank() && rank() > 0) scene.ids[4] = 999999;
     if (rank() == 0) scene.ids[4] = 999999;
-    const Verification twice = scene.seen(near, {.sample = 0});
+    const experimental::Verification twice = scene.seen(near, {.sample = 0});
     EXPECT_EQ(twice.num_faults, num_ranks() > 1 ? 2 : 0);
     const bool has_it = num_ranks() > 1 && (rank() == 0 || is_last_rank());
     ASSERT_EQ(twice.twice.size(), has_it ? 1u : 0u);
@@ -163,15 +165,16 @@ TEST(Verify, names_ids_that_are_lost_or_new_or_on_two_ranks) {
 TEST(Verify, refuses_what_does_not_fit_on_one_rank_on_all) {
     const Scene scene(2);
     const GhostPlan near = scene.near({.radii = scene.radii, .needs = Needs::receiver});
-    const auto refused = [&](const std::string& text, const VerifyOptions& options,
+    const auto refused = [&](const std::string& text, const experimental::VerifyOptions& options,
                              const Points& points) {
-        test::expect_same_error([&] { verify(near, points, options, MPI_COMM_WORLD); }, text);
+        test::expect_same_error(
+            [&] { experimental::verify(near, points, options, MPI_COMM_WORLD); }, text);
     };
     const std::vector<double> few(2);
     const std::vector<std::uint64_t> ids(1);
     const bool is_last = is_last_rank();
     refused("give it or radii", {}, scene.points());
-    VerifyOptions options{.radius = 0.1};
+    experimental::VerifyOptions options{.radius = 0.1};
     refused("points must be as many as the plan", options,
             is_last ? interleaved_points(few, 2) : scene.points());
     options.ids_before = ids;

@@ -64,7 +64,7 @@ def test_refuses_arrays_on_a_device():
         same_error(lambda: rrcb.balance(axes, comm=comm), text)
         same_error(lambda: rrcb.balance(x, weights=weights, comm=comm), text)
         same_error(lambda: balance.distribute({"x": given}), text)
-        same_error(lambda: rrcb.join_keys(on_rank(last, array, x[:, :1].astype(int)), comm), text)
+        same_error(lambda: rrcb.experimental.join_keys(on_rank(last, array, x[:, :1].astype(int)), comm), text)
 
 
 def test_raises_the_error_of_one_rank_on_all():
@@ -92,10 +92,10 @@ def test_raises_the_error_of_one_rank_on_all():
     for bad, text in ((keys[1:], "shape"), (keys + 0.5, "integers"), (keys[:, 0], "(n, k)")):
         given = on_rank(last, bad, keys)
         if bad.shape != keys[1:].shape:
-            same_error(lambda: rrcb.join_keys(given, comm), text)
+            same_error(lambda: rrcb.experimental.join_keys(given, comm), text)
         same_error(lambda: rrcb.groups(x, on_rank(last, bad[:, 0] if bad.ndim > 1 else bad[1:], keys[:, 0]), comm=comm), "keys")
     if RANKS > 1:
-        same_error(lambda: rrcb.join_keys(on_rank(last, keys[:, :1], keys), comm), "of the shape (n, 1) on rank")
+        same_error(lambda: rrcb.experimental.join_keys(on_rank(last, keys[:, :1], keys), comm), "of the shape (n, 1) on rank")
         same_error(lambda: rrcb.groups(x, keys[:, 0], comm=comm, place=on_rank(last, "first_point", "centre")), "place")
         given = on_rank(last, cloud(3), x)
         same_error(lambda: rrcb.balance(given, comm=comm), "dimension")
@@ -237,7 +237,7 @@ def test_refuses_calls_when_mpi_is_not_running():
         lambda: ghosts.fetch(here),
         lambda: copy.copy(balance.cuts).part_of(x),
         lambda: rrcb.Controller(comm),
-        lambda: rrcb.CostModel(None, 2, comm),
+        lambda: rrcb.experimental.CostModel(None, 2, comm),
     )
     for name, result in (("Is_initialized", False), ("Is_finalized", True)):
         for call in calls:
@@ -275,15 +275,15 @@ def test_raises_errors_of_a_controller_on_all():
             controller.rebalanced(given, cost)
             same_error(lambda: [controller.step(1.0) for _ in range(3)], "")
     given = on_rank(last, "a", 1)
-    same_error(lambda: rrcb.CostModel(None, given, comm), "num_columns must be a whole number, not 'a'")
-    with rrcb.CostModel(None, 2, comm) as model:
+    same_error(lambda: rrcb.experimental.CostModel(None, given, comm), "num_columns must be a whole number, not 'a'")
+    with rrcb.experimental.CostModel(None, 2, comm) as model:
         model.step(1.0, on_rank(last, [[1], [1, 2]], [1, 2]))
         same_error(lambda: [model.step(1.0, [1, 2]) for _ in range(3)], "")
 
 
 def test_frees_cost_models_with_their_controller():
     with rrcb.Controller(comm) as controller:
-        model = rrcb.CostModel(controller, 2, comm)
+        model = rrcb.experimental.CostModel(controller, 2, comm)
     for use in (
         lambda: model.step(1.0, [1, 2]),
         lambda: model.weights(np.ones((1, 2))),
@@ -294,15 +294,15 @@ def test_frees_cost_models_with_their_controller():
     model.free()
     for use in (lambda: controller.step(1.0), lambda: controller.due):
         same_error(use, "controller was freed: make another")
-    same_error(lambda: rrcb.CostModel(controller, 2, comm), "controller was freed")
+    same_error(lambda: rrcb.experimental.CostModel(controller, 2, comm), "controller was freed")
 
 
 def test_refuses_columns_of_cost_models_that_differ():
     last = RANKS - 1
     for bad in (2**32 + 2, 10**12):
-        same_error(lambda: rrcb.CostModel(None, on_rank(last, bad, 2), comm), "must be an int32")
-    same_error(lambda: rrcb.CostModel(on_rank(last, 3, None), 2, comm), "Controller, not int")
-    with rrcb.CostModel(None, 2, comm) as model:
+        same_error(lambda: rrcb.experimental.CostModel(None, on_rank(last, bad, 2), comm), "must be an int32")
+    same_error(lambda: rrcb.experimental.CostModel(on_rank(last, 3, None), 2, comm), "Controller, not int")
+    with rrcb.experimental.CostModel(None, 2, comm) as model:
         for bad in (np.ones((4, 3)), np.ones(4), np.ones((2, 4))):
             same_error(lambda: model.weights(bad), "columns must have the shape (n, 2)")
         assert len(model.weights(np.empty((0, 2)))) == 0

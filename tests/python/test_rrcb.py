@@ -57,12 +57,12 @@ def test_continues_from_saved_bytes():
     assert (loaded.part_of(x) == made.cuts.part_of(x)).all()
     same_error(lambda: rrcb.Cuts.load(made.cuts.save()[:-8]), "pass all bytes")
     controller = rrcb.Controller(comm)
-    model = rrcb.CostModel(controller, 2, comm)
+    model = rrcb.experimental.CostModel(controller, 2, comm)
     for step in range(30):
         cells = 10 + 20 * ME + step % 7
         model.step(100 + 5 * cells, [100, cells])
     again = rrcb.Controller.load(controller.save(), comm)
-    model_again = rrcb.CostModel.load(model.save(), again, comm)
+    model_again = rrcb.experimental.CostModel.load(model.save(), again, comm)
     assert model_again.report() == model.report()
     assert (model_again.costs == model.costs).all()
     assert again.due == controller.due
@@ -92,10 +92,10 @@ def test_joins_overlapping_groups():
         rng = np.random.default_rng([5, ME])
         keys = rng.integers(-1, 90 * RANKS, (len(x), 2))
         expected = joined_by_hand(everywhere(keys))
-        joined = rrcb.join_keys(keys, comm)
+        joined = rrcb.experimental.join_keys(keys, comm)
         assert (everywhere(joined).astype(np.int64) == expected).all()
         weights = rng.random(len(x))
-        molecules = rrcb.groups(x, keys, weights, comm)
+        molecules = rrcb.groups(x, joined, weights, comm)
         assert np.isclose(comm.allreduce(molecules.weights.sum()), comm.allreduce(weights.sum()))
         made = rrcb.balance(molecules.x, molecules.weights, comm)
         parts = molecules.distribution(made)
@@ -401,17 +401,17 @@ def test_verifies_ghosts():
     balance = rrcb.balance(x, comm=comm)
     here = balance.distribute({"x": x, "id": ids(len(x))})
     ghosts = balance.ghosts(here["x"], np.where(here["id"] % 5 == 0, 0.2, 0.05), 1.0, "either")
-    seen = ghosts.verify(here["x"], 10**6, ids=here["id"], ids_before=ids(len(x)))
+    seen = rrcb.experimental.verify(ghosts, here["x"], 10**6, ids=here["id"], ids_before=ids(len(x)))
     assert seen.num_faults == 0 and len(seen.missing) == 0 and seen.num_pairs > 0
     narrow = balance.ghosts(here["x"], 0.05)
-    seen = narrow.verify(here["x"], 10**6, radius=0.1, ids=here["id"])
+    seen = rrcb.experimental.verify(narrow, here["x"], 10**6, radius=0.1, ids=here["id"])
     assert comm.allreduce(len(seen.missing)) == seen.num_faults
     assert np.isin(seen.missing["needed_by"], here["id"]).all()
     wide = balance.ghosts(here["x"], 0.1).fetch(here["id"])
     assert np.isin(seen.missing["id"], wide).all() and (seen.missing["rank"] != ME).all()
     assert RANKS == 1 or seen.num_faults > 0
     changed = here["id"] + 500 * (len(here["id"]) > 0)
-    seen = narrow.verify(here["x"], 0, ids=changed, ids_before=here["id"])
+    seen = rrcb.experimental.verify(narrow, here["x"], 0, ids=changed, ids_before=here["id"])
     assert len(seen.missing) == len(seen.strangers) == len(changed)
 
 
@@ -519,7 +519,7 @@ def test_controls_a_loop():
 
 
 def test_learns_costs():
-    with rrcb.Controller(comm) as controller, rrcb.CostModel(controller, 2, comm) as model:
+    with rrcb.Controller(comm) as controller, rrcb.experimental.CostModel(controller, 2, comm) as model:
         rng = np.random.default_rng(ME)
         for _ in range(60):
             count = rng.integers(50, 100, size=2)
@@ -531,10 +531,10 @@ def test_learns_costs():
             assert np.allclose(model.costs, [1e-3, 4e-3], rtol=1e-3)
         assert len(set(comm.allgather(model.uses_costs))) == 1
         assert model.weights(np.zeros((0, 2))).shape == (0,)
-    alone = rrcb.CostModel(None, 1, comm)
+    alone = rrcb.experimental.CostModel(None, 1, comm)
     alone.step(1.0, [10])
     alone.free()
-    same_error(lambda: rrcb.CostModel(None, 0, comm), "")
+    same_error(lambda: rrcb.experimental.CostModel(None, 0, comm), "")
 
 
 if __name__ == "__main__":

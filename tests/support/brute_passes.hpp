@@ -1,9 +1,9 @@
 // Passes that read each point by itself, as their contract says: for comparison, not for speed.
 #pragma once
 
+#include <rrcb/detail/passes.hpp>
 #include <rrcb/detail/sample.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/passes.hpp>
 
 #include <algorithm>
 #include <cmath>

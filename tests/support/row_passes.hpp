@@ -4,8 +4,8 @@
 #include "arithmetic/position_order.hpp"
 #include "cuts/tree.hpp"
 
+#include <rrcb/detail/passes.hpp>
 #include <rrcb/detail/sample.hpp>
-#include <rrcb/passes.hpp>
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 #include "../support/common.hpp"
 
+#include <rrcb/detail/bisection.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/method/bisection.hpp>
 
 namespace rrcb {
 namespace {

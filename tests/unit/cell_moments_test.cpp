@@ -2,7 +2,7 @@
 #include "../support/common.hpp"
 #include "passes/cell_finder.hpp"
 
-#include <rrcb/method/moments.hpp>
+#include <rrcb/detail/moments.hpp>
 
 namespace rrcb {
 namespace {

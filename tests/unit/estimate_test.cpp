@@ -7,7 +7,7 @@
 #include "options/validation.hpp"
 #include "passes/host_passes.hpp"
 
-#include <rrcb/method/bisection.hpp>
+#include <rrcb/detail/bisection.hpp>
 #include <rrcb/quality.hpp>
 
 #include <numbers>

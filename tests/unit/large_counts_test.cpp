@@ -3,7 +3,7 @@
 #include "estimate/contribution.hpp"
 #include "estimate/decision_mpi.hpp"
 
-#include <rrcb/method/bisection.hpp>
+#include <rrcb/detail/bisection.hpp>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "../support/common.hpp"
 #include "estimate/cell_records.hpp"
 
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 
 namespace rrcb {
 namespace {

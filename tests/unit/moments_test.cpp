@@ -1,7 +1,7 @@
 #include "../support/clouds.hpp"
 #include "moments_reference.hpp"
 
-#include <rrcb/method/moments.hpp>
+#include <rrcb/detail/moments.hpp>
 
 namespace rrcb {
 namespace {

@@ -1,8 +1,8 @@
 #include "../support/clouds.hpp"
 #include "../support/common.hpp"
 
+#include <rrcb/detail/paper_steps.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/paper.hpp>
 
 namespace rrcb {
 namespace {

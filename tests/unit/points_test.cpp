@@ -2,9 +2,9 @@
 #include "../support/clouds.hpp"
 #include "../support/common.hpp"
 
+#include <rrcb/detail/moments.hpp>
 #include <rrcb/eigen.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/method/moments.hpp>
 #include <rrcb/points.hpp>
 
 namespace rrcb {

@@ -1,7 +1,7 @@
 #include "../support/common.hpp"
 
-#include <rrcb/method/statistical_domain.hpp>
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/statistical_domain.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 
 namespace rrcb {
 namespace {

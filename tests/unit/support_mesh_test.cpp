@@ -1,4 +1,4 @@
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "scene/scene_reports.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 
-#include <rrcb/cost.hpp>
+#include <rrcb/experimental/cost.hpp>
 
 #include <mpi.h>
 #include <mpm/simulation.hpp>
@@ -146,7 +146,7 @@ class Schedule {
     int every_;
     std::int64_t first_step_;
     std::optional<rrcb::Controller> controller_;
-    std::optional<rrcb::CostModel> model_;
+    std::optional<rrcb::experimental::CostModel> model_;
 };
 
 /// Shows the share that is done and the time that is left: about once a second on a terminal, else

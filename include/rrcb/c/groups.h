@@ -29,16 +29,6 @@ typedef enum rrcb_group_place {
 RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const uint64_t* keys, int place, rrcb_groups** groups);
 
-/** Writes one key for each point of overlapping groups, as rrcb::join_keys. Collective.
- *
- * @param balancer       whose communicator is used, not its cuts
- * @param count          points of this rank
- * @param keys_per_point 1 or more, the same on every rank
- * @param keys           `keys_per_point` for each point, RRCB_NO_GROUP for those that it lacks
- * @param joined         gets one for each point, for rrcb_groups_create */
-RRCB_API int rrcb_join_keys(const rrcb_balancer* balancer, size_t count, size_t keys_per_point,
-                            const uint64_t* keys, uint64_t* joined);
-
 /** Frees groups and their points. Not collective.
  *
  * @param groups as for rrcb_balancer_destroy */

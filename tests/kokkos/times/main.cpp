@@ -1,7 +1,7 @@
 // Prints times of balances of 3-D points on the default device, and of a copy to the host with a
 // call there.
 #include <rrcb/balance.hpp>
-#include <rrcb/kokkos.hpp>
+#include <rrcb/experimental/kokkos.hpp>
 #include <rrcb/views.hpp>
 
 #include <algorithm>
@@ -69,18 +69,21 @@ void print_row(std::int64_t count, bool is_sorted) {
     const rrcb::Options options{.num_parts = 8};
     rrcb::Cuts cuts;
     bytes_out = 0;
-    cuts = rrcb::balance(Device(), x, options, MPI_COMM_WORLD).cuts;
+    cuts = rrcb::experimental::balance(Device(), x, options, MPI_COMM_WORLD).cuts;
     const std::uint64_t bytes = bytes_out;
-    const double cold = least_time([&] { rrcb::balance(Device(), x, options, MPI_COMM_WORLD); });
-    const double again =
-        least_time([&] { rrcb::balance(Device(), x, options, cuts, MPI_COMM_WORLD); });
+    const double cold =
+        least_time([&] { rrcb::experimental::balance(Device(), x, options, MPI_COMM_WORLD); });
+    const double again = least_time(
+        [&] { rrcb::experimental::balance(Device(), x, options, cuts, MPI_COMM_WORLD); });
     const auto copy = Kokkos::create_mirror(x);
     const double copying = least_time([&] { Kokkos::deep_copy(copy, x); });
     const double host =
         least_time([&] { rrcb::balance(rrcb::view_points(copy), options, {}, MPI_COMM_WORLD); });
-    auto result = rrcb::balance(Device(), x, options, MPI_COMM_WORLD);
-    const double into = least_time(
-        [&] { rrcb::balance_into(result, Device(), x, NoWeights(), options, {}, MPI_COMM_WORLD); });
+    auto result = rrcb::experimental::balance(Device(), x, options, MPI_COMM_WORLD);
+    const double into = least_time([&] {
+        rrcb::experimental::balance_into(result, Device(), x, NoWeights(), options, {},
+                                         MPI_COMM_WORLD);
+    });
     std::printf("| %lld | %s | %.2f | %.2f | %.2f | %.2f | %.2f | %llu |\n",
                 static_cast<long long>(count), is_sorted ? "sorted" : "random", cold, into, again,
                 copying, host, static_cast<unsigned long long>(bytes));

@@ -3,7 +3,7 @@
 #include "balancers_mpi.hpp"
 #include "variations.hpp"
 
-#include <rrcb/cost.hpp>
+#include <rrcb/experimental/cost.hpp>
 
 #include <mpm/simulation.hpp>
 
@@ -49,7 +49,7 @@ double imbalance_of(double seconds) {
 /// Imbalance of time after a number of rebalances, 50 steps apart.
 double imbalance_after(int num_rebalances, bool learns) {
     Simulation simulation(dam_break(), MPI_COMM_WORLD);
-    rrcb::CostModel model(MPI_COMM_WORLD, 4);
+    rrcb::experimental::CostModel model(MPI_COMM_WORLD, 4);
     const mpm::Balancer balancer = rrcb_balancer({}, [&] {
         return model.weights(learns && model.uses_costs() ? simulation.point_columns()
                                                           : std::vector<double>());

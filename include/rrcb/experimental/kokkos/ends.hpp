@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/kokkos/points.hpp>
+#include <rrcb/experimental/kokkos/points.hpp>
 
 #include <algorithm>
 #include <cmath>

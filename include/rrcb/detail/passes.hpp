@@ -1,9 +1,9 @@
 #pragma once
 
 #include <rrcb/balance.hpp>
+#include <rrcb/detail/bisection.hpp>
+#include <rrcb/detail/moments.hpp>
 #include <rrcb/detail/uninitialized.hpp>
-#include <rrcb/method/bisection.hpp>
-#include <rrcb/method/moments.hpp>
 
 #include <mpi.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <rrcb/kokkos/points.hpp>
-#include <rrcb/method/moments.hpp>
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/moments.hpp>
+#include <rrcb/detail/support_mesh.hpp>
+#include <rrcb/experimental/kokkos/points.hpp>
 
 #include <algorithm>
 #include <cfloat>

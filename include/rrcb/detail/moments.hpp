@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/method/support_mesh.hpp>
+#include <rrcb/detail/support_mesh.hpp>
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
-#include <rrcb/kokkos/points.hpp>
-#include <rrcb/passes.hpp>
+#include <rrcb/detail/passes.hpp>
+#include <rrcb/experimental/kokkos/points.hpp>
 #include <rrcb/plan.hpp>
 
 #include <bit>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/kokkos/device.hpp>
+#include <rrcb/experimental/kokkos/device.hpp>
 
 #include <array>
 #include <cfloat>

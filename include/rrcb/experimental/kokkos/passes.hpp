@@ -1,9 +1,9 @@
 #pragma once
 
 #include <rrcb/detail/sample.hpp>
-#include <rrcb/kokkos/ends.hpp>
-#include <rrcb/kokkos/moments.hpp>
-#include <rrcb/kokkos/parts.hpp>
+#include <rrcb/experimental/kokkos/ends.hpp>
+#include <rrcb/experimental/kokkos/moments.hpp>
+#include <rrcb/experimental/kokkos/parts.hpp>
 
 #include <algorithm>
 #include <span>
@@ -11,16 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace rrcb {
-
-/// Memory of calls with views, which the next call uses.
-template <class MemorySpace>
-struct KokkosMemory {
-    Kokkos::View<Part*, MemorySpace> parts{};    ///< of at least as many points as the last call's
-    Kokkos::View<char*, MemorySpace> scratch{};  ///< for the steps of a call
-};
-
-namespace detail {
+namespace rrcb::detail {
 
 /// Weights of points that all weigh 1.
 template <class MemorySpace>
@@ -32,7 +23,16 @@ struct UnitWeights {
     static const double* data() { return nullptr; }
 };
 
-}  // namespace detail
+}  // namespace rrcb::detail
+
+namespace rrcb::experimental {
+
+/// Memory of calls with views, which the next call uses.
+template <class MemorySpace>
+struct KokkosMemory {
+    Kokkos::View<Part*, MemorySpace> parts{};    ///< of at least as many points as the last call's
+    Kokkos::View<char*, MemorySpace> scratch{};  ///< for the steps of a call
+};
 
 /// The points of one rank in the memory of an execution space of Kokkos, for balance(PointPasses&).
 ///
@@ -315,4 +315,4 @@ class KokkosPasses final : public PointPasses {
     PartsView parts_;
 };
 
-}  // namespace rrcb
+}  // namespace rrcb::experimental

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/kokkos/passes.hpp>
+#include <rrcb/experimental/kokkos/passes.hpp>
 #include <rrcb/plan.hpp>
 
 #include <mpi.h>
@@ -10,9 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace rrcb {
-
-namespace detail {
+namespace rrcb::detail {
 
 template <class Execution>
 concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
@@ -20,7 +18,9 @@ concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
 template <class Views>
 concept KokkosPoints = Kokkos::is_view<typename ViewOf<Views>::Type>::value;
 
-}  // namespace detail
+}  // namespace rrcb::detail
+
+namespace rrcb::experimental {
 
 /// Result of a call with views. Cuts and report are on the host and the same on every rank.
 template <class MemorySpace>
@@ -57,7 +57,7 @@ void balance_into(KokkosBalance<detail::MemoryOf<Views>>& result, const Executio
 
 /// Divides points in views as the function of Points with the same name. Collective.
 ///
-///     auto balance = rrcb::balance(exec, x, weights, options, {}, comm);
+///     auto balance = rrcb::experimental::balance(exec, x, weights, options, {}, comm);
 ///
 /// @param exec     as for balance_into(), as all others
 /// @param x        positions
@@ -180,4 +180,4 @@ KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySp
     return {ranks, order, detail::list_by_rank(device, num_ranks, ranks, order)};
 }
 
-}  // namespace rrcb
+}  // namespace rrcb::experimental

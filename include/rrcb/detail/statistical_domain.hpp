@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/method/moments.hpp>
+#include <rrcb/detail/moments.hpp>
 
 #include <span>
 #include <vector>

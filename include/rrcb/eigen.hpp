@@ -6,8 +6,8 @@
 
 namespace rrcb {
 
-/// Returns a view of a column-major matrix with one point per column. Not collective. Link
-/// Eigen3::Eigen as well, which rrcb::rrcb does not bring along.
+/// Returns a view of a column-major matrix with one point per column. Not collective. Your program
+/// has to link Eigen3::Eigen as well; rrcb::rrcb does not do that.
 ///
 /// @param coordinates 1 to 3 rows of doubles or floats; must outlive the view
 /// @param weights     empty, or one entry per column

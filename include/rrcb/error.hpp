@@ -15,11 +15,11 @@ enum class ErrorCode {
     internal           ///< a callback threw, or an invariant does not hold
 };
 
-/// The only exception of the library; its text names the place and the fix.
+/// The only exception of the library. Its text names the place and the fix.
 ///
-/// From a collective function the same code and text reach every rank of the communicator. Only if
-/// MPI itself fails, the state of the communicator is up to MPI: some ranks may get other texts, or
-/// none.
+/// A collective function throws the same code and text on every rank of the communicator. There is
+/// one exception: if MPI itself fails, the state of the communicator depends on MPI, and some ranks
+/// may get other texts or no error.
 class RRCB_API Error : public std::runtime_error {
   public:
     /// Makes an error.

@@ -24,90 +24,98 @@ class KeptExchange;
 
 }  // namespace detail
 
-/// Periods along each axis.
+/// Number of periods along each axis.
 using Shift = std::array<std::int32_t, 3>;
 
-/// Whose radius counts, if points have different ones.
+/// Determines whose radius counts, if points have different radii.
 enum class Needs : std::int32_t {
     sender,    ///< a rank needs the points whose radii reach one of its parts
     receiver,  ///< it needs the points within the radius of a point of one of its parts
     either     ///< it needs both: the points within the greater of two radii
 };
 
-/// Points to send and to receive as ghosts. A list of ranks names each rank once, ascending.
+/// Points to send and to receive as ghosts. Each list of ranks is in ascending order and contains a
+/// rank at most once.
 struct GhostPlan {
     LocalIndex num_points = 0;    ///< of this rank
     std::vector<RankCount> send;  ///< number of points for each rank
-    /// Indices of the points to send: for the first rank, ascending, then for the second, ...
+    /// Indices of the points to send: for the first rank of `send` in ascending order, then for the
+    /// second, ...
     std::vector<LocalIndex> send_indices;
     std::vector<RankCount> receive;  ///< number of ghosts from each rank
     Box periodic{};                  ///< repeated box; empty: none
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
     std::uint64_t group = 0;         ///< as Cuts::group
-    /// Number of the call on this rank, with which fetch() recognizes ghosts from before a
-    /// transfer. Set it to 0 if as many other points were transferred.
+    /// Number of the call on this rank, by which fetch() recognizes ghosts that were found before a
+    /// transfer. Set it to 0 if as many other points were transferred instead.
     std::uint64_t stamp = 0;
     double radius = std::numeric_limits<double>::quiet_NaN();  ///< as in the options
     Needs needs = Needs::sender;                               ///< as in the options
-    /// Memory of fetch() and the like for the next call; copies share it. Reset it to free it.
+    /// Memory that fetch() and similar functions keep for the next call. Copies of the plan share
+    /// it. Reset it to free it.
     mutable std::shared_ptr<detail::KeptExchange> kept{};
 };
 
-/// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
-/// `radii`: every rank with points gives them, or none does.
+/// Distances within which points are needed, and the ranks of the parts. All options must be the
+/// same on every rank, except `radii`: either every rank with points gives them, or none does.
 struct GhostOptions {
-    /// Cut-off of all points, in the unit of the coordinates; NaN: not given.
+    /// Cut-off radius of all points, in the unit of the coordinates; NaN: not given.
     double radius = std::numeric_limits<double>::quiet_NaN();
-    /// One radius for each point instead; for contacts of spheres the diameters. Unless `needs`
-    /// says otherwise: of two points on different ranks, nearer than the greater of their radii,
-    /// the one with the greater radius is a ghost on the other's rank, the other not always. To
-    /// meet each pair once, use a ghost only if its radius is greater than the point's, or equal
-    /// and its id is greater; an id is any number of a point that is the same on all ranks.
+    /// One radius for each point instead; for contacts of spheres, give the diameters. By default
+    /// the radii of senders count (see `needs`): if two points on different ranks are nearer than
+    /// the larger of their radii, the point with the larger radius is a ghost on the other point's
+    /// rank; the other point need not be a ghost. To meet each pair once, use ghost g of point p
+    /// only if radius(g) > radius(p), or if the radii are equal and id(g) > id(p). An id is any
+    /// number of a point that is the same on all ranks.
     std::optional<std::span<const double>> radii{};
-    /// Repeated box with all points, [lower, upper) along each axis with finite ends. Along the
-    /// other axes, with infinite ends, it does not repeat. A point on an upper face, as
-    /// wrapping may round it, is taken for one just below it. A rank may need several images of one
-    /// point, also of its own. Each is a ghost with its entry in GhostPlan::shifts: the image of x
-    /// is at x + shift * (upper - lower), each operation rounded to a double. Wrap positions first.
+    /// Periodic box that contains all points: [lower, upper) along each axis with finite ends.
+    /// Along axes with infinite ends it is not periodic. Wrap positions first; a point on an upper
+    /// face, where rounding may put it, is treated as if it were just below the face. A rank may
+    /// need several images of one point, even of its own points. Each image is a ghost with its own
+    /// entry in GhostPlan::shifts: the image of x is at x + shift * (upper - lower), with each
+    /// operation rounded to a double.
     std::optional<Box> periodic{};
-    /// Ranks of each part, as after a remap(), if not ranks_of_part().
+    /// Ranks of each part, for example after a remap(), if they are not those of ranks_of_part().
     std::optional<std::span<const RankRange>> ranks_of_parts{};
-    /// Whose radii count. With the radii of receivers, a part gets the points within its greatest
-    /// radius of the box of its points with more than half of it, and the points within the
-    /// greatest other radius of the box of its other points. Cost: a pass of counts, two
-    /// reductions, one of up to 14 doubles a part, and two passes over the points.
+    /// Determines whose radii count. With the radii of receivers a part gets two sets of points:
+    /// those within its largest radius of the box of its points that have more than half this
+    /// radius, and those within its largest other radius of the box of its other points. Cost: a
+    /// pass of counts, two reductions, one of which has up to 14 doubles for each part, and two
+    /// passes over the points.
     Needs needs = Needs::sender;
 };
 
-/// Finds the points for other ranks from the cuts. Collective.
+/// Finds from the cuts the points that other ranks need. Collective.
 ///
 ///     const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, points, {.radius = 0.1}, comm);
 ///
-/// A rank needs the points of others at most the radius, plus round-off, away from the closed
-/// region of one of its parts. If points are outside the regions of their rank, such as members of
-/// groups, add the greatest of their distances from these to the radius.
-/// @param cuts    of a balance, whose ranks have the points
+/// A rank needs the points of others whose distance from the closed region of one of its parts is
+/// at most the radius, plus round-off. If points are outside the regions of their rank, as members
+/// of groups may be, add the largest such distance to the radius.
+/// @param cuts    of a balance, to whose ranks the points were transferred
 /// @param points  of this rank, after transfer()
 /// @param options radius, periodic box, ranks of the parts
 /// @param comm    of the balance, or a congruent one
-/// Throws Error on every rank alike: for unusable points, those of the balance if one has yet to
-/// leave its rank, a radius that is not finite, below 0 or above 100 periods, a position outside
-/// the periodic box, options or cuts that differ between ranks, another communicator, or no memory.
-/// Cost: as plan(); a periodic box adds a pass of counts, `needs` what is written there.
+/// Throws the same Error on every rank: for unusable points, points that have yet to leave their
+/// rank, a radius that is not finite, negative or above 100 periods, a position outside the
+/// periodic box, options or cuts that differ between ranks, another communicator, or no memory.
+/// Cost: as plan(); a periodic box adds a pass of counts, and `needs` adds what is written there.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 
-/// Moves fetched positions of ghosts to those of the images; does nothing without a periodic box.
-/// Images left in [lower, upper) by rounding come to the next number outside. Not collective.
+/// Moves fetched positions of ghosts to those of their images. Does nothing without a periodic box.
+/// If rounding leaves an image in [lower, upper), it is moved to the next number outside. Not
+/// collective.
 ///
 /// @param plan      of the ghosts
-/// @param positions the axes of one ghost after the other
-/// Throws Error if they do not fit the plan.
+/// @param positions the coordinates of one ghost after the other
+/// Throws Error if the positions do not fit the plan.
 RRCB_API void apply_shifts(const GhostPlan& plan, std::span<double> positions);
-/// Moves floats in the same way: rounds the position in doubles. Not collective.
+/// Moves floats in the same way: computes each position as a double, then rounds it. Not
+/// collective.
 ///
 /// @param plan      of the ghosts
-/// @param positions the axes of one ghost after the other
+/// @param positions the coordinates of one ghost after the other
 RRCB_API void apply_shifts(const GhostPlan& plan, std::span<float> positions);
 
 namespace detail {
@@ -118,13 +126,13 @@ RRCB_API void apply_shifts(const GhostPlan& plan, const Points& positions);
 RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                    const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
 
-/// Moves columns of ghosts to the ranks of their points, in the order of plan.send_indices there,
-/// and copies the points' own. Collective.
+/// Moves columns of ghosts to the ranks of their points, where they are in the order of
+/// plan.send_indices. Copies the columns of the points to their results. Collective.
 RRCB_API void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
                         std::span<const ByteColumn> of_points, const TransferLimits& limits,
                         TransferReport* report, MPI_Comm comm);
 
-/// Plan of ghosts whose ranks send rows back.
+/// A plan of ghosts, along which ranks send rows back.
 struct Replies {
     const GhostPlan& plan;
 };
@@ -178,10 +186,10 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 ///     rrcb::apply_shifts(near, ghosts, &Particle::position);
 ///
 /// @param plan   of the ghosts
-/// @param ghosts as fetched, one struct each
-/// @param first  member, an array, or the number of the first axis
+/// @param ghosts as fetched, one struct for each ghost
+/// @param first  a member that is an array, or the member for the first axis
 /// @param others members for the other axes
-/// Throws Error if they do not fit the plan.
+/// Throws Error if the positions do not fit the plan.
 template <std::ranges::contiguous_range Structs, class Member, class... Others>
 void apply_shifts(const GhostPlan& plan, Structs& ghosts, Member first, Others... others) {
     static_assert(!std::is_const_v<std::remove_reference_t<decltype(*std::ranges::data(ghosts))>>,
@@ -193,34 +201,35 @@ void apply_shifts(const GhostPlan& plan, Structs& ghosts, Member first, Others..
 ///
 ///     const std::vector<double> ghost_xyz = rrcb::fetch(near, rrcb::column(xyz, 3), comm);
 ///
-/// The plan can be used again as long as no point changes its index in the columns. With a skin s
-/// in its radii, it holds all pairs within the true radii until a point has moved by s / 2; until
-/// then do not wrap positions. For columns of the same types as before, if no transfer was made
-/// since, ranks only exchange messages with those of the plan, and throw as Neighbours does.
-/// @param plan    of ghosts()
+/// The plan can be used as long as no point changes its index in the columns. With a skin s in its
+/// radii, it contains all pairs within the true radii until a point has moved by s / 2; do not wrap
+/// positions until then. If the columns have the same types as before and no transfer was made
+/// since, ranks only exchange messages with the ranks in the plan, and throw as Neighbours does.
+/// @param plan    from ghosts()
 /// @param columns one entry, or `components`, for each of plan.num_points points
 /// @param comm    of the plan
 /// @param limits  as for transfer()
 /// @param report  as for transfer()
-/// @return ghosts by ascending rank, in the order of send_indices there
-/// Throws Error as transfer(), and if the points were transferred by a plan made since.
+/// @return ghosts in ascending order of ranks, then in the order of send_indices on their rank
+/// Throws Error as transfer(), and if the points were transferred since the plan was made.
 template <class Columns>
 [[nodiscard]] auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
                          const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::moved(plan, columns, comm, limits, report);
 }
 
-/// Returns the rows sent back by the ranks of the ghosts, such as answers to queries. Collective.
+/// Returns the rows that the ranks of the ghosts send back, such as answers to queries. Collective.
 ///
 ///     const std::vector<double> answers = rrcb::reply(asked, answer_to_each_ghost, comm);
 ///
-/// Ghosts by `radii` are queries: each point goes to the ranks of all parts touched by its ball.
-/// @param plan          of ghosts()
+/// Ghosts with `radii` are queries: each point is sent to the ranks of all parts that its ball
+/// touches.
+/// @param plan          from ghosts()
 /// @param ghost_columns one entry, or `components`, for each ghost, in the order of fetch()
 /// @param comm          of the plan
 /// @param limits        as for transfer()
 /// @param report        as for transfer()
-/// @return a row for each of plan.send_indices, in that order: row k is for point send_indices[k]
+/// @return a row for each entry of plan.send_indices: row k belongs to point send_indices[k]
 /// Throws Error as transfer(). Cost: as fetch().
 template <class GhostColumns>
 [[nodiscard]] auto reply(const GhostPlan& plan, const GhostColumns& ghost_columns, MPI_Comm comm,
@@ -228,19 +237,19 @@ template <class GhostColumns>
     return detail::moved(detail::Replies{plan}, ghost_columns, comm, limits, report);
 }
 
-/// Returns columns of the points with the values of their ghosts on other ranks added, such as
-/// forces: the reverse of fetch(). Collective.
+/// Returns columns of the points, to which the values of their ghosts on other ranks have been
+/// added, such as forces. This is the reverse of fetch(). Collective.
 ///
-/// @param plan          of ghosts()
-/// @param ghost_columns numbers, as many for each ghost as `columns` have for each point, in the
+/// @param plan          from ghosts()
+/// @param ghost_columns for each ghost as many numbers as `columns` have for each point, in the
 /// order of fetch()
 /// @param columns       numbers of the same types for each of plan.num_points points
 /// @param comm          of the plan
 /// @param limits        as for transfer()
 /// @param report        as for transfer()
-/// @return each point's value plus its ghosts' values by ascending rank: the same arguments give
-/// the same bits; integers must hold their sums
-/// Throws Error as transfer(). Cost: as fetch(); memory for the arriving values.
+/// @return for each point its value plus the values of its ghosts, added in ascending order of
+/// ranks; the same arguments give bit-identical results. Integers must be able to hold the sums
+/// Throws Error as transfer(). Cost: as fetch(), and memory for the values that arrive.
 template <class GhostColumns, class Columns>
 [[nodiscard]] auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns,
                               const Columns& columns, MPI_Comm comm,

@@ -18,26 +18,30 @@
 
 namespace rrcb {
 
-/// Distances within which ranks are neighbours, and the ranks of the parts. The same on every rank.
+/// Distances within which ranks are neighbours, and the ranks of the parts. They must be the same
+/// on every rank.
 struct NeighbourOptions {
-    /// Cut-off of ghosts, in the unit of the coordinates; if points have radii, the greatest.
+    /// Cut-off radius of ghosts, in the unit of the coordinates; if points have different radii,
+    /// the largest.
     double radius = 0;
     /// Distance that a point may move between two calls of migrate(), in the same unit.
     double travel = 0;
-    /// Repeated box with all points, as GhostOptions::periodic. Wrap positions before each call.
+    /// Periodic box that contains all points, as GhostOptions::periodic. Wrap positions before each
+    /// call.
     std::optional<Box> periodic{};
-    /// Ranks of each part, as after a remap(), if not ranks_of_part().
+    /// Ranks of each part, for example after a remap(), if they are not those of ranks_of_part().
     std::optional<std::span<const RankRange>> ranks_of_parts{};
-    /// Whose radii count, see Needs. With the radii of receivers, find_ghosts() exchanges a message
-    /// with each neighbour.
+    /// Determines whose radii count, see Needs. With the radii of receivers, find_ghosts()
+    /// exchanges a message with each neighbour.
     Needs needs = Needs::sender;
 };
 
-/// Entries that ranks have in common, such as nodes of a mesh at the faces of parts.
+/// Entries that ranks have in common, for example nodes of a mesh at the faces of parts.
 struct SharedEntries {
-    std::vector<RankCount> ranks;  ///< number shared with each neighbour, by ascending rank
+    std::vector<RankCount> ranks;  ///< number of entries shared with each neighbour, in ascending
+                                   ///< order of ranks
     /// Indices of these entries: for the first rank, then for the second, ... Both ranks of a pair
-    /// list the same entries in the same order.
+    /// must list the same entries in the same order.
     std::vector<LocalIndex> indices;
 };
 
@@ -47,8 +51,8 @@ struct GhostArrays {
     std::tuple<Arrays&...> arrays;
 };
 
-/// Names the arrays for columns of ghosts, in the order of the columns of the points: vectors, or
-/// arrays of the right size. Not collective.
+/// Names the arrays for columns of ghosts, in the order of the columns of the points. They are
+/// vectors, or arrays of the right size. Not collective.
 template <class... Arrays>
 GhostArrays<Arrays...> ghosts_of(Arrays&... arrays) {
     return {std::tie(arrays...)};
@@ -58,11 +62,12 @@ namespace detail {
 
 struct NeighbourAccess;
 
-/// Adds the values of a column to those of some points.
+/// Adds the values of a column to the values of some points.
 using AddValues = void(std::span<const LocalIndex> points, std::size_t components,
                        const void* values, void* sums);
 
-/// A column of points, to which that of their ghosts is added. Of `points`, the result is written.
+/// A column of points, and the column of their ghosts that is added to it. The result of `points`
+/// is written.
 struct SumColumn {
     ByteColumn ghosts;
     ByteColumn points;
@@ -95,7 +100,7 @@ Points positions_of(const Column<T>& column) {
     return points;
 }
 
-/// Returns a column without its type; only a writable one has a result.
+/// Returns a column without its type. Only a writable column has a result.
 template <class Values>
 ByteColumn any_column(const Values& values) {
     const Column view = column(column(values));
@@ -109,7 +114,7 @@ ByteColumn any_column(const Values& values) {
             nullptr};
 }
 
-/// As byte_column(), also for an array.
+/// As byte_column(); the array may have a fixed size.
 template <class Array>
 ByteColumn writable_column(const WritableColumn<Array>& view) {
     return byte_column(view);
@@ -133,8 +138,8 @@ ByteColumn resizable_column(Array&& array) {
 
 }  // namespace detail
 
-/// The ranks near this one, by the cuts of a balance: the exchanges of each step of a simulation,
-/// with one message to each neighbour and call, and no collective call.
+/// The ranks near this one, for the exchanges in each step of a simulation. A call sends one
+/// message to each neighbour; only the constructor is collective.
 ///
 ///     rrcb::Neighbours neighbours(balance.cuts, {.radius = r, .travel = t}, comm);
 ///     ...                                                // in each step:
@@ -143,11 +148,11 @@ ByteColumn resizable_column(Array&& array) {
 ///     neighbours.fetch(rrcb::ghosts_of(ghost_x), column(x, 3));
 ///     neighbours.accumulate(column(ghost_f, 3), column(f, 3));
 ///
-/// A neighbour is a rank with a part at most max(radius, travel) from a part of this rank. Every
-/// rank makes the same calls in the same order. If a call fails on a rank, it also fails on its
-/// neighbours, the next call on theirs, ...: all ranks throw its text, at the latest in the next
-/// collective call; none waits for a rank that has failed. If several ranks fail, each throws the
-/// text of one of them. Then make other Neighbours, and other controllers and ghost plans.
+/// A neighbour is a rank with a part whose distance from a part of this rank is at most max(radius,
+/// travel). Every rank must make the same calls in the same order. If a call fails on a rank, it
+/// also fails on its neighbours, the next call on their neighbours, and so on. All ranks throw its
+/// text, at the latest in the next collective call, and none waits for a rank that has failed. If
+/// several fail, a rank throws one of their texts. Then make new Neighbours, controllers and plans.
 class Neighbours {
   public:
     /// Finds the neighbours. Collective.
@@ -155,33 +160,34 @@ class Neighbours {
     /// @param cuts    of a balance; they are copied
     /// @param options distances, periodic box, ranks of the parts
     /// @param comm    of the balance, or a congruent one
-    /// Throws Error on every rank alike: for distances that are negative or not finite, a periodic
-    /// box as ghosts(), options or cuts that differ between ranks, another communicator, or no
-    /// memory. Cost: a pass over the parts, one pass of counts, and a reduction.
+    /// Throws the same Error on every rank: for distances that are negative or not finite, a
+    /// periodic box that ghosts() would refuse, options or cuts that differ between ranks, another
+    /// communicator, or lack of memory. Cost: a pass over the parts, one pass of counts, and a
+    /// reduction.
     RRCB_API Neighbours(const Cuts& cuts, const NeighbourOptions& options, MPI_Comm comm);
-    /// Frees the memory, without communication.
+    /// Frees the memory. Does not communicate.
     RRCB_API ~Neighbours();
-    /// Takes over other neighbours, which may then only be destroyed or assigned to. Not
+    /// Takes over the state of another object, which may then only be destroyed or assigned to. Not
     /// collective.
     RRCB_API Neighbours(Neighbours&&) noexcept;
-    /// Takes over other neighbours. Not collective.
+    /// Takes over the state of another object. Not collective.
     RRCB_API Neighbours& operator=(Neighbours&&) noexcept;
 
-    /// Sends points that have left the parts of this rank to the ranks that now own them, and takes
-    /// theirs, in place. With all neighbours.
+    /// Sends points that have left the parts of this rank to their new ranks, and takes the points
+    /// that arrive, in place. Exchanges messages with all neighbours.
     ///
     ///     neighbours.migrate(column(x, 3), column(v, 3), ids);
     ///     neighbours.migrate(member_points(particles, &Particle::position), particles);
     ///
-    /// Arriving points, by ascending rank, take the places of those that left, then the end; places
-    /// left over are filled from the end. All other points keep their indices. Coincident points
-    /// divided by a cut stay on their rank.
+    /// Arriving points, in ascending order of ranks, take the places of those that left, and then
+    /// places at the end; places left over are filled from the end. All other points keep their
+    /// indices. Coincident points that a cut divides stay on their rank.
     /// @param positions column of positions, which moves too, or Points in arrays of `columns`
     /// @param columns   different vectors, or column(vector, components)
     /// Throws Error as described above: for a point in a part of no neighbour, which all arrays
-    /// still contain, or columns that differ between ranks. A rank that fails because of another
-    /// has completed its exchange with the other neighbours: no point is lost or doubled, except if
-    /// memory or MPI fails. Cost: a few comparisons a point, a look-up for each that left.
+    /// still contain, or columns that differ between ranks. Unless memory or MPI fails, no point is
+    /// lost or doubled. Cost: a few comparisons for each point, and a look-up for each that has
+    /// left.
     template <class Positions, class... Columns>
     void migrate(Positions&& positions, Columns&&... columns) {
         const std::array<detail::ByteColumn, sizeof...(Columns)> others{
@@ -196,15 +202,18 @@ class Neighbours {
         }
     }
 
-    /// Finds the points that other ranks need as ghosts, as ghosts() does, in the lists of
-    /// ghosts(). Not collective, without messages, except with Needs::receiver or either.
+    /// Finds the points that other ranks need as ghosts, as the function ghosts() does. They are in
+    /// the lists that the member ghosts() returns. Sends no messages, except with Needs::receiver
+    /// or either.
     ///
-    /// Call it on every rank after migrate(), before fetch(). To keep ghosts for some steps, give
-    /// radii with a skin, and call neither until it is used up.
+    /// Call it on every rank after migrate() and before fetch(). To keep ghosts for several steps,
+    /// give radii with a skin, and call neither migrate() nor find_ghosts() until the skin is used
+    /// up.
     /// @param positions a column with an entry for each axis, or Points
-    /// @param radii     one for each point, none above NeighbourOptions::radius; without: that one
-    /// Throws Error on this rank, on neighbours in their next exchange: for a point that other
-    /// ranks than neighbours need, as it is too far outside the parts of this rank, and as
+    /// @param radii     one for each point, at most NeighbourOptions::radius; by default all have
+    /// that radius
+    /// Throws Error on this rank, and on the neighbours in their next exchange: for a point that is
+    /// so far outside the parts of this rank that ranks other than neighbours need it, and as
     /// ghosts().
     template <class Positions>
     void find_ghosts(const Positions& positions,
@@ -215,16 +224,17 @@ class Neighbours {
             find_ghosts_of(detail::positions_of(column(positions)), radii);
     }
 
-    /// Fetches columns of the ghosts into arrays, which it resizes. With all neighbours.
+    /// Fetches columns of the ghosts into arrays, which it resizes. Exchanges messages with all
+    /// neighbours.
     ///
     ///     neighbours.fetch(rrcb::ghosts_of(ghost_x, ghost_ids), column(x, 3), ids);
     ///
-    /// Ghosts are in the order of fetch(plan, ...): by ascending rank. Positions of images are
-    /// those of their points until apply_shifts(neighbours.ghosts(), ghost_x).
+    /// Ghosts are in the order of fetch(plan, ...): in ascending order of ranks. Positions of
+    /// images are those of their points until you call apply_shifts(neighbours.ghosts(), ghost_x).
     /// @param ghosts  a different array for each column
-    /// @param columns of the points that find_ghosts() got, the same types on every rank
-    /// Throws Error as described above: for columns that do not fit the points or those of other
-    /// ranks, or if points of this rank migrated since find_ghosts().
+    /// @param columns of the points that find_ghosts() got, with the same types on every rank
+    /// Throws Error as described above: for columns that do not fit the points or the columns of
+    /// other ranks, or if points of this rank have migrated since find_ghosts().
     template <class... Arrays, class... Columns>
     void fetch(const GhostArrays<Arrays...>& ghosts, const Columns&... columns) {
         static_assert(sizeof...(Arrays) == sizeof...(Columns), "give an array for each column");
@@ -236,22 +246,23 @@ class Neighbours {
         fetch_columns(each);
     }
 
-    /// Adds the values of ghosts to those of their points, in place: the reverse of fetch(). With
-    /// all neighbours.
+    /// Adds the values of ghosts to those of their points, in place. This is the reverse of
+    /// fetch(). Exchanges messages with all neighbours.
     ///
     ///     neighbours.accumulate(column(ghost_f, 3), column(f, 3));
     ///
-    /// @param ghosts an entry, or `components`, for each ghost of the latest fetch(), or
+    /// @param ghosts  one entry, or `components`, for each ghost of the latest fetch(); or
     /// ghosts_of() several such arrays
-    /// @param columns numbers of the same types for each point, writable
-    /// Adds in the order of accumulate(plan, ...): the same bits. Throws Error as fetch().
+    /// @param columns writable numbers of the same types for each point
+    /// Adds in the same order as accumulate(plan, ...), so that the results are bit-identical.
+    /// Throws Error as fetch().
     template <class GhostColumn, class... Columns>
     void accumulate(const GhostColumn& ghosts, Columns&&... columns) {
         static_assert(sizeof...(Columns) == 1, "name several arrays of ghosts with ghosts_of()");
         accumulate_columns(
             std::array{summed(detail::any_column(ghosts), std::forward<Columns>(columns)...)});
     }
-    /// Adds several columns in the same way, in one message to each neighbour.
+    /// Adds several columns in the same way, with one message to each neighbour.
     ///
     ///     neighbours.accumulate(rrcb::ghosts_of(ghost_f, ghost_q), column(f, 3), q);
     ///
@@ -268,14 +279,14 @@ class Neighbours {
         accumulate_columns(each);
     }
 
-    /// Replaces shared entries by the sums of the values of all ranks that list them, in place.
-    /// With all neighbours.
+    /// Replaces shared entries by the sums of their values over all ranks that list them, in place.
+    /// Exchanges messages with all neighbours.
     ///
-    /// Values are added by ascending rank: if each pair of the ranks of an entry lists it, all get
-    /// the same bits.
+    /// Values are added in ascending order of ranks. If every two ranks that have an entry list it
+    /// for each other, all get bit-identical sums.
     /// @param shared  lists of entries in common with neighbours
-    /// @param columns numbers, one entry, or `components`, for each node, writable
-    /// Throws Error as described above, and for ranks that are no neighbours or whose lists differ
+    /// @param columns writable numbers: one entry, or `components`, for each node
+    /// Throws Error as described above, and for ranks that are not neighbours or whose lists differ
     /// in length.
     template <class... Columns>
     void sum(const SharedEntries& shared, Columns&&... columns) {
@@ -283,8 +294,9 @@ class Neighbours {
                     std::array<detail::SumColumn, sizeof...(Columns)>{summed_alone(columns)...});
     }
 
-    /// Returns the lists of find_ghosts(), with the stamp of a plan: send, send_indices, and since
-    /// the first fetch() after it, receive and shifts. Valid until the next call. Not collective.
+    /// Returns the lists of find_ghosts() with the stamp of a plan: `send` and `send_indices`, and
+    /// after the first fetch() also `receive` and `shifts`. They are valid until the next call. Not
+    /// collective.
     RRCB_API const GhostPlan& ghosts() const;
 
     /// Returns the ranks of the neighbours, ascending. Not collective.
@@ -294,9 +306,9 @@ class Neighbours {
     friend struct detail::NeighbourAccess;
     struct State;
 
-    // The functions above, for columns without their types. Columns to migrate have their own
-    // arrays as results, fetched ones those of the ghosts, and of shared entries only `points`
-    // counts.
+    // The functions above for columns without their types. When columns migrate, the results are
+    // their own arrays; when ghosts are fetched, the results are the arrays of the ghosts; of
+    // shared entries only `points` is used.
     RRCB_API void migrate_columns(const Points& positions,
                                   std::span<const detail::ByteColumn> columns);
     RRCB_API void find_ghosts_of(const Points& points,

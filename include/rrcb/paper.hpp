@@ -15,19 +15,20 @@
 
 namespace rrcb {
 
-/// Points bisected by rank 0.
+/// The points that rank 0 bisects.
 enum class PaperDomain {
-    sampled,  ///< pseudo-random points in mean +- multiplier * sigma of each cell: the paper's RRCB
-    points    ///< the points themselves, all gathered on rank 0: the paper's RCB
+    sampled,  ///< pseudo-random points in mean +- multiplier * sigma of each cell, as in the
+              ///< paper's RRCB
+    points    ///< the points themselves, all gathered on rank 0, as in the paper's RCB
 };
 
 /// Position of a cut across the longest axis of its box.
 enum class CutRule {
-    weighted_fraction,  ///< the weight below is the share of the parts below
-    midpoint            ///< at that share of the extent: the literal reading of the paper
+    weighted_fraction,  ///< the share of the weight below the cut is the share of the parts below
+    midpoint            ///< the cut is at that share of the extent, as the paper literally says
 };
 
-/// Options of balance_as_in_paper(); must be the same on every rank, which is checked.
+/// Options of balance_as_in_paper(). They must be the same on every rank, which is checked.
 struct PaperOptions {
     int num_parts = 0;                              ///< parts to make; 0: one per rank
     std::vector<double> part_sizes{};               ///< as Options::part_sizes
@@ -42,15 +43,15 @@ struct PaperOptions {
 
 /// Divides the points of all ranks into parts by the paper's RRCB, or by its RCB. Collective.
 ///
-/// Every rank reduces its points to the moments of the cells of its support mesh; rank 0 gathers
+/// Every rank reduces its points to the moments of the cells of its support mesh. Rank 0 gathers
 /// them, draws random points from them, bisects these and broadcasts the cuts.
 /// @param points  of this rank
-/// @param options the same on every rank
+/// @param options must be the same on every rank
 /// @param comm    as for balance()
-/// @return as balance(); Report::imbalance is NaN, as nothing is counted
-/// Throws Error on every rank alike, as balance(). Cost: two reductions, one gathering of all
-/// cells (or of all points, for PaperDomain::points), two broadcasts; rank 0 holds all points drawn
-/// or gathered.
+/// @return as balance(); Report::imbalance is NaN, because nothing is counted
+/// Throws the same Error on every rank, as balance(). Cost: two reductions, one gathering of all
+/// cells (with PaperDomain::points, of all points), and two broadcasts; rank 0 stores all points
+/// that are drawn or gathered.
 RRCB_API Balance balance_as_in_paper(const Points& points, const PaperOptions& options,
                                      MPI_Comm comm);
 

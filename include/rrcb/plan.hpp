@@ -12,7 +12,7 @@ namespace rrcb {
 
 struct Balance;
 
-/// Consecutive ranks holding a part.
+/// Consecutive ranks that hold a part.
 struct RankRange {
     int first_rank = 0;  ///< the lowest of them
     int count = 1;       ///< of ranks
@@ -22,9 +22,10 @@ struct RankRange {
 
 /// Returns the ranks of a part, as Zoltan 13.2 assigns them. Not collective.
 ///
-/// Each rank has num_parts / num_ranks parts, and the last ranks one more each for the remainder.
-/// With fewer parts than ranks a part has num_ranks / num_parts consecutive ranks; the ranks left
-/// over go one each to the parts before the last. 5 parts on 3 ranks: {0}, {1, 2}, {3, 4}.
+/// Each rank has num_parts / num_ranks parts; the last ranks have one more each for the remainder.
+/// If there are fewer parts than ranks, each part has num_ranks / num_parts consecutive ranks; the
+/// remaining ranks go to the parts before the last one, one to each. Example: of 5 parts on 3
+/// ranks, rank 0 has part 0, rank 1 has parts 1 and 2, and rank 2 has parts 3 and 4.
 /// @param part      0 ... num_parts - 1
 /// @param num_parts 1 or more
 /// @param num_ranks 1 or more
@@ -37,18 +38,19 @@ struct RankCount {
     LocalIndex count = 0;  ///< of points
 };
 
-/// Points to send and to receive, for transfer(); entry k of each export or import list is one
-/// point.
+/// Points to send and to receive, for transfer(). Entry k of all export lists describes one point,
+/// and so does entry k of all import lists.
 struct Plan {
     LocalIndex num_points = 0;               ///< of this rank before
-    std::vector<LocalIndex> export_indices;  ///< of my leaving points, ascending
+    std::vector<LocalIndex> export_indices;  ///< points that leave this rank, ascending
     std::vector<int> export_ranks;           ///< their destinations
     std::vector<Part> export_parts;          ///< their new parts
-    std::vector<int> import_ranks;           ///< sources of my new points, ascending
-    std::vector<LocalIndex> import_indices;  ///< their index there, ascending per rank
+    std::vector<int> import_ranks;           ///< sources of the points that arrive, ascending
+    std::vector<LocalIndex> import_indices;  ///< their indices on the source, ascending for each
+                                             ///< rank
     std::vector<Part> import_parts;          ///< their new parts
     std::uint64_t group = 0;                 ///< as Cuts::group
-    std::uint64_t stamp = 0;                 ///< number of the plan on this rank; 0: made by hand
+    std::uint64_t stamp = 0;  ///< number of the plan on this rank; 0: made without plan()
 };
 
 /// Makes the export and import lists of the points whose rank changes. Collective.
@@ -58,17 +60,17 @@ struct Plan {
 /// @param parts     the new part, 0 ... num_parts - 1, of each point of this rank
 /// @param num_parts 1 or more, the same on every rank
 /// @param comm      of the ranks with points
-/// Throws Error on every rank alike if some rank gives other numbers. Cost: ceil(log2 R) messages
-/// from each of R ranks, one more from some, one reduction, and one message for each pair between
-/// which points move; memory for these points and their other ranks. None
-/// grows with the number of ranks or parts.
+/// Throws the same Error on every rank if a rank gives other numbers. Cost: ceil(log2 R) messages
+/// from each of R ranks, one more from some of them, one reduction, and one message for each pair
+/// of ranks between which points move; memory for these points and their other ranks. Memory does
+/// not grow with the number of ranks or of parts.
 [[nodiscard]] RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 
 /// Makes the same lists from a balance. Collective.
 ///
 /// @param balance of the points of this rank
 /// @param comm    of the balance, or a congruent one
-/// Throws Error on every rank also for another communicator.
+/// Throws the same Error on every rank, also if the communicator has other ranks.
 [[nodiscard]] RRCB_API Plan plan(const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -23,9 +23,10 @@ using Vector = std::array<double, 3>;  ///< a position or lengths, an entry per 
 
 inline constexpr int max_dimension = 3;  ///< most axes of points
 
-/// Axis-aligned closed box; axes beyond the dimension of the points are ignored.
+/// Axis-aligned closed box. Axes beyond the dimension of the points are ignored.
 ///
-/// The default is the empty box: lower above upper, neutral when boxes are joined.
+/// The default is the empty box, whose lower end is above the upper one; joining it with another
+/// box does not change that box.
 struct Box {
     /// Least coordinates.
     Vector lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
@@ -35,21 +36,23 @@ struct Box {
                  -std::numeric_limits<double>::infinity()};
 };
 
-/// Borrowed view of one rank's points, 1-D to 3-D, interleaved (xyzxyz...), one array per axis, or
-/// at any other stride, as members of structs are.
+/// Borrowed view of one rank's points in 1-D to 3-D. They may be interleaved (xyzxyz...), have one
+/// array per axis, or have any other stride, as members of structs have.
 ///
 /// Coordinate a of point i is `axes[a][i * stride]`; the axes may be in one array or in several.
-/// Floats are in `float_axes` instead, and count as the doubles of the same values. `weights` is
-/// empty on every rank with points (every point weighs 1), or holds one finite, non-negative
-/// weight per point. Weights of 0, or of one power of two, give the same bits as none; other equal
-/// ones may round a cut to a neighbouring point. The arrays must outlive the view. Nothing is
-/// checked here: `balance` checks on all ranks together; no rank fails alone.
+/// Floats are in `float_axes` instead, and are treated as doubles of the same values. `weights` is
+/// either empty on every rank with points (then every point weighs 1), or has one finite,
+/// non-negative weight for each point. If all weights are 0, or all are the same power of two, the
+/// result is bit-identical to that without weights; with other equal weights, rounding may move a
+/// cut by one point. The arrays must outlive the view. Nothing is checked here: balance() checks on
+/// all ranks together, so that no rank fails alone.
 struct Points {
-    int dimension = 0;       ///< 1 to 3, on every rank the same
+    int dimension = 0;       ///< 1 to 3, the same on every rank
     LocalIndex count = 0;    ///< points of this rank
-    std::size_t stride = 1;  ///< from a point to the next, in coordinates; not 0
-    std::array<std::span<const double>, max_dimension> axes{};       ///< from the first point on
-    std::span<const double> weights{};                               ///< one per point, or none
+    std::size_t stride = 1;  ///< distance from a point to the next, in coordinates; not 0
+    /// begin at the first point
+    std::array<std::span<const double>, max_dimension> axes{};
+    std::span<const double> weights{};                               ///< one per point, or empty
     std::array<std::span<const float>, max_dimension> float_axes{};  ///< in place of `axes`
 
     /// Returns true if coordinates are floats. Not collective, as all of these.
@@ -69,7 +72,7 @@ struct Points {
     }
 };
 
-/// Returns a view of points stored one after another. Not collective; nothing is copied.
+/// Returns a view of points that are stored one after the other. Not collective. Nothing is copied.
 ///
 /// @param coordinates doubles, a multiple of `dimension` of them; must outlive the view
 /// @param dimension   1 to 3
@@ -89,7 +92,7 @@ RRCB_API Points interleaved_floats(std::span<const float> coordinates, int dimen
 
 }  // namespace detail
 
-/// Returns the same view of floats, in an array of any kind. Not collective.
+/// Returns the same view of floats in any contiguous range. Not collective.
 ///
 /// @param coordinates floats; otherwise as above
 /// @param dimension   1 to 3
@@ -100,7 +103,7 @@ Points interleaved_points(const Floats& coordinates, int dimension,
     return detail::interleaved_floats(coordinates, dimension, weights);
 }
 
-/// Returns a view of one array per axis. Not collective; nothing is copied.
+/// Returns a view of one array per axis. Not collective. Nothing is copied.
 ///
 /// @param columns 1 to 3 arrays of the same length, which must outlive the view
 /// @param weights empty, or as long as a column

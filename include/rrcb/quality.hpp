@@ -11,23 +11,24 @@ namespace rrcb {
 
 struct Balance;
 
-/// Returns heaviest part / mean part: max_p (weight_p / size_p) * sum(size) / sum(weight). Not
-/// collective.
+/// Returns the imbalance, heaviest part / mean part: max_p (weight_p / size_p) * sum(size) /
+/// sum(weight). Not collective.
 ///
 /// @param part_weights weight of each part
 /// @param part_sizes   relative, one per part, or empty for equal parts
-/// @return 1 if there is no weight, NaN if the sum of the weights is not finite, infinite if a part
-/// of size 0 holds weight; other parts of size 0 are left out
-/// Throws Error if there are sizes for another number of parts.
+/// @return 1 if there is no weight; NaN if the sum of the weights is not finite; infinity if a part
+/// of size 0 has weight. Other parts of size 0 are ignored
+/// Throws Error if the number of sizes is not that of the parts.
 RRCB_API double imbalance(std::span<const double> part_weights,
                           std::span<const double> part_sizes = {});
 
-/// Returns the load unbalance of each part in percent: (ideal - actual) / ideal * 100, the Lu of
-/// the CILAMCE 2020 paper. Not collective.
+/// Returns the load unbalance of each part in percent: (ideal - actual) / ideal * 100, which is Lu
+/// in the paper of CILAMCE 2020. Not collective.
 ///
 /// @param part_weights weight of each part
 /// @param part_sizes   as for imbalance()
-/// @return one entry per part: negative if a part holds too much; 0 for a part of size 0
+/// @return one entry per part; it is negative if the part has too much weight, and 0 for a part of
+/// size 0
 RRCB_API std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
                                                     std::span<const double> part_sizes = {});
 
@@ -56,19 +57,19 @@ RRCB_API std::vector<double> part_weights(const Points& points, std::span<const 
 RRCB_API std::vector<double> part_weights(const Points& points, const Balance& balance,
                                           MPI_Comm comm);
 
-/// Returns the share of the weight, 0 ... 1, whose rank is not among the ranks of its new part.
-/// Collective: two reductions.
+/// Returns which share of the weight, from 0 to 1, has to move because its rank does not hold its
+/// new part. Collective: two reductions.
 ///
 /// @param points    of this rank
 /// @param parts     as for part_weights()
 /// @param num_parts as for part_weights()
 /// @param comm      as for part_weights()
-/// @return NaN if weights are
+/// @return NaN if weights are NaN
 /// Throws Error as part_weights().
 RRCB_API double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                                MPI_Comm comm);
 
-/// Returns the share of the weight moved by a balance of these points. Collective.
+/// Returns which share of the weight a balance of these points moves. Collective.
 ///
 /// @param points  of this rank
 /// @param balance of these points

@@ -14,7 +14,7 @@ namespace rrcb {
 
 namespace detail {
 
-/// Saves and loads what has private members.
+/// Saves and loads objects with private members.
 struct Restart {
     RRCB_API static std::vector<std::byte> save(const Controller& controller);
     RRCB_API static Controller load_controller(std::span<const std::byte> bytes, MPI_Comm comm);
@@ -23,32 +23,33 @@ RRCB_API Cuts load_cuts(std::span<const std::byte> bytes);
 
 }  // namespace detail
 
-/// Returns cuts as bytes, which a program may store and load() on any machine. Not collective.
+/// Returns cuts as bytes. A program may store them, and load() them on any machine. Not collective.
 ///
-/// Throws Error if they are no tree.
+/// Throws Error if the cuts are not a tree.
 RRCB_API std::vector<std::byte> save(const Cuts& cuts);
 
-/// Returns the state of a controller as bytes, the same on every rank. Collective over its ranks,
-/// and waits for the steps of all of them; the controller is not changed.
+/// Returns the state of a controller as bytes, which are the same on every rank. Collective over
+/// its ranks. Waits for the steps of all of them; the controller is not changed.
 ///
-/// At most 1 kB for cycles of 500 steps on 8 ranks: 24 bytes more for each rank, 80 for twice the
-/// steps. Throws Error on every rank alike if there is no memory, or as step().
+/// For cycles of 500 steps on 8 ranks it has at most 1 kB. Each further rank adds 24 bytes, and
+/// each doubling of the steps adds 80. Throws the same Error on every rank if there is no memory,
+/// or as step().
 inline std::vector<std::byte> save(const Controller& controller) {
     return detail::Restart::save(controller);
 }
 
-/// Restores a saved state: Cuts, not collective, or a Controller, collective.
+/// Restores a saved state: Cuts, which is not collective, or a Controller, which is.
 ///
 ///     std::vector<std::byte> state = rrcb::save(controller);  // to be written by one rank
 ///     controller = rrcb::load<rrcb::Controller>(state, comm);
 ///
-/// On as many ranks as before a controller goes on with the same bits. On another number it begins
-/// anew. Cuts keep their number of parts; on other ranks balance() ignores them unless
-/// Options::num_parts is that number.
-/// @param bytes of save(), the same on every rank, in either byte order
+/// On the same number of ranks, a controller continues with bit-identical results; on another
+/// number it starts anew. Cuts keep their number of parts; on another number of ranks balance()
+/// ignores them, unless Options::num_parts is that number of parts.
+/// @param bytes from save(), the same on every rank, in either byte order
 /// @param comm  as for the constructors; ignored for Cuts
-/// Throws Error, collective ones on every rank alike, if the bytes are truncated, of another kind,
-/// or from a newer version.
+/// Throws Error if the bytes are truncated, of another kind, or from a newer version. Collective
+/// calls throw it on every rank.
 template <class State>
 [[nodiscard]] State load(std::span<const std::byte> bytes, MPI_Comm comm) {
     if constexpr (std::is_same_v<State, Controller>)

@@ -2,12 +2,13 @@
 #define RRCB_H
 
 /** @file
- * The library in C. The functions are in the headers of rrcb/c/. Their comments are short: the C++
- * functions of the same names are documented in full.
+ * The library in C. The functions are in the headers of rrcb/c/. Their comments are short,
+ * because the C++ functions with the same names are documented in full.
  *
- * Every function that can fail returns RRCB_OK or another rrcb_code. From a collective function all
- * ranks of the communicator get the same code and text, except that a null handle is an error only
- * on its rank. No exception leaves a function. A handle is used by one thread at a time. */
+ * Every function that can fail returns RRCB_OK or another rrcb_code. A collective function
+ * returns the same code and text on all ranks of the communicator; only a null handle is an
+ * error on its own rank alone. No exception leaves a function. Use a handle in one thread at a
+ * time. */
 
 #include <rrcb/c/balancer.h>
 #include <rrcb/c/controller.h>
@@ -30,7 +31,7 @@ typedef enum rrcb_code {
     RRCB_INTERNAL_ERROR = 4    /**< an invariant does not hold */
 } rrcb_code;
 
-/** Returns the version of the library, as "major.minor.patch". Not collective; the string is
+/** Returns the version of the library, as "major.minor.patch". Not collective. The string is
  * static. */
 RRCB_API const char* rrcb_version(void);
 
@@ -38,8 +39,8 @@ RRCB_API const char* rrcb_version(void);
  */
 RRCB_API const char* rrcb_build_info(void);
 
-/** Returns the text of the last error on this thread: the place and the fix. Not collective; valid
- *  until the next error, empty if there was none. */
+/** Returns the text of the last error on this thread, which names the place and the fix. Not
+ * collective. The text is valid until the next error, and empty if there was none. */
 RRCB_API const char* rrcb_last_error(void);
 
 #ifdef __cplusplus

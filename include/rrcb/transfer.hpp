@@ -15,24 +15,25 @@
 
 namespace rrcb {
 
-/// Borrowed view of a column of the points: `components` consecutive values for each of them.
+/// Borrowed view of a column of the points: `components` consecutive values for each point.
 ///
-/// Values are trivially copyable, such as numbers or structs of numbers, but not bool, because a
-/// std::vector of bool is no array. Ranks compare the kind of the values (integer, floating-point
-/// or other), their size, and `components`.
+/// Values must be trivially copyable, such as numbers or structs of numbers. bool is not allowed,
+/// because a std::vector of bool is not an array. Ranks compare the kind of the values (integer,
+/// floating-point or other), their size, and `components`.
 template <class T>
 struct Column {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
 
-    std::span<const T> values;   ///< length: points * components
-    std::size_t components = 1;  ///< values of a point, >= 1
+    std::span<const T> values;   ///< of length points * components
+    std::size_t components = 1;  ///< number of values of each point, >= 1
 };
 
-/// A column whose array a call may write, and resize if the array can: see Neighbours. Elsewhere it
-/// is used as a Column.
+/// A column whose array a call may write, and resize if the array allows it; see Neighbours. Other
+/// calls use it as a Column.
 template <std::ranges::contiguous_range Array>
 struct WritableColumn : Column<std::ranges::range_value_t<Array>> {
-    Array* array;  ///< must outlive the view; `values` shows it as it was when the view was made
+    Array*
+        array;  ///< must outlive the view; `values` is the array as it was when the view was made
 };
 
 namespace detail {
@@ -51,7 +52,7 @@ template <std::ranges::contiguous_range Values>
 auto column(const Values& values, std::size_t components = 1) {
     return Column<std::ranges::range_value_t<Values>>{values, components};
 }
-/// Returns a view of an array that is not const, through which a call may write. Not collective.
+/// Returns a view of an array that is not const, which a call may write. Not collective.
 ///
 /// @param values     as above
 /// @param components as above
@@ -73,30 +74,32 @@ auto column(const WritableColumn<Array>& same) {
     return Column<std::ranges::range_value_t<Array>>{*same.array, same.components};
 }
 
-/// Joins several columns, to be moved in one message: columns(column(positions, 3), masses,
+/// Joins several columns, which are then sent in one message: columns(column(positions, 3), masses,
 /// numbers).
 template <class... Columns>
 auto columns(const Columns&... each) {
     return std::tuple(column(each)...);
 }
 
-/// Bounds of one call, the same on every rank.
+/// Limits of one call. They must be the same on every rank.
 struct TransferLimits {
-    /// Most memory for messages on each rank, besides the columns themselves: half for leaving
-    /// points, half for arriving ones. Each half must hold one point with all its columns.
+    /// Maximum memory for messages on each rank, in addition to the columns themselves: half of it
+    /// is for points that leave, half for points that arrive. Each half must have room for one
+    /// point with all its columns.
     std::size_t bytes = std::size_t{64} << 20;
 };
 
 /// Memory and messages of a call on this rank.
 struct TransferReport {
-    std::size_t peak_bytes = 0;    ///< most memory in use for messages at a time
-    std::size_t bytes_sent = 0;    ///< of columns
-    std::size_t num_messages = 0;  ///< sent
+    std::size_t peak_bytes = 0;    ///< largest memory in use for messages at the same time
+    std::size_t bytes_sent = 0;    ///< bytes of columns that were sent
+    std::size_t num_messages = 0;  ///< messages that were sent
 };
 
 namespace detail {
 
-/// Kind of a value: the same on every rank of a program, unlike an address or a name of its type.
+/// Kind of a value. Unlike an address or the name of a type, it is the same on every rank of a
+/// program.
 enum class ValueKind { integer, floating_point, other };
 
 template <class T>
@@ -104,7 +107,7 @@ inline constexpr ValueKind kind_of = std::is_integral_v<T>         ? ValueKind::
                                      : std::is_floating_point_v<T> ? ValueKind::floating_point
                                                                    : ValueKind::other;
 
-/// A column without its type, and the place of its result.
+/// A column without its C++ type, and the place of its result.
 struct ByteColumn {
     const std::byte* from;
     std::size_t num_values;
@@ -115,7 +118,7 @@ struct ByteColumn {
     std::byte* (*resize)(void* result, std::size_t num_values);
 };
 
-/// Throws Error for an array of fixed size. Returns nothing.
+/// Throws Error, because an array of fixed size cannot be resized. Never returns.
 RRCB_API std::byte* refuse_to_resize(std::size_t from, std::size_t to);
 
 template <class T>
@@ -133,7 +136,7 @@ ByteColumn byte_column(const Column<T>& column, std::vector<T>& result) {
             }};
 }
 
-/// Returns a column whose result is its own array. Its values are those of the array now.
+/// Returns a column whose result is its own array. Its values are those in the array now.
 template <class Array>
 ByteColumn byte_column(const WritableColumn<Array>& column) {
     using T = std::ranges::range_value_t<Array>;
@@ -170,7 +173,8 @@ std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column
             byte_column(std::get<I>(columns), std::get<I>(results))...};
     }
     (std::index_sequence_for<T...>{});
-    // Not in the lambda, where nvcc 13 finds no `move` that is declared later.
+    // This call is not in the lambda, because nvcc 13 does not find a `move` there that is declared
+    // later.
     move(plan, each, limits, report, comm);
     return results;
 }
@@ -195,33 +199,34 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 ///         rrcb::transfer(moves, rrcb::columns(rrcb::column(xyz, 3), mass), comm);
 ///
 /// @param plan    of the points of this rank
-/// @param columns the same in the same order on every rank, empty on a rank without points
+/// @param columns the same in the same order on every rank; empty on a rank without points
 /// @param comm    of the plan, or a congruent one
 /// @param limits  memory for messages, the same on every rank
 /// @param report  may be null
-/// @return a tuple of vectors for columns(), otherwise a vector: the staying points in their
-/// order, then the arriving ones in the order of the import lists; the same in separate calls
-/// Throws Error on every rank alike if one has columns or limits that do not fit the plan or the
-/// other ranks, or no memory; on one rank only if a message fails. Cost: as plan(); several
-/// messages for a pair beyond `limits.bytes`.
+/// @return a tuple of vectors for columns(), otherwise a vector: the points that stay in their
+/// order, then those that arrive in that of the import lists; separate calls give the same order
+/// Throws the same Error on every rank if columns or limits of one do not fit the plan or the other
+/// ranks, or if memory runs out; if a message fails, on its rank only. Cost: as plan(); several
+/// messages for a pair of ranks if one would exceed `limits.bytes`.
 template <class Columns>
 [[nodiscard]] auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
                             const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::moved(plan, columns, comm, limits, report);
 }
 
-/// Moves points along a plan within the vectors that hold them. Collective.
+/// Moves points along a plan within the vectors that contain them. Collective.
 ///
 ///     rrcb::transfer_in_place(moves, comm, rrcb::column(xyz, 3), rrcb::column(mass));
 ///
-/// Only points that move are copied: first the arriving ones, in the order of the import lists, to
-/// the end; then the last ones to the places of leaving ones, each in ascending order. Other points
-/// keep their indices, which transfer() changes. The same in separate calls.
+/// Copies only points that move: the arriving ones are appended in the order of the import lists;
+/// then the last points fill the places of those that leave, both in ascending order. All other
+/// points keep their indices, which they do not with transfer(). Separate calls give the same
+/// order.
 /// @param plan    of the points of this rank
 /// @param comm    of the plan, or a congruent one
 /// @param columns of different vectors, of the same types in the same order on every rank
-/// Throws Error as transfer(); then vectors are unchanged, unless a message fails. Cost: as
-/// transfer(), but no time for points that stay, except when a vector grows beyond its capacity.
+/// Throws Error as transfer(); the vectors are then unchanged, unless a message fails. Cost: as
+/// transfer(), but no time for points that stay, unless a vector grows beyond its capacity.
 template <class... Vectors>
 void transfer_in_place(const Plan& plan, MPI_Comm comm, const WritableColumn<Vectors>&... columns) {
     const std::array<detail::ByteColumn, sizeof...(Vectors)> each{detail::byte_column(columns)...};

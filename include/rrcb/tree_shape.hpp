@@ -4,33 +4,35 @@ namespace rrcb {
 
 /// Shape of a tree of cuts: the number of parts on each side of each cut.
 ///
-/// The tree divides groups of parts, then the parts of each group. A group may be the parts of one
-/// machine; by default it is a single part. A node above several groups halves their number, a node
-/// within a group the number of its parts.
+/// The tree first divides groups of parts, then the parts of each group. A group may be the parts
+/// of one machine; by default it is a single part. The cut of a node above several groups halves
+/// the number of groups; within a group it halves the number of parts.
 ///
-/// The ends of the tree, from the lowest, are the parts of the first group, of the second, and so
-/// on. End k is part k, unless parts are dealt.
+/// The ends of the tree are numbered from the lowest: first the ends of the first group, then those
+/// of the second, and so on. End k has part k, unless parts are dealt.
 struct TreeShape {
-    int group_size = 1;         ///< parts in a group, >= 1; the last group may have fewer
-    bool larger_below = false;  ///< side of the larger half of an odd number
-    int dealt = 0;  ///< consecutive parts dealt to a group before the next group gets its turn; 0:
-                    ///< all parts of a group are consecutive
+    int group_size = 1;         ///< number of parts in a group, >= 1; the last group may have fewer
+    bool larger_below = false;  ///< whether the larger half of an odd number is below the cut
+    int dealt = 0;  ///< number of consecutive parts dealt to a group before the next group gets its
+                    ///< turn; 0: all parts of a group are consecutive
 
-    /// Returns the number of a node's parts below its cut; `num_parts` >= 2. Not collective.
+    /// Returns how many of a node's parts are below its cut; `num_parts` must be at least 2. Not
+    /// collective.
     constexpr int lower_parts(int num_parts) const {
         if (group_size <= 1 || num_parts <= group_size) return lower_half(num_parts);
         return lower_half(num_groups(num_parts)) * group_size;
     }
 
-    /// Returns the part at an end of a tree of `num_parts`, for which number_fits(). Not
-    /// collective.
+    /// Returns the part at an end of a tree of `num_parts` parts. number_fits() must be true for
+    /// `num_parts`. Not collective.
     constexpr int part_at(int end, int num_parts) const {
         if (dealt == 0) return end;
         const int turn = end % group_size / dealt * num_groups(num_parts) + end / group_size;
         return turn * dealt + end % dealt;
     }
 
-    /// Returns the end of the tree of a part; the reverse of part_at(). Not collective.
+    /// Returns the end of the tree that has a part. This is the reverse of part_at(). Not
+    /// collective.
     constexpr int end_of(int part, int num_parts) const {
         if (dealt == 0) return part;
         const int turn = part / dealt;
@@ -38,15 +40,15 @@ struct TreeShape {
         return turn % groups * group_size + turn / groups * dealt + part % dealt;
     }
 
-    /// Returns true if so many parts can be dealt to the groups: all have as many, or the last one
-    /// turn less. Not collective.
+    /// Returns true if this number of parts can be dealt to the groups: all groups get the same
+    /// number, or the last group gets one turn less. Not collective.
     constexpr bool number_fits(int num_parts) const {
         if (dealt == 0) return true;
         return dealt > 0 && group_size % dealt == 0 && num_parts % dealt == 0 &&
                (num_parts % group_size == 0 || num_parts % group_size == group_size - dealt);
     }
 
-    /// Returns true if both give every node the same parts. Not collective.
+    /// Returns true if both shapes give every node the same numbers of parts. Not collective.
     friend constexpr bool operator==(const TreeShape& a, const TreeShape& b) {
         return a.group_size == b.group_size && a.larger_below == b.larger_below &&
                a.dealt == b.dealt;

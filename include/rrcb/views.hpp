@@ -26,7 +26,7 @@ concept StridedView = requires(const View& view) {
     view.stride(0);
 };
 
-/// Sets one axis. Throws nothing: balance() refuses a stride of 0 on all ranks together.
+/// Sets one axis. Does not throw, because balance() refuses a stride of 0 on all ranks together.
 template <Scalar T>
 void set_axis(Points& points, int axis, const T* first, LocalIndex count, std::ptrdiff_t stride) {
     if (axis == 0) points.count = count;
@@ -49,15 +49,15 @@ constexpr std::size_t rank_of() {
 
 template <StridedView View>
 auto data_of(const View& view) {
-    // The data_handle() of Kokkos 5 is no pointer.
+    // The data_handle() of Kokkos 5 is not a pointer, so data() comes first.
     if constexpr (requires { view.data(); })
         return view.data();
     else
         return view.data_handle();
 }
 
-/// True unless a view of Kokkos is in memory that only a device reads: its mirror is then
-/// elsewhere.
+/// True unless a view of Kokkos is in memory that only a device reads; such a view has its host
+/// mirror elsewhere.
 template <class View>
 constexpr bool host_reads() {
     if constexpr (requires { typename View::host_mirror_type; })
@@ -71,8 +71,8 @@ constexpr bool host_reads() {
 
 }  // namespace detail
 
-/// Returns a view of coordinates in members of structs: member_points(particles,
-/// &Particle::x, &Particle::y). Not collective. Set weights in the result.
+/// Returns a view of coordinates in members of structs: member_points(particles, &Particle::x,
+/// &Particle::y). Not collective. You can set weights in the result.
 ///
 /// @param structs a vector or an array of any kind
 /// @param first   member for the first axis, a double or a float
@@ -93,8 +93,8 @@ Points member_points(const Structs& structs, T Struct::*first, Others... others)
     return points;
 }
 
-/// Returns a view of positions in one member, an array: member_points(particles,
-/// &Particle::position). Not collective. Set a lower dimension in the result to use fewer axes.
+/// Returns a view of positions in one member, which is an array: member_points(particles,
+/// &Particle::position). Not collective. To use fewer axes, set a lower dimension in the result.
 ///
 /// @param structs  a vector or an array of any kind
 /// @param position member, an array of 1 to 3 doubles or floats; if it is a struct, fill Points
@@ -103,7 +103,7 @@ Points member_points(const Structs& structs, Position Struct::*position) {
     using Element = std::ranges::range_value_t<Structs>;
     using T = std::remove_cvref_t<decltype(std::declval<const Position&>()[0])>;
     static_assert(sizeof(Element) % sizeof(T) == 0, "structs must hold whole coordinates");
-    // A vector or a pointer has its numbers elsewhere.
+    // A vector or a pointer has its numbers in other memory.
     static_assert(detail::Scalar<T> && sizeof(Position) <= max_dimension * sizeof(T) &&
                       std::is_trivially_destructible_v<Position> && !std::is_pointer_v<Position>,
                   "the member must be an array of 1 to 3 doubles or floats");
@@ -116,7 +116,7 @@ Points member_points(const Structs& structs, Position Struct::*position) {
     return points;
 }
 
-/// Explains how to give positions that are no array.
+/// Explains at compile time what to do with positions that are not arrays.
 template <std::ranges::contiguous_range Structs, class Position, class Struct>
 requires(!detail::Scalar<Position> && !detail::Array<Position>) Points
     member_points(const Structs&, Position Struct::*) {
@@ -126,8 +126,8 @@ requires(!detail::Scalar<Position> && !detail::Array<Position>) Points
     return {};
 }
 
-/// Returns a view of a Kokkos::View in memory of the host, or a std::mdspan, of any layout with
-/// strides. Not collective. Elements are doubles or floats.
+/// Returns a view of a Kokkos::View in the memory of the host, or of a std::mdspan, with any
+/// strided layout. Not collective. The elements must be doubles or floats.
 ///
 /// @param first  points by axes, or the first axis
 /// @param others one view for each other axis, of the same extent and stride

@@ -1,4 +1,4 @@
-!> Arrays that calls make longer or shorter.
+!> Arrays that calls lengthen or shorten.
 module rrcb_arrays
   use, intrinsic :: iso_c_binding
   use rrcb_types
@@ -7,9 +7,10 @@ module rrcb_arrays
   private
   public :: arrays_in_c, points_in
 
-  !> Holds an allocatable array during calls that change its number of points, the last extent:
-  !> `call array%take(x)` moves x here without a copy, `call array%give(x)` moves it back. x is real(4),
-  !> real(8), integer(4) or integer(8), of shape (points) or (components, points).
+  !> Contains an allocatable array during calls that change its number of points, which is the last
+  !> extent: `call array%take(x)` moves x here without a copy, and `call array%give(x)` moves it
+  !> back. x is real(4), real(8), integer(4) or integer(8), with the shape (points) or (components,
+  !> points).
   type, public :: rrcb_array
     private
     integer(c_int) :: type = 0
@@ -31,7 +32,7 @@ module rrcb_arrays
 
 contains
 
-  !> Returns arrays as the library changes them.
+  !> Returns arrays in the form in which the library changes them.
   function arrays_in_c(arrays) result(in_c)
     type(rrcb_array), intent(in), target :: arrays(:)
     type(c_array) :: in_c(size(arrays))
@@ -69,7 +70,7 @@ contains
     end do
   end function
 
-  !> Changes the number of points of an array, whose address it returns; null if there is no memory.
+  !> Changes the number of points of an array. Returns its address, or null if there is no memory.
   function resize(owner, count) result(address) bind(c, name="")
     type(c_ptr), value :: owner
     integer(c_size_t), value :: count

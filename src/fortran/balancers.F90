@@ -1,4 +1,4 @@
-!> A balancer: communicator, options, cuts and plan.
+!> A balancer: it contains a communicator, options, cuts and a plan.
 module rrcb_balancers
   use, intrinsic :: iso_c_binding
   use rrcb_types
@@ -11,7 +11,7 @@ module rrcb_balancers
   implicit none
   private
 
-  !> A copy is the same balancer; one of them is destroyed.
+  !> A balancer. A copy refers to the same balancer, so destroy only one of them.
   type, public :: rrcb_balancer
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
@@ -71,7 +71,7 @@ contains
     call c_destroy(self%handle)
   end subroutine
 
-  !> Sets an option, such as ("refine", "EXACT"), the same on all ranks. Not collective.
+  !> Sets an option, such as ("refine", "EXACT"). It must be the same on all ranks. Not collective.
   !> @param option its name in rrcb::Options
   !> @param value  as docs/parameters.md lists them
   subroutine set(self, option, value, error)
@@ -81,7 +81,7 @@ contains
     call settle(c_set(self%handle, trim(option)//c_null_char, trim(value)//c_null_char), error)
   end subroutine
 
-  !> Sets the relative weights of the parts. Not collective, but the same on all ranks.
+  !> Sets the relative weights of the parts, which must be the same on all ranks. Not collective.
   subroutine set_part_sizes(self, sizes, error)
     class(rrcb_balancer), intent(inout) :: self
     real(c_double), intent(in), contiguous :: sizes(:)
@@ -89,9 +89,9 @@ contains
     call settle(c_set_part_sizes(self%handle, size(sizes, kind=c_size_t), sizes), error)
   end subroutine
 
-  !> Divides the points of all ranks into parts; starts from the cuts of the balancer, if it has any,
-  !> and keeps the new ones. Collective. With refine NONE, and after another num_parts,
-  !> unless it is 0, or dimension, call clear_cuts before.
+  !> Divides the points of all ranks into parts. Starts from the cuts of the balancer, if it has
+  !> any, and keeps the new ones. Collective. Call clear_cuts before, if the option refine is NONE,
+  !> if the dimension has changed, or if num_parts has changed and is not 0.
   !> @param points of this rank
   !> @param parts  gets the new part of each
   subroutine balance(self, points, parts, error)
@@ -117,8 +117,7 @@ contains
     call settle(c_get_report(self%handle, report), error)
   end subroutine
 
-  !> Copies the cuts. Not collective. Fails before the first balance, and if the balancer holds only a
-  !> part of the cuts.
+  !> Copies the cuts. Not collective. Fails before the first balance.
   subroutine get_cuts(self, cuts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_cuts), intent(inout) :: cuts
@@ -203,7 +202,7 @@ contains
     call settle(c_assign(self%handle, points, place_of(parts, points%count)), error)
   end subroutine
 
-  !> Finds the parts of points, and fails on all ranks alike. Collective.
+  !> Finds the parts of points; if one rank fails, all fail in the same way. Collective.
   !> @param points any positions
   !> @param parts  gets the part of each
   subroutine assign_all(self, points, parts, error)
@@ -226,9 +225,9 @@ contains
     call settle(c_box_of(self%handle, part, lower, upper), error)
   end subroutine
 
-  !> Finds the parts that a closed box touches. Not collective.
-  !> @param lower end of the box, an entry for each axis
-  !> @param upper end of the box
+  !> Finds the parts that touch a closed box. Not collective.
+  !> @param lower lower end of the box, an entry for each axis
+  !> @param upper upper end of the box
   !> @param parts gets their numbers, ascending
   subroutine parts_touching(self, lower, upper, parts, error)
     class(rrcb_balancer), intent(in) :: self
@@ -249,8 +248,8 @@ contains
     call settle(code, error)
   end subroutine
 
-  !> Makes the plan of a move into the parts given, one for each point. Refuses fewer than were
-  !> balanced, or assigned since. Collective.
+  !> Makes the plan of a move into the given parts, one for each point. Fails if there are fewer
+  !> points than were balanced, or assigned since. Collective.
   subroutine make_plan(self, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     integer(c_int32_t), intent(in), contiguous :: parts(:)
@@ -275,9 +274,10 @@ contains
     plan%import_parts = numbers_at(from%import_parts, from%num_imports)
   end subroutine
 
-  !> Moves columns by the plan: first the points that stay, then those that come. Collective.
+  !> Moves columns along the plan: the points that stay come first, then those that arrive.
+  !> Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param limit   maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
   subroutine transfer_columns(self, columns, error, limit, report)
     class(rrcb_balancer), intent(inout) :: self
@@ -295,8 +295,8 @@ contains
   !> Numbers the parts of the cuts so that many points stay. Collective.
   !> @param parts          the new part of each point
   !> @param numbers        numbers(p + 1) gets the new number of part p
-  !> @param previous       the part that each point was in; without it points stay on their ranks
-  !> @param ranks_of_parts the ranks of part p at p + 1; without it as by rrcb_ranks_of_part
+  !> @param previous       the part that each point was in; without it points should stay on their ranks
+  !> @param ranks_of_parts the ranks of part p at p + 1; by default those of rrcb_ranks_of_part
   !> @param report         gets how many points stay
   subroutine remap(self, parts, numbers, error, previous, ranks_of_parts, report)
     class(rrcb_balancer), intent(inout) :: self
@@ -332,10 +332,10 @@ contains
       size(weights, kind=c_size_t), weights), error)
   end subroutine
 
-  !> Finds the share of the weight whose rank changes. Collective.
+  !> Finds which share of the weight has to move to another rank. Collective.
   !> @param points   of this rank
   !> @param parts    the new part of each
-  !> @param fraction gets the share, 0 to 1
+  !> @param fraction gets the share, from 0 to 1
   subroutine moved_fraction(self, points, parts, fraction, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points

@@ -1,5 +1,5 @@
-!> Structures of the library in C, only for the other modules. `size` is that of the structure, beyond
-!> which the library reads and writes nothing.
+!> Structures of the library in C, only for the other modules. `size` is the size of the structure,
+!> beyond which the library reads and writes nothing.
 module rrcb_c_types
   use, intrinsic :: iso_c_binding
   implicit none
@@ -79,7 +79,7 @@ module rrcb_c_types
 
 contains
 
-  !> Returns limits of so many bytes, by default those of the library.
+  !> Returns limits of this many bytes, or the library's default.
   pure function limits_of(bytes) result(limits)
     integer(c_size_t), intent(in), optional :: bytes
     type(c_limits) :: limits

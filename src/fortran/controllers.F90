@@ -10,7 +10,7 @@ module rrcb_controllers
   implicit none
   private
 
-  !> Decides when to rebalance. A copy is the same controller; one of them is destroyed.
+  !> Decides when to rebalance. A copy refers to the same controller, so destroy only one of them.
   type, public :: rrcb_controller
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
@@ -58,7 +58,7 @@ contains
     call c_controller_destroy(self%handle)
   end subroutine
 
-  !> Records a step that took this rank `load` of its own work, without waiting. Collective.
+  !> Records a step in which this rank's own work took `load`, without waiting. Collective.
   subroutine controller_step(self, load, error)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: load
@@ -69,8 +69,8 @@ contains
 
   !> Records a step and smooths the load; prefer it for measured loads. Collective.
   !> @param load   of this rank's own work, without waiting
-  !> @param weight of this rank's points: the sum of the weights balanced by, their number only
-  !> without weights
+  !> @param weight of this rank's points: the sum of the weights given to balance; without weights their
+  !> number
   subroutine controller_step_weight(self, load, weight, error)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: load, weight
@@ -88,7 +88,7 @@ contains
     due = c_controller_due(self%handle, answer) == rrcb_ok .and. answer == 1
   end function
 
-  !> Records a rebalance. Called on all ranks, without communication.
+  !> Records a rebalance. Call it on all ranks; it does not communicate.
   !> @param report of the balance
   !> @param cost   on this rank, in the unit of the loads
   subroutine controller_rebalanced(self, report, cost, error)
@@ -99,7 +99,8 @@ contains
     call settle(c_controller_rebalanced(self%handle, report, cost), error)
   end subroutine
 
-  !> Records a rebalance by a balancer without a report. On all ranks, without communication.
+  !> Records a rebalance by a balancer without a report. Call it on all ranks; it does not
+  !> communicate.
   subroutine controller_rebalanced_cost(self, cost, error)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: cost
@@ -107,7 +108,7 @@ contains
     call settle(c_controller_rebalanced(self%handle, cost=cost), error)
   end subroutine
 
-  !> Returns the state as bytes, the same on every rank. Collective.
+  !> Returns the state as bytes, which are the same on every rank. Collective.
   subroutine controller_save(self, bytes, error)
     class(rrcb_controller), intent(in) :: self
     integer(c_int8_t), allocatable, intent(inout) :: bytes(:)

@@ -13,7 +13,7 @@ module rrcb_experimental
   private
   public :: rrcb_join_keys
 
-  !> Learns the costs of points. A copy is the same model; one of them is destroyed.
+  !> Learns the costs of points. A copy refers to the same model, so destroy only one of them.
   type, public :: rrcb_cost_model
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
@@ -41,7 +41,7 @@ contains
 #ifdef RRCB_MPI_F08
   !> Does the same with the type of `use mpi_f08`.
   !> @param comm        may be freed before the model
-  !> @param controller  carries the sums with its steps: is destroyed later, has recorded none
+  !> @param controller  carries the sums with its steps; it must have recorded none, and outlive the model
   !> @param num_columns the same on every rank
   subroutine cost_model_create_by_type(self, comm, controller, num_columns, error)
     class(rrcb_cost_model), intent(inout) :: self
@@ -65,8 +65,8 @@ contains
 #endif
 
   !> Writes one key for each point of overlapping groups. Collective.
-  !> @param balancer whose communicator is used, not its cuts
-  !> @param keys     of shape (keys of a point, points); -1 for those that a point lacks
+  !> @param balancer whose communicator is used; its cuts are not
+  !> @param keys     of shape (keys of a point, points); -1 in place of missing keys
   !> @param joined   gets one for each point, for create()
   subroutine rrcb_join_keys(balancer, keys, joined, error)
     class(rrcb_balancer), intent(in) :: balancer
@@ -82,7 +82,7 @@ contains
       size(keys, 1, kind=c_size_t), from, to), error)
   end subroutine
 
-  !> Returns the state as bytes, the same on every rank. Collective.
+  !> Returns the state as bytes, which are the same on every rank. Collective.
   subroutine cost_model_save(self, bytes, error)
     class(rrcb_cost_model), intent(in) :: self
     integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
@@ -93,7 +93,7 @@ contains
   !> Makes a model that continues from saved bytes. Collective over the communicator.
   !> @param comm       may be freed before the model
   !> @param bytes      the same on every rank
-  !> @param controller loaded before, is destroyed later
+  !> @param controller must have been loaded before, and must outlive the model
   subroutine cost_model_load(self, comm, bytes, error, controller)
     class(rrcb_cost_model), intent(inout), target :: self
     integer, intent(in) :: comm
@@ -109,7 +109,7 @@ contains
 
   !> Makes a model. Collective over the communicator.
   !> @param comm        may be freed before the model
-  !> @param controller  carries the sums with its steps: is destroyed later, has recorded none
+  !> @param controller  carries the sums with its steps; it must have recorded none, and outlive the model
   !> @param num_columns the same on every rank
   subroutine cost_model_create(self, comm, controller, num_columns, error)
     class(rrcb_cost_model), intent(inout), target :: self
@@ -149,7 +149,7 @@ contains
     call settle(c_cost_model_step(self%handle, seconds, size(columns, kind=c_size_t), columns), error)
   end subroutine
 
-  !> Writes the weights of points. Called on all ranks, without communication.
+  !> Writes the weights of points. Call it on all ranks; it does not communicate.
   !> @param columns of shape (columns, points)
   !> @param weights gets one for each point
   subroutine cost_model_weights(self, columns, weights, error)
@@ -174,7 +174,7 @@ contains
     if (c_cost_model_num_columns(self%handle, answer) == rrcb_ok) num_columns = answer
   end function
 
-  !> Writes the cost of a unit of each column. Not collective.
+  !> Writes the seconds that one unit of each column costs. Not collective.
   subroutine cost_model_costs(self, costs, error)
     class(rrcb_cost_model), intent(in) :: self
     real(c_double), intent(inout), contiguous :: costs(:)
@@ -182,7 +182,8 @@ contains
     call settle(c_cost_model_costs(self%handle, size(costs, kind=c_size_t), costs), error)
   end subroutine
 
-  !> Returns whether weights are by the costs; false for a model that was not created. Not collective.
+  !> Returns whether the weights use the costs; false for a model that was not created. Not
+  !> collective.
   function cost_model_uses_costs(self) result(uses_costs)
     class(rrcb_cost_model), intent(in) :: self
     logical :: uses_costs
@@ -191,7 +192,7 @@ contains
     uses_costs = c_cost_model_uses_costs(self%handle, answer) == rrcb_ok .and. answer == 1
   end function
 
-  !> Returns a sentence: whether costs are used, and why. Not collective.
+  !> Returns a sentence that explains whether costs are used, and why. Not collective.
   function cost_model_report(self) result(text)
     class(rrcb_cost_model), intent(in) :: self
     character(:), allocatable :: text

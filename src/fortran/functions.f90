@@ -26,7 +26,7 @@ contains
     end do
   end function
 
-  !> Copies the bytes that a function of C shows.
+  !> Copies the bytes that a function in C returns.
   subroutine save_by(show, handle, bytes, error)
     procedure(save_state) :: show
     type(c_ptr), intent(in) :: handle
@@ -51,8 +51,9 @@ contains
     three(:min(size(values), 3)) = values(:min(size(values), 3))
   end function
 
-  !> Gives the caller the code of a function in C. Without `error` an error ends the program on this
-  !> rank. One of the ranks on which the same call fails prints the text.
+  !> Gives the caller the code of a function in C. If the argument `error` is not present, an error
+  !> ends the program on this rank, and one of the ranks on which the same call fails prints the
+  !> text.
   subroutine settle(code, error)
     integer(c_int), intent(in) :: code
     integer, intent(out), optional :: error
@@ -74,7 +75,7 @@ contains
     text = text_of(c_version())
   end function
 
-  !> Returns version, commit, compiler, MPI and options of the library.
+  !> Returns the version, commit, compiler, MPI and options of the library.
   function rrcb_build_info() result(text)
     character(:), allocatable :: text
     text = text_of(c_build_info())
@@ -110,7 +111,8 @@ contains
     call settle(c_ranks_of_part(part, num_parts, num_ranks, ranks), error)
   end subroutine
 
-  !> Returns the address of weights of parts; null, which fails, if there are not as many sizes.
+  !> Returns the address of the weights of parts. If the number of sizes differs, returns null, and
+  !> the call fails.
   function weights_at(part_weights, part_sizes) result(address)
     real(c_double), intent(in), target, contiguous :: part_weights(:)
     real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
@@ -122,7 +124,7 @@ contains
     if (size(part_weights) > 0) address = c_loc(part_weights)
   end function
 
-  !> Computes heaviest part / mean part.
+  !> Computes the weight of the heaviest part divided by the mean.
   !> @param part_weights weight of each part
   !> @param imbalance    gets the ratio
   !> @param part_sizes   relative, one for each part
@@ -135,7 +137,7 @@ contains
       address_of(part_sizes), imbalance), error)
   end subroutine
 
-  !> Computes (ideal - actual) / ideal * 100 of each part.
+  !> Computes (ideal - actual) / ideal * 100 for the weight of each part.
   !> @param part_weights weight of each part
   !> @param percent      gets one for each part
   !> @param part_sizes   relative, one for each part

@@ -9,10 +9,11 @@ module rrcb_ghost_lists
   private
   public :: copy_lists
 
-  !> Needs of radii that do not fit the points, see src/c/ghosts_mpi.cpp: they fail on all ranks.
+  !> Value of needs for radii that do not fit the points, see src/c/ghosts_mpi.cpp; the call fails
+  !> on all ranks.
   integer(c_int), parameter :: wrong_radii = -1
 
-  !> A copy is the same ghosts; one of them is destroyed.
+  !> Ghosts. A copy refers to the same ghosts, so destroy only one of them.
   type, public :: rrcb_ghosts
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
@@ -28,15 +29,15 @@ module rrcb_ghost_lists
 
 contains
 
-  !> Finds the points that other ranks need, from the cuts. Collective.
-  !> @param balancer       whose ranks have the points
-  !> @param points         of this rank, after transfer; refused if they are those of the balance or
-  !> of assign_all, and one has yet to leave its rank
-  !> @param radius         cut-off of all points
+  !> Finds from the cuts the points that other ranks need. Collective.
+  !> @param balancer       to whose ranks the points were transferred
+  !> @param points         of this rank, after transfer. The points of the balance or of assign_all are
+  !> refused if one of them has yet to leave its rank
+  !> @param radius         cut-off radius of all points
   !> @param radii          one for each point instead
-  !> @param lower          end of a periodic box
-  !> @param upper          the other end
-  !> @param ranks_of_parts the ranks of part p at p + 1; without it as by rrcb_ranks_of_part
+  !> @param lower          lower end of a periodic box
+  !> @param upper          upper end of the box
+  !> @param ranks_of_parts the ranks of part p at p + 1; by default those of rrcb_ranks_of_part
   !> @param needs          whose radii count: rrcb_needs_sender by default, _receiver or _either
   subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts, needs)
     class(rrcb_ghosts), intent(inout), target :: self
@@ -84,7 +85,7 @@ contains
     call copy_lists(from, plan)
   end subroutine
 
-  !> Copies the lists that C shows.
+  !> Copies the lists that the function in C returns.
   subroutine copy_lists(from, plan)
     type(c_ghost_plan), intent(in) :: from
     type(rrcb_ghost_plan), intent(inout) :: plan
@@ -105,7 +106,7 @@ contains
 
   !> Fetches columns of the ghosts from those of the points. Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param limit   maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
@@ -120,10 +121,10 @@ contains
       columns_in_c(columns, plan%num_points, plan%num_ghosts), limits_of(limit), report), error)
   end subroutine
 
-  !> Fetches rows that the ranks of the ghosts send back: `from` has an entry for each ghost, `to` gets
-  !> one for each of send_indices of the plan. Collective.
+  !> Fetches rows that the ranks of the ghosts send back: `from` has an entry for each ghost, `to`
+  !> gets one for each entry of send_indices of the plan. Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param limit   maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
   subroutine reply(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
@@ -140,7 +141,7 @@ contains
 
   !> Adds columns of the ghosts, `from`, to those of their points, `to`. Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param limit   maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
   subroutine accumulate(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self

@@ -1,4 +1,4 @@
-!> Points that go to one part together.
+!> Groups of points that go to one part together.
 module rrcb_group_lists
   use, intrinsic :: iso_c_binding
   use rrcb_types
@@ -8,7 +8,7 @@ module rrcb_group_lists
   implicit none
   private
 
-  !> A copy is the same groups; one of them is destroyed.
+  !> Groups. A copy refers to the same groups, so destroy only one of them.
   type, public :: rrcb_groups
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
     integer(c_size_t), private :: num_points = 0
@@ -23,10 +23,11 @@ module rrcb_group_lists
 contains
 
   !> Finds the groups of points with equal keys. Collective.
-  !> @param balancer       whose communicator is used, not its cuts
+  !> @param balancer       whose communicator is used; its cuts are not
   !> @param points         of this rank
-  !> @param keys           one for each point; -1 for a point without others
-  !> @param at_first_point .true.: a group is at its first point; otherwise at its centre of weight
+  !> @param keys           one for each point; -1 for a point that is in no group
+  !> @param at_first_point .true.: the position of a group is that of its first point; otherwise it is its
+  !> centre of weight
   subroutine create(self, balancer, points, keys, error, at_first_point)
     class(rrcb_groups), intent(inout), target :: self
     class(rrcb_balancer), intent(in) :: balancer
@@ -59,9 +60,9 @@ contains
     call settle(c_groups_points(self%handle, points), error)
   end subroutine
 
-  !> Fetches columns of the points from those of their groups, such as parts. Collective.
+  !> Fetches for each point the values of its group, for example its part. Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param limit   maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_groups), intent(in) :: self

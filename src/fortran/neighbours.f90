@@ -12,9 +12,10 @@ module rrcb_neighbour_lists
   implicit none
   private
 
-  !> The procedures wait only for neighbours. If one fails on a rank, it fails on the neighbours in the
-  !> same call, on theirs in the next; then all ranks destroy these and create others. A copy is the
-  !> same neighbours; one of them is destroyed.
+  !> Neighbours. Their procedures wait only for neighbours. If one fails on a rank, it fails on the
+  !> neighbours in the same call, and on their neighbours in the next one; then all ranks must
+  !> destroy these and create others. A copy refers to the same neighbours, so destroy only one of
+  !> them.
   type, public :: rrcb_neighbours
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
@@ -33,13 +34,13 @@ module rrcb_neighbour_lists
 
 contains
 
-  !> Finds the neighbours by the cuts. Collective.
+  !> Finds the neighbours from the cuts. Collective.
   !> @param balancer       with all cuts
-  !> @param radius         cut-off of ghosts, the greatest of radii
+  !> @param radius         cut-off radius of ghosts, the largest of all radii
   !> @param travel         distance that a point may move between two calls of migrate
-  !> @param lower          end of a periodic box
-  !> @param upper          the other end
-  !> @param ranks_of_parts the ranks of part p at p + 1; without it as by rrcb_ranks_of_part
+  !> @param lower          lower end of a periodic box
+  !> @param upper          upper end of the box
+  !> @param ranks_of_parts the ranks of part p at p + 1; by default those of rrcb_ranks_of_part
   !> @param needs          whose radii count: rrcb_needs_sender by default, _receiver or _either
   subroutine create(self, balancer, error, radius, travel, lower, upper, ranks_of_parts, needs)
     class(rrcb_neighbours), intent(inout), target :: self
@@ -68,9 +69,10 @@ contains
     call c_neighbours_destroy(self%handle)
   end subroutine
 
-  !> Sends points that have left the parts of this rank to their ranks, and takes theirs.
-  !> @param columns hold the arrays of all points, reallocated if their number changes; the first one
-  !> the positions(dimension, points)
+  !> Sends points that have left the parts of this rank to their ranks, and takes the points that
+  !> arrive.
+  !> @param columns contain the arrays of all points, which are reallocated if their number changes; the
+  !> first one contains positions(dimension, points)
   !> @param axes    if present, the first `axes` columns are the coordinates along one axis each
   subroutine migrate(self, columns, error, axes)
     class(rrcb_neighbours), intent(in) :: self
@@ -83,7 +85,7 @@ contains
       size(columns, kind=c_size_t), in_c), error)
   end subroutine
 
-  !> Finds the points that other ranks need. Without messages, except by the radii of receivers.
+  !> Finds the points that other ranks need. Sends messages only with the radii of receivers.
   !> @param points of this rank
   !> @param radii  one for each point, at most `radius` of create
   subroutine find_ghosts(self, points, error, radii)
@@ -98,8 +100,8 @@ contains
   end subroutine
 
   !> Fetches columns of the ghosts.
-  !> @param columns rrcb_column(x, x) of each column x of the points; the second x is not used
-  !> @param ghosts  hold an array of the same type for each column, reallocated for the ghosts
+  !> @param columns rrcb_column(x, x) for each column x of the points; the second x is not used
+  !> @param ghosts  contain an array of the same type for each column, which is reallocated for the ghosts
   subroutine fetch(self, columns, ghosts, error)
     class(rrcb_neighbours), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -133,11 +135,11 @@ contains
       columns_in_c(columns, plan%num_ghosts, plan%num_points)), error)
   end subroutine
 
-  !> Replaces shared entries by the sums of all ranks that list them.
+  !> Replaces shared entries by the sums over all ranks that list them.
   !> @param shared_ranks neighbours with entries in common, ascending
   !> @param counts       number of these entries for each
-  !> @param indices      of the entries for the first rank, then for the next; the same order there
-  !> @param columns      rrcb_column(f, f) of each array f of entries, which is changed
+  !> @param indices      of the entries for the first rank, then for the next; in the same order there
+  !> @param columns      rrcb_column(f, f) for each array f of entries, which is changed
   subroutine sum_shared(self, shared_ranks, counts, indices, columns, error)
     class(rrcb_neighbours), intent(in) :: self
     integer(c_int), intent(in) :: shared_ranks(:)

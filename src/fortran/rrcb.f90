@@ -1,10 +1,11 @@
-!> The library in Fortran 2008, over rrcb/rrcb.h, whose comments are the manual.
+!> The library in Fortran 2008. It calls the functions of rrcb/rrcb.h, whose comments are the
+!> manual.
 !>
-!> Every procedure that can fail sets `error` to rrcb_ok or another code; from a collective one all
-!> ranks get the same. Without the argument `error` it stops the program with the text. Points, axes
-!> and components count from 1, parts and ranks from 0, as those of MPI do. Arrays of points have the
-!> shape (dimension, points). A communicator is the integer of `mpif.h` and `use mpi`, or the type of
-!> `use mpi_f08` if MPI had that module.
+!> Every procedure that can fail sets `error` to rrcb_ok or another code; a collective procedure
+!> sets the same code on all ranks. Without the argument `error`, an error stops the program with
+!> its text. Points, axes and components count from 1, but parts and ranks from 0, as those of MPI
+!> do. Arrays of points have the shape (dimension, points). A communicator is the integer of
+!> `mpif.h` and `use mpi`, or the type of `use mpi_f08` if MPI has that module.
 module rrcb
   use rrcb_types, only: rrcb_ok, rrcb_invalid_argument, rrcb_out_of_memory, rrcb_mpi_error, &
     rrcb_internal_error, rrcb_float, rrcb_double, rrcb_needs_sender, rrcb_needs_receiver, &

@@ -1,5 +1,6 @@
-!> Types of the procedures' arguments. Points and columns are views of contiguous arrays, which
-!> have the attribute `target` and are not copied. `size` is that of the type in bytes: leave it.
+!> Types of the procedures' arguments. Points and columns are views of contiguous arrays, which must
+!> have the attribute `target` and are not copied. `size` is the size of the type in bytes; do not
+!> change it.
 module rrcb_types
   use, intrinsic :: iso_c_binding
   implicit none
@@ -8,11 +9,12 @@ module rrcb_types
   integer, parameter, public :: rrcb_ok = 0, rrcb_invalid_argument = 1, rrcb_out_of_memory = 2, &
     rrcb_mpi_error = 3, rrcb_internal_error = 4
   integer(c_int), parameter, public :: rrcb_float = 3, rrcb_double = 4
-  !> Whose radius counts, if points have different ones.
+  !> Determines whose radius counts if points have different radii.
   integer(c_int), parameter, public :: rrcb_needs_sender = 0, rrcb_needs_receiver = 1, rrcb_needs_either = 2
   integer(c_int), parameter, public :: type_int32 = 1, type_int64 = 2
   integer(c_int), parameter :: type_byte = 5
-  !> Types of points whose arrays do not fit together, see src/c/points.cpp: they fail on all ranks.
+  !> Types for points whose arrays do not fit together, see src/c/points.cpp; calls with them fail
+  !> on all ranks.
   integer(c_int), parameter :: wrong_weights = 11, wrong_axis = 12, wrong_shape = 13, wrong_radii = 14
 
   !> View of the points of this rank; coordinate a of point i is at axes(a) + (i - 1)*stride bytes.
@@ -25,9 +27,9 @@ module rrcb_types
     type(c_ptr) :: axes(3) = c_null_ptr, weights = c_null_ptr
   end type
 
-  !> A column of the points, and room for its result; made by rrcb_column(from, to). For another type
-  !> give the bytes of a point first: rrcb_column(c_sizeof(x(1)), c_loc(x), c_loc(to)); the lengths of
-  !> these are not checked.
+  !> A column of the points, and memory for its result, made by rrcb_column(from, to). For other
+  !> types give the number of bytes of a point first: rrcb_column(c_sizeof(x(1)), c_loc(x),
+  !> c_loc(to)); the lengths of such arrays are not checked.
   type, public :: rrcb_column
     integer(c_int) :: type = type_byte
     integer(c_size_t) :: components = 1
@@ -35,7 +37,7 @@ module rrcb_types
     integer(c_size_t) :: num_from = huge(0_c_size_t), num_to = huge(0_c_size_t) !< points they hold
   end type
 
-  !> A column as C has it.
+  !> A column in the form that C uses.
   type, public, bind(c) :: c_column
     integer(c_size_t) :: size = 40
     integer(c_int) :: type = type_byte
@@ -43,18 +45,18 @@ module rrcb_types
     type(c_ptr) :: from = c_null_ptr, to = c_null_ptr
   end type
 
-  !> One cut; at(axis) is its plane.
+  !> One cut. Its plane is at(axis).
   type, public, bind(c) :: rrcb_cut
     integer(c_int32_t) :: axis = 1, divides = 0
     real(c_double) :: at(3) = 0
   end type
 
-  !> The tree of cuts in preorder, one less than there are parts.
+  !> The tree of cuts in preorder. It has one cut less than there are parts.
   type, public :: rrcb_cuts
     integer :: dimension = 0, group_size = 1, dealt = 0
     logical :: larger_below = .false.
     type(rrcb_cut), allocatable :: tree(:)
-    !> Part of each end of the tree; not allocated: by the shape.
+    !> Part at each end of the tree; not allocated: the shape determines it.
     integer(c_int32_t), allocatable :: numbers(:)
     real(c_double) :: debt = 0  !< for the next balance
   end type
@@ -78,7 +80,8 @@ module rrcb_types
     integer(c_int32_t), allocatable :: export_parts(:), import_parts(:)
   end type
 
-  !> Lists of the points sent and received as ghosts; shifts(axis, ghost) of a periodic box.
+  !> Lists of the points sent and received as ghosts; shifts(axis, ghost) are those of a periodic
+  !> box.
   type, public :: rrcb_ghost_plan
     integer(c_size_t) :: num_points = 0, num_ghosts = 0
     integer(c_int), allocatable :: send_ranks(:), receive_ranks(:)
@@ -96,7 +99,7 @@ module rrcb_types
     integer(c_size_t) :: size = 32, peak_bytes = 0, bytes_sent = 0, num_messages = 0
   end type
 
-  !> Points that stay under the new numbers of parts, and under the old ones.
+  !> Number of points that stay with the new numbers of parts, and with the old ones.
   type, public, bind(c) :: rrcb_remap_report
     integer(c_size_t) :: size = 40
     integer(c_int) :: identity = 1
@@ -108,13 +111,13 @@ module rrcb_types
     procedure :: interleaved_doubles, interleaved_reals
   end interface
 
-  !> Returns a view of an array for each axis, of one length.
+  !> Returns a view of one array for each axis; all must have the same length.
   interface rrcb_column_points
     procedure :: columns_of_doubles, columns_of_reals
   end interface
 
-  !> Returns a column of one value for each point, of shape (components, points), or of bytes. The
-  !> arrays may be longer than needed.
+  !> Returns a column with one value for each point, with the shape (components, points), or of
+  !> bytes. The arrays may be longer than needed.
   interface rrcb_column
     procedure :: column_of_reals, column_of_doubles, column_of_integers, column_of_longs, &
       vectors_of_reals, vectors_of_doubles, vectors_of_integers, vectors_of_longs, column_of_bytes
@@ -125,7 +128,7 @@ module rrcb_types
 
 contains
 
-  !> Returns the address of weights or other numbers, null if there are none.
+  !> Returns the address of weights or other numbers; null if they are not present.
   function address_of(values) result(address)
     real(c_double), pointer, contiguous, intent(in), optional :: values(:)
     type(c_ptr) :: address
@@ -134,7 +137,8 @@ contains
     if (size(values) > 0) address = c_loc(values)
   end function
 
-  !> Returns the address for a new handle; null if one is there, which fails on all ranks.
+  !> Returns the address for a new handle; null if there is a handle already, and the call fails on
+  !> all ranks.
   function room_for(handle) result(address)
     type(c_ptr), target, intent(in) :: handle
     type(c_ptr) :: address
@@ -142,7 +146,8 @@ contains
     if (.not. c_associated(handle)) address = c_loc(handle)
   end function
 
-  !> Returns the address of an array with `count` entries; otherwise null, which fails on all ranks.
+  !> Returns the address of an array if it has `count` entries; otherwise null, and the call fails
+  !> on all ranks.
   function place_of(parts, count) result(address)
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
     integer(c_size_t), intent(in) :: count
@@ -151,8 +156,8 @@ contains
     if (size(parts, kind=c_size_t) >= count .and. size(parts) > 0) address = c_loc(parts)
   end function
 
-  !> Returns columns for calls that read and write so many points. An array that is too short gets
-  !> no address, which fails on all ranks.
+  !> Returns columns for calls that read and write this many points. An array that is too short gets
+  !> no address, and the call fails on all ranks.
   function columns_in_c(columns, num_read, num_written) result(in_c)
     type(rrcb_column), intent(in) :: columns(:)
     integer(c_size_t), intent(in) :: num_read, num_written
@@ -166,7 +171,7 @@ contains
     end do
   end function
 
-  !> Copies indices of points from a list of C; here they count from 1.
+  !> Copies indices of points from a list of C. In Fortran they count from 1.
   function indices_at(address, count) result(indices)
     type(c_ptr), intent(in) :: address
     integer(c_size_t), intent(in) :: count
@@ -220,7 +225,7 @@ contains
     if (present(z)) call add_axis(size(z, kind=c_size_t), z, points)
   end function
 
-  !> Returns a view of interleaved points of `extents`, (dimension, count).
+  !> Returns a view of interleaved points with the extents (dimension, count).
   function interleaved(type, extents, first, weights) result(points)
     integer(c_int), intent(in) :: type
     integer(c_size_t), intent(in) :: extents(2)
@@ -244,7 +249,7 @@ contains
     end do
   end function
 
-  !> Makes calls with these points fail, except of a fault before; `extent` does not fit.
+  !> Makes calls with these points fail because `extent` does not fit. An earlier fault is kept.
   pure subroutine note_fault(fault, extent, points)
     integer(c_int), intent(in) :: fault
     integer(c_size_t), intent(in) :: extent
@@ -254,14 +259,14 @@ contains
     points%stride = extent
   end subroutine
 
-  !> Makes calls with these points fail unless there are as many radii.
+  !> Makes calls with these points fail unless the number of radii is that of the points.
   pure subroutine check_number(count, points)
     integer(c_size_t), intent(in) :: count
     type(rrcb_points), intent(inout) :: points
     if (count /= points%count) call note_fault(wrong_radii, count, points)
   end subroutine
 
-  !> Adds an axis of as many coordinates.
+  !> Adds an axis with as many coordinates as there are points.
   subroutine add_axis(count, first, points)
     integer(c_size_t), intent(in) :: count
     type(*), target, intent(in) :: first(*)
@@ -277,7 +282,8 @@ contains
     bytes = merge(4, 8, type == rrcb_float)
   end function
 
-  !> Returns a column of arrays of extents (components, points), with components of `from`.
+  !> Returns a column of arrays with the extents (components, points); `from` determines the
+  !> components.
   function column_of(type, of_from, from, of_to, to) result(column)
     integer(c_int), intent(in) :: type
     integer(c_size_t), intent(in) :: of_from(2), of_to(2)

@@ -24,7 +24,8 @@ RRCB_API void rrcb_controller_destroy(rrcb_controller** controller);
 /** Records a step. Collective.
  *
  * @param controller of this loop
- * @param load       of this rank's own work, without waiting, in the unit of the costs
+ * @param load       of this rank's own work, without waiting, in the unit of the costs of
+ * rebalances
  * @param due        gets 1 if a rebalance is due, else 0; may be null */
 RRCB_API int rrcb_controller_step(rrcb_controller* controller, double load, int* due);
 
@@ -32,8 +33,8 @@ RRCB_API int rrcb_controller_step(rrcb_controller* controller, double load, int*
  *
  * @param controller of this loop
  * @param load       as for rrcb_controller_step
- * @param weight     of this rank's points: the sum of the weights balanced by; their number only
- * without weights
+ * @param weight     of this rank's points: the sum of the weights given to rrcb_balance; without
+ * weights their number
  * @param due        as for rrcb_controller_step */
 RRCB_API int rrcb_controller_step_weight(rrcb_controller* controller, double load, double weight,
                                          int* due);
@@ -44,15 +45,16 @@ RRCB_API int rrcb_controller_step_weight(rrcb_controller* controller, double loa
  * @param due        gets 1 or 0 */
 RRCB_API int rrcb_controller_due(const rrcb_controller* controller, int* due);
 
-/** Records a rebalance. Called on all ranks, without communication.
+/** Records a rebalance. Call it on all ranks; it does not communicate.
  *
  * @param controller of this loop
- * @param report     of the balance, by rrcb_get_report; or null
- * @param cost       on this rank, with all that it moved, in the unit of the loads */
+ * @param report     of the balance, from rrcb_get_report; or null
+ * @param cost       of the rebalance on this rank, including everything that it moved, in the
+ * unit of the loads */
 RRCB_API int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* report,
                                         double cost);
 
-/** Shows the state as bytes, the same on every rank, as rrcb::save. Collective.
+/** Returns the state as bytes, which are the same on every rank, as rrcb::save. Collective.
  *
  * @param controller owns the bytes until the next call
  * @param bytes      gets their address
@@ -63,7 +65,7 @@ RRCB_API int rrcb_controller_save(rrcb_controller* controller, const void** byte
  *
  * @param comm       may be freed before the controller
  * @param bytes      the same on every rank
- * @param size       number of them
+ * @param size       their number
  * @param controller as for rrcb_balancer_create */
 RRCB_API int rrcb_controller_load(MPI_Comm comm, const void* bytes, size_t size,
                                   rrcb_controller** controller);

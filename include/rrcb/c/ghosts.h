@@ -7,43 +7,43 @@
 extern "C" {
 #endif
 
-/** Points that ranks send and receive as ghosts, and their communicator. */
+/** Points that ranks send and receive as ghosts, with their communicator. */
 typedef struct rrcb_ghosts rrcb_ghosts;
 
-/** Whose radius counts, if points have different ones; as rrcb::Needs. */
+/** Determines whose radius counts if points have different radii; as rrcb::Needs. */
 typedef enum rrcb_needs {
-    RRCB_NEEDS_SENDER = 0,   /**< the points whose radii reach a part */
-    RRCB_NEEDS_RECEIVER = 1, /**< those within the radius of a point of a part */
-    RRCB_NEEDS_EITHER = 2    /**< both */
+    RRCB_NEEDS_SENDER = 0,   /**< a rank gets the points whose radii reach one of its parts */
+    RRCB_NEEDS_RECEIVER = 1, /**< it gets the points within the radius of one of its points */
+    RRCB_NEEDS_EITHER = 2    /**< it gets both */
 } rrcb_needs;
 
-/** Distances at which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
+/** Distances within which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
     size_t size;         /**< of this struct, set by RRCB_GHOST_OPTIONS_INIT */
     double radius;       /**< cut-off of all points, in the unit of the coordinates; 0: not given */
-    const double* radii; /**< one for each point instead, 0 or more; null on every rank that has
-                              points: none */
-    const double* lower; /**< of the periodic box, of length 3; null: none */
-    const double* upper; /**< of the same box */
+    const double* radii; /**< one for each point instead, 0 or more; null on all ranks
+                              with points: not given */
+    const double* lower; /**< lower end of the periodic box, of length 3; null: no box */
+    const double* upper; /**< upper end of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
-                                              as by rrcb_ranks_of_part */
+                                              those of rrcb_ranks_of_part */
     size_t num_parts;                      /**< length of `ranks_of_parts`, 0 if that is null */
     int64_t needs;                         /**< an rrcb_needs */
 } rrcb_ghost_options;
 
-/** No radius yet, no periodic box, the needs of senders. */
+/** Options without a radius and without a periodic box, with the needs of senders. */
 #define RRCB_GHOST_OPTIONS_INIT \
     { sizeof(rrcb_ghost_options), 0, NULL, NULL, NULL, NULL, 0, RRCB_NEEDS_SENDER }
 
-/** Lists of points sent and received as ghosts, as rrcb::GhostPlan; indices count from 0. */
+/** Lists of the points sent and received as ghosts, as rrcb::GhostPlan; indices count from 0. */
 typedef struct rrcb_ghost_plan {
     size_t size;                    /**< of this struct, set by RRCB_GHOST_PLAN_INIT */
-    size_t num_points;              /**< that this rank holds */
-    size_t num_ghosts;              /**< that it gets */
+    size_t num_points;              /**< points of this rank */
+    size_t num_ghosts;              /**< ghosts of this rank */
     size_t num_send_ranks;          /**< length of `send` */
     const rrcb_rank_count* send;    /**< points that each rank needs; ranks ascending */
     size_t num_sent;                /**< length of `send_indices` */
-    const size_t* send_indices;     /**< for the first rank, ascending, then for the next */
+    const size_t* send_indices;     /**< for the first rank ascending, then for the next, ... */
     size_t num_receive_ranks;       /**< length of `receive` */
     const rrcb_rank_count* receive; /**< ghosts from each rank; ranks ascending */
     const int32_t* shifts;          /**< three for each ghost: periods along each axis; null without
@@ -56,9 +56,9 @@ typedef struct rrcb_ghost_plan {
 
 /** Finds the points that other ranks need, as rrcb::ghosts. Collective.
  *
- * @param balancer with the cuts, whose ranks have the points; not needed afterwards
- * @param points   of this rank, after rrcb_transfer; refused if they are those of the balance or
- * of rrcb_assign_all, and one has yet to leave its rank
+ * @param balancer with the cuts whose parts the points are in; not needed afterwards
+ * @param points   of this rank, after rrcb_transfer. The points of the balance or of
+ * rrcb_assign_all are refused if one of them has yet to leave its rank
  * @param options  radius, periodic box, ranks of the parts
  * @param ghosts   as for rrcb_balancer_create */
 RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
@@ -69,7 +69,7 @@ RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points
  * @param ghosts as for rrcb_balancer_destroy */
 RRCB_API void rrcb_ghosts_destroy(rrcb_ghosts** ghosts);
 
-/** Shows the lists. Not collective.
+/** Gives access to the lists. Not collective.
  *
  * @param ghosts own the lists
  * @param plan   gets a view of them */
@@ -78,7 +78,7 @@ RRCB_API int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* pl
 /** Fetches columns of the ghosts, as rrcb::fetch. Collective.
  *
  * @param ghosts      may be used again as long as no point changes its index
- * @param num_columns the same on every rank
+ * @param num_columns must be the same on every rank
  * @param columns     `from` has num_points entries of the plan, `to` room for num_ghosts
  * @param limits      null: the default
  * @param report      may be null */
@@ -89,20 +89,21 @@ RRCB_API int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns,
 /** Fetches rows that the ranks of the ghosts send back, as rrcb::reply. Collective.
  *
  * @param ghosts      as for rrcb_ghosts_fetch
- * @param num_columns the same on every rank
- * @param columns     `from` has an entry for each ghost, `to` room for num_sent of the plan
+ * @param num_columns must be the same on every rank
+ * @param columns     `from` has an entry for each ghost, `to` has room for num_sent of the plan
  * @param limits      null: the default
  * @param report      may be null */
 RRCB_API int rrcb_ghosts_reply(const rrcb_ghosts* ghosts, size_t num_columns,
                                const rrcb_column* columns, const rrcb_transfer_limits* limits,
                                rrcb_transfer_report* report);
 
-/** Adds values of ghosts to those of their points, such as forces, as rrcb::accumulate. Collective.
+/** Adds values of ghosts, for example forces, to the values of their points, as rrcb::accumulate.
+ * Collective.
  *
  * @param ghosts      as for rrcb_ghosts_fetch
- * @param num_columns the same on every rank
- * @param columns     `from` has an entry for each ghost, `to` the values of the points, which are
- * added to; no type is RRCB_BYTE
+ * @param num_columns must be the same on every rank
+ * @param columns     `from` has an entry for each ghost, `to` has the values of the points, to
+ * which they are added; RRCB_BYTE is not allowed
  * @param limits      null: the default
  * @param report      may be null
  * If it fails, `to` is unchanged, except on a rank on which a message fails. */
@@ -112,7 +113,7 @@ RRCB_API int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_column
 
 /** Moves fetched positions to those of the images, as rrcb::apply_shifts. Not collective.
  *
- * @param ghosts    that the positions were fetched for
+ * @param ghosts    for which the positions were fetched
  * @param positions num_ghosts of them, interleaved, in columns or in structs; the arrays are
  * changed */
 RRCB_API int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, const rrcb_points* positions);

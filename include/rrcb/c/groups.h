@@ -10,20 +10,20 @@ extern "C" {
 /** Key of a point that is a group of its own. */
 #define RRCB_NO_GROUP UINT64_MAX
 
-/** Points that go to one part together, as one point each; as rrcb::Groups. */
+/** Groups of points, each of which goes to one part as a single point; as rrcb::Groups. */
 typedef struct rrcb_groups rrcb_groups;
 
 /** Position of a group, as rrcb::GroupPlace. */
 typedef enum rrcb_group_place {
-    RRCB_CENTRE = 0,     /**< of weight */
-    RRCB_FIRST_POINT = 1 /**< of the lowest rank that has one */
+    RRCB_CENTRE = 0,     /**< centre of weight */
+    RRCB_FIRST_POINT = 1 /**< position of the first point on the lowest rank */
 } rrcb_group_place;
 
 /** Finds the groups of all points with equal keys, as rrcb::groups. Collective.
  *
- * @param balancer whose communicator is used, not its cuts
+ * @param balancer whose communicator is used; its cuts are not
  * @param points   of this rank
- * @param keys     one for each point; RRCB_NO_GROUP for a point that needs none
+ * @param keys     one for each point; RRCB_NO_GROUP for a point that is in no group
  * @param place    an rrcb_group_place, the same on every rank
  * @param groups   as for rrcb_balancer_create */
 RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
@@ -34,28 +34,30 @@ RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points
  * @param groups as for rrcb_balancer_destroy */
 RRCB_API void rrcb_groups_destroy(rrcb_groups** groups);
 
-/** Shows the groups of this rank as points, for rrcb_balance. Not collective.
+/** Gives access to the groups of this rank as points, for rrcb_balance. Not collective.
  *
  * @param groups own the points
  * @param points get a view of them */
 RRCB_API int rrcb_groups_points(const rrcb_groups* groups, rrcb_points* points);
 
-/** Fetches columns with the values of the groups of points, such as parts, as rrcb::fetch.
+/** Fetches for each point the values of its group, for example its part, as rrcb::fetch.
  * Collective.
  *
  * @param groups      of these points
- * @param num_columns the same on every rank
- * @param columns     `from` has an entry for each group of this rank, `to` room for each point
+ * @param num_columns must be the same on every rank
+ * @param columns     `from` has an entry for each group of this rank, `to` has room for each
+ * point
  * @param limits      null: the default
  * @param report      may be null */
 RRCB_API int rrcb_groups_fetch(const rrcb_groups* groups, size_t num_columns,
                                const rrcb_column* columns, const rrcb_transfer_limits* limits,
                                rrcb_transfer_report* report);
 
-/** Writes the sums of values over the points of each group of this rank, as rrcb::sums. Collective.
+/** Writes the sums of values over the points of each group of this rank, as rrcb::sums.
+ * Collective.
  *
  * @param groups     of these points
- * @param components sums for each group
+ * @param components number of values of each point
  * @param values     `components` for each point of this rank
  * @param sums       gets `components` for each group of this rank */
 RRCB_API int rrcb_groups_sums(const rrcb_groups* groups, size_t components, const double* values,

@@ -7,48 +7,50 @@
 extern "C" {
 #endif
 
-/** The ranks near this one, and memory for exchanges with them, as rrcb::Neighbours.
+/** The ranks near this one, with memory for exchanges with them, as rrcb::Neighbours.
  *
- * Its functions wait only for neighbours. If one fails on a rank, it fails on the neighbours in the
- * same call, on theirs in the next; then all ranks destroy their neighbours and create others. A
- * null array of columns on one rank is such a failure too. A null handle is an error on its rank
- * only: it names no neighbours, which then wait for the call. */
+ * Its functions wait only for neighbours. If one fails on a rank, it fails on the neighbours in
+ * the same call, and on their neighbours in the next call. Then all ranks must destroy their
+ * neighbours and create others. A null array of columns on one rank is such a failure, too. A
+ * null handle is an error on its own rank only: no neighbours are known from it, so they wait
+ * for the call. */
 typedef struct rrcb_neighbours rrcb_neighbours;
 
-/** Distances within which ranks are neighbours, one of them above 0, and the ranks of the parts; as
- * rrcb::NeighbourOptions. The same on every rank. */
+/** Distances within which ranks are neighbours, and the ranks of the parts; as
+ * rrcb::NeighbourOptions. At least one distance must be above 0. The options must be the same on
+ * every rank. */
 typedef struct rrcb_neighbour_options {
     size_t size;   /**< of this struct, set by RRCB_NEIGHBOUR_OPTIONS_INIT */
-    double radius; /**< cut-off of ghosts, in the unit of the coordinates; the greatest of radii */
-    double travel; /**< that a point may move between two calls of rrcb_neighbours_migrate */
-    const double* lower;                   /**< of the periodic box, of length 3; null: none */
-    const double* upper;                   /**< of the same box */
+    double radius; /**< cut-off of ghosts, in the unit of the coordinates; the largest radius */
+    double travel; /**< distance that a point may move between two calls of migrate */
+    const double* lower;                   /**< lower end of the periodic box; null: no box */
+    const double* upper;                   /**< upper end of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< as in rrcb_ghost_options */
     size_t num_parts;                      /**< length of `ranks_of_parts`, 0 if that is null */
     int64_t needs;                         /**< an rrcb_needs */
 } rrcb_neighbour_options;
 
-/** No distances yet, no periodic box, the needs of senders. */
+/** Options without distances and without a periodic box, with the needs of senders. */
 #define RRCB_NEIGHBOUR_OPTIONS_INIT \
     { sizeof(rrcb_neighbour_options), 0, 0, NULL, NULL, NULL, 0, RRCB_NEEDS_SENDER }
 
-/** An array that calls make longer or shorter, as a std::vector. If it has no room for the points
- * that arrive, the call makes room: no point is lost unless there is no memory. */
+/** An array that calls lengthen or shorten, like a std::vector. If it has no room for the points
+ * that arrive, the call makes room, so that no point is lost unless memory runs out. */
 typedef struct rrcb_array {
-    size_t size;       /**< of this struct, set by RRCB_ARRAY_INIT; of all in an array the same */
+    size_t size;       /**< of this struct, set by RRCB_ARRAY_INIT; the same in an array of these */
     int32_t type;      /**< of the values, an rrcb_type, the same on every rank */
     size_t components; /**< values of a point; its bytes for RRCB_BYTE */
-    void* values;      /**< of malloc() or null; the call moves it by realloc(), you free() it */
-    size_t count;      /**< points that it holds; set by the call */
-    size_t capacity;   /**< points that it has room for, `count` or more; set by the call */
-    /** Null: realloc(). Otherwise called instead, with `owner`, if `count` changes: keeps the first
-     * values and returns their address, or null if there is no memory. `capacity` is then unused.
-     */
+    void* values;      /**< from malloc(), or null; calls may realloc() it, and you free() it */
+    size_t count;      /**< points in it; set by the call */
+    size_t capacity;   /**< points for which it has room, at least `count`; set by the call */
+    /** If it is null, calls use realloc(). Otherwise they call resize(owner, count) when `count`
+     * changes. It must keep the first values and return their address, or null if there is no
+     * memory; `capacity` is then not used. */
     void* (*resize)(void* owner, size_t count);
-    void* owner; /**< of the array, for `resize` */
+    void* owner; /**< your object that owns the array; passed to `resize` */
 } rrcb_array;
 
-/** An array without values of a type. */
+/** An array of this type without values. */
 #define RRCB_ARRAY_INIT(type, components) \
     { sizeof(rrcb_array), (int32_t)(type), components, NULL, 0, 0, NULL, NULL }
 
@@ -56,9 +58,9 @@ typedef struct rrcb_array {
 typedef struct rrcb_shared_entries {
     size_t size;                  /**< of this struct, set by RRCB_SHARED_ENTRIES_INIT */
     size_t num_ranks;             /**< length of `ranks` */
-    const rrcb_rank_count* ranks; /**< number shared with each neighbour, by ascending rank */
+    const rrcb_rank_count* ranks; /**< entries shared with each neighbour; ranks ascending */
     size_t num_indices;           /**< length of `indices` */
-    const size_t* indices;        /**< of the entries for the first rank, then for the next */
+    const size_t* indices; /**< of these entries: for the first rank, then for the next, ... */
 } rrcb_shared_entries;
 
 /** No entries. */
@@ -79,57 +81,59 @@ RRCB_API int rrcb_neighbours_create(const rrcb_balancer* balancer,
  * @param neighbours as for rrcb_balancer_destroy */
 RRCB_API void rrcb_neighbours_destroy(rrcb_neighbours** neighbours);
 
-/** Sends points that have left the parts of this rank to their ranks, and takes theirs, in place;
- * as rrcb::Neighbours::migrate. With all neighbours.
+/** Sends points that have left the parts of this rank to their ranks, and takes the points that
+ * arrive, in place; as rrcb::Neighbours::migrate. Exchanges messages with all neighbours.
  *
- * @param neighbours  whose ghosts end if a point moves
+ * @param neighbours  whose ghosts are no longer valid if a point moves
  * @param positions   view of the points, which are also in `columns`
- * @param num_columns the same on every rank
- * @param columns     each has as many points as `positions`, and gets the new number of them
- * Fails for a point in a part of no neighbour, which all arrays still hold. */
+ * @param num_columns must be the same on every rank
+ * @param columns     each has as many points as `positions`, and gets the new number of points
+ * Fails if a point is in a part that no neighbour holds; all arrays still contain that point. */
 RRCB_API int rrcb_neighbours_migrate(rrcb_neighbours* neighbours, const rrcb_points* positions,
                                      size_t num_columns, rrcb_array* columns);
 
-/** Finds the points that other ranks need, as rrcb::Neighbours::find_ghosts. Without messages,
+/** Finds the points that other ranks need, as rrcb::Neighbours::find_ghosts. Sends no messages,
  * except with RRCB_NEEDS_RECEIVER or RRCB_NEEDS_EITHER.
  *
  * @param neighbours get the lists
  * @param points     of this rank
- * @param radii      one for each point, at most `radius` of the options; null: that one */
+ * @param radii      one for each point, at most `radius` of the options; null: `radius` for all */
 RRCB_API int rrcb_neighbours_find_ghosts(rrcb_neighbours* neighbours, const rrcb_points* points,
                                          const double* radii);
 
-/** Fetches columns of the ghosts, as rrcb::Neighbours::fetch. With all neighbours.
+/** Fetches columns of the ghosts, as rrcb::Neighbours::fetch. Exchanges messages with all
+ * neighbours.
  *
  * @param neighbours  with ghosts
- * @param num_columns the same on every rank
- * @param columns     addresses of columns of the points, of the types of `ghosts`
- * @param ghosts      an array for each column; gets the number of ghosts */
+ * @param num_columns must be the same on every rank
+ * @param columns     addresses of columns of the points, which have the types of `ghosts`
+ * @param ghosts      an array for each column; gets a value for each ghost */
 RRCB_API int rrcb_neighbours_fetch(rrcb_neighbours* neighbours, size_t num_columns,
                                    const void* const* columns, rrcb_array* ghosts);
 
-/** Adds values of ghosts to those of their points, as rrcb::Neighbours::accumulate. With all
- * neighbours.
+/** Adds values of ghosts to those of their points, as rrcb::Neighbours::accumulate. Exchanges
+ * messages with all neighbours.
  *
  * @param neighbours  whose ghosts were fetched
- * @param num_columns the same on every rank
+ * @param num_columns must be the same on every rank
  * @param columns     as for rrcb_ghosts_accumulate */
 RRCB_API int rrcb_neighbours_accumulate(rrcb_neighbours* neighbours, size_t num_columns,
                                         const rrcb_column* columns);
 
-/** Replaces shared entries by the sums of all ranks that list them, as rrcb::Neighbours::sum. With
- * all neighbours.
+/** Replaces shared entries by the sums over all ranks that list them, as rrcb::Neighbours::sum.
+ * Exchanges messages with all neighbours.
  *
  * @param neighbours  that share entries
  * @param shared      lists of entries
  * @param num_entries of this rank, shared or not
- * @param num_columns the same on every rank
- * @param columns     `to` has the entries, `from` is not used; no type is RRCB_BYTE */
+ * @param num_columns must be the same on every rank
+ * @param columns     `to` has the entries, `from` is not used; RRCB_BYTE is not allowed */
 RRCB_API int rrcb_neighbours_sum(rrcb_neighbours* neighbours, const rrcb_shared_entries* shared,
                                  size_t num_entries, size_t num_columns,
                                  const rrcb_column* columns);
 
-/** Shows the lists of the ghosts; `receive` and `shifts` since they were fetched. Not collective.
+/** Gives access to the lists of the ghosts; `receive` and `shifts` are valid after a fetch. Not
+ * collective.
  *
  * @param neighbours own the lists, until the next call
  * @param plan       gets a view of them */
@@ -137,12 +141,12 @@ RRCB_API int rrcb_neighbours_ghosts(const rrcb_neighbours* neighbours, rrcb_ghos
 
 /** Moves fetched positions to those of the images, as rrcb_ghosts_apply_shifts. Not collective.
  *
- * @param neighbours that the positions were fetched from
+ * @param neighbours from which the positions were fetched
  * @param positions  one for each ghost; the arrays are changed */
 RRCB_API int rrcb_neighbours_apply_shifts(const rrcb_neighbours* neighbours,
                                           const rrcb_points* positions);
 
-/** Shows the ranks of the neighbours. Not collective.
+/** Gives access to the ranks of the neighbours. Not collective.
  *
  * @param neighbours own the ranks
  * @param count      gets their number

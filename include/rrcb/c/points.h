@@ -10,18 +10,18 @@
 extern "C" {
 #endif
 
-/* Structs that may get more members begin with their size in bytes. Initialise each by the macro of
- * its name, such as rrcb_points by RRCB_POINTS_INIT: the library reads and writes no byte beyond.
- * New members come at the end; 0 means that they are not given. A struct without a size never
- * changes. */
+/* Structs that may get more members in later versions begin with their size in bytes. Initialise
+ * each by the macro with its name, for example rrcb_points by RRCB_POINTS_INIT: the library
+ * reads and writes no byte beyond this size. New members come at the end; 0 means that they are
+ * not given. A struct without a size never changes. */
 
-/** Type of a value; 0 is none. */
+/** Type of a value; 0 stands for no type. */
 typedef enum rrcb_type {
     RRCB_INT32 = 1,  /**< int32_t */
     RRCB_INT64 = 2,  /**< int64_t */
     RRCB_FLOAT = 3,  /**< float */
     RRCB_DOUBLE = 4, /**< double */
-    RRCB_BYTE = 5    /**< of a value of any other type: such values are moved, not added */
+    RRCB_BYTE = 5    /**< byte of any other type; such values can be moved, but not added */
 } rrcb_type;
 
 /** Borrowed view of one rank's points, as rrcb::Points.
@@ -29,15 +29,15 @@ typedef enum rrcb_type {
  *  Coordinate a of point i is at axes[a] + i * stride bytes. */
 typedef struct rrcb_points {
     size_t size;           /**< of this struct, set by RRCB_POINTS_INIT */
-    int dimension;         /**< 1 to 3, on every rank the same */
+    int dimension;         /**< 1 to 3, the same on every rank */
     int32_t type;          /**< of the coordinates, RRCB_DOUBLE or RRCB_FLOAT */
     size_t count;          /**< points of this rank */
-    size_t stride;         /**< from a point to the next, in bytes */
-    const void* axes[3];   /**< first coordinate on each axis */
-    const double* weights; /**< one per point; null on every rank that has points: all weigh 1 */
+    size_t stride;         /**< distance from a point to the next, in bytes */
+    const void* axes[3];   /**< addresses of the first point's coordinates */
+    const double* weights; /**< one per point; null on all ranks with points: all weigh 1 */
 } rrcb_points;
 
-/** A view of no points of no dimension. */
+/** A view of dimension 0 without points. */
 #define RRCB_POINTS_INIT \
     { sizeof(rrcb_points), 0, 0, 0, 0, {NULL, NULL, NULL}, NULL }
 

@@ -7,7 +7,8 @@
 extern "C" {
 #endif
 
-/** Writes heaviest part / mean part, as rrcb::imbalance. Not collective.
+/** Writes the weight of the heaviest part divided by the mean, as rrcb::imbalance. Not
+ * collective.
  *
  * @param num_parts    length of the arrays
  * @param part_weights weight of each part
@@ -16,8 +17,8 @@ extern "C" {
 RRCB_API int rrcb_imbalance(size_t num_parts, const double* part_weights, const double* part_sizes,
                             double* imbalance);
 
-/** Writes (ideal - actual) / ideal * 100 of each part, as rrcb::load_unbalance_percent. Not
- * collective.
+/** Writes (ideal - actual) / ideal * 100 for the weight of each part, as
+ * rrcb::load_unbalance_percent. Not collective.
  *
  * @param num_parts    length of the arrays
  * @param part_weights weight of each part
@@ -55,13 +56,13 @@ RRCB_API int rrcb_balanced_sizes(size_t num_parts, const double* loads, const do
 RRCB_API int rrcb_part_weights(const rrcb_balancer* balancer, const rrcb_points* points,
                                const int32_t* parts, size_t num_parts, double* part_weights);
 
-/** Writes the share of the weight whose rank is not among those of its new part, as
+/** Writes which share of the weight has to move, because its rank does not hold its new part; as
  * rrcb::moved_fraction. Collective.
  *
  * @param balancer with cuts
  * @param points   of this rank
  * @param parts    the new part of each point
- * @param fraction gets the share, 0 ... 1 */
+ * @param fraction gets the share, from 0 to 1 */
 RRCB_API int rrcb_moved_fraction(const rrcb_balancer* balancer, const rrcb_points* points,
                                  const int32_t* parts, double* fraction);
 

@@ -8,13 +8,13 @@
 
 namespace rrcb {
 
-/// Range in which the cut of the real points is expected, across its axis.
+/// Range across the axis of a cut in which the cut of the real points is expected.
 struct Bracket {
     double lower = 0;  ///< least coordinate of the range
     double upper = 0;  ///< greatest coordinate of the range
 };
 
-/// Cuts of a domain and the weight they leave in each part of it.
+/// Cuts of a domain, and the weight in each of its parts.
 struct Bisection {
     Cuts cuts;                         ///< of the domain
     std::vector<Bracket> brackets;     ///< of each cut; empty if they were not asked for
@@ -23,7 +23,7 @@ struct Bisection {
 
 /// Bisects a domain recursively, each box across one of its longest axes. Not collective.
 ///
-/// @param domain     a copy, which is cut up
+/// @param domain     a copy, which is divided
 /// @param num_parts  1 or more
 /// @param part_sizes relative, one per part, or empty; a part of size 0 gets an empty region
 /// @return cuts with weights below and above in the ratio of the sizes, exactly for the

@@ -15,14 +15,15 @@ struct MassPoint {
     double weight = 0;  ///< of the point
 };
 
-/// Draws pseudo-random points of weight 1, uniform in mean +- multiplier * sigma of each cell. Not
-/// collective.
+/// Draws pseudo-random points of weight 1, uniformly in mean +- multiplier * sigma of each cell.
+/// Not collective.
 ///
 /// @param cells     of all ranks
 /// @param dimension of the points
-/// @param options   multiplier, share and seed; the same give the same points on every machine
-/// @return `sample_fraction` times the number of real points, at least one, shared among the cells
-/// in proportion to their weight by largest remainder
+/// @param options   multiplier, share and seed; the same options give the same points on every
+/// machine
+/// @return `sample_fraction` times the number of real points, but at least one; they are shared
+/// among the cells in proportion to their weight by the method of largest remainders
 /// Throws Error for options out of range.
 RRCB_API std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dimension,
                                               const PaperOptions& options);

@@ -4,16 +4,17 @@
 
 namespace rrcb {
 
-/// Regular grid of `cells` ^ `dimension` cells over the bounding box of one rank's points.
-///
-/// An axis of zero extent has a single layer of cells. Cell numbers run fastest along axis 0.
+/// Regular grid over the bounding box of one rank's points. Cells are numbered fastest along axis
+/// 0. An axis of zero extent has a single layer of cells.
 struct SupportMesh {
     int dimension = 0;  ///< of the points
-    Box box;            ///< of the points, covered by the cells
-    Box frame;          ///< `box`, or less: divided evenly; the outermost layers reach on to `box`
-    std::array<int, max_dimension> cells{1, 1, 1};  ///< per axis
+    Box box;            ///< bounding box of the points, which the cells cover
+    Box frame;  ///< `box` or a smaller box, which is divided evenly; the outermost layers reach to
+                ///< `box`
+    std::array<int, max_dimension> cells{1, 1, 1};  ///< number of cells along each axis
     Vector scale{1, 1, 1};      ///< power of two that keeps squares of coordinates in range
-    Vector cells_per_length{};  ///< of scaled length of the frame; 0 on an axis of zero extent
+    Vector cells_per_length{};  ///< cells per scaled length of the frame; 0 on an axis of zero
+                                ///< extent
 };
 
 /// Lays a mesh over a box. Not collective.

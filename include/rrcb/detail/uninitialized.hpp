@@ -8,7 +8,7 @@
 namespace rrcb {
 namespace detail {
 
-/// Leaves new entries uninitialized: they are overwritten at once.
+/// Leaves new entries uninitialized, because they are overwritten at once.
 template <class Value>
 struct UninitializedAllocator : std::allocator<Value> {
     template <class Other>

@@ -13,9 +13,9 @@ typedef struct rrcb_cost_model rrcb_cost_model;
 /** Makes a cost model, as rrcb::experimental::CostModel. Collective.
  *
  * @param comm        may be freed before the model
- * @param controller  carries the sums with its steps: outlives the model, has recorded none. Null:
- * the model has a communicator of its own
- * @param num_columns the same on every rank
+ * @param controller  carries the sums of the model with its steps; it must outlive the model and
+ * not have recorded a step. Null: the model has a communicator of its own
+ * @param num_columns must be the same on every rank
  * @param model       as for rrcb_balancer_create */
 RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                                     rrcb_cost_model** model);
@@ -25,7 +25,7 @@ RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, 
  * @param model as for rrcb_balancer_destroy */
 RRCB_API void rrcb_cost_model_destroy(rrcb_cost_model** model);
 
-/** Shows the state as bytes, as rrcb_controller_save. Collective.
+/** Returns the state as bytes, as rrcb_controller_save. Collective.
  *
  * @param model owns the bytes until the next call
  * @param bytes gets their address
@@ -35,55 +35,56 @@ RRCB_API int rrcb_cost_model_save(rrcb_cost_model* model, const void** bytes, si
 /** Makes a model that continues from saved bytes, as load_cost_model(). Collective.
  *
  * @param comm       may be freed before the model
- * @param controller loaded before, outlives the model; null: as for rrcb_cost_model_create
+ * @param controller was loaded before, and must outlive the model; null: as for
+ * rrcb_cost_model_create
  * @param bytes      the same on every rank
- * @param size       number of them
+ * @param size       their number
  * @param model      as for rrcb_balancer_create */
 RRCB_API int rrcb_cost_model_load(MPI_Comm comm, rrcb_controller* controller, const void* bytes,
                                   size_t size, rrcb_cost_model** model);
 
-/** Records a step, also in the controller of the model, whose decision rrcb_controller_due returns.
- * Collective.
+/** Records a step, also in the controller of the model. Its decision is returned by
+ * rrcb_controller_due. Collective.
  *
  * @param model       of this loop
  * @param seconds     of this rank's own work, without waiting
- * @param num_columns those of the model
+ * @param num_columns that of the model
  * @param columns     numbers of this rank, one for each column */
 RRCB_API int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_columns,
                                   const double* columns);
 
-/** Writes the weight of each point in seconds, to balance by at once. Called on all ranks, without
- * communication.
+/** Writes the weight of each point in seconds, by which to balance at once. Call it on all ranks;
+ * it does not communicate.
  *
  * @param model       of this loop
- * @param count       points of this rank
- * @param num_columns those of the model
+ * @param count       number of points of this rank
+ * @param num_columns that of the model
  * @param columns     a row of columns for each point, one row after the other
  * @param weights     gets one for each point */
 RRCB_API int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_columns,
                                      const double* columns, double* weights);
 
-/** Writes the number of columns, as of a loaded model. Not collective.
+/** Writes the number of columns, for example of a loaded model. Not collective.
  *
  * @param model       of this loop
- * @param num_columns gets it */
+ * @param num_columns gets the number */
 RRCB_API int rrcb_cost_model_num_columns(const rrcb_cost_model* model, int* num_columns);
 
-/** Writes the seconds of a unit of each column. Not collective.
+/** Writes the seconds that one unit of each column costs. Not collective.
  *
  * @param model       of this loop
- * @param num_columns those of the model
+ * @param num_columns that of the model
  * @param costs       gets one for each column */
 RRCB_API int rrcb_cost_model_costs(const rrcb_cost_model* model, size_t num_columns, double* costs);
 
-/** Writes whether weights are by the costs. Not collective.
+/** Writes whether the weights use the costs. Not collective.
  *
  * @param model      of this loop
  * @param uses_costs gets 1, or 0 if points are counted */
 RRCB_API int rrcb_cost_model_uses_costs(const rrcb_cost_model* model, int* uses_costs);
 
-/** Returns a sentence: whether costs are used, and why. Not collective; valid until the next call,
- * empty for a null model. */
+/** Returns a sentence that explains whether costs are used, and why. Not collective. The text is
+ * valid until the next call; it is empty for a null model. */
 RRCB_API const char* rrcb_cost_model_report(rrcb_cost_model* model);
 
 #ifdef __cplusplus

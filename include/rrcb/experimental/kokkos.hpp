@@ -22,19 +22,20 @@ concept KokkosPoints = Kokkos::is_view<typename ViewOf<Views>::Type>::value;
 
 namespace rrcb::experimental {
 
-/// Result of a call with views. Cuts and report are on the host and the same on every rank.
+/// Result of a call with views. Cuts and report are on the host, and are the same on every rank.
 template <class MemorySpace>
 struct KokkosBalance {
     Cuts cuts;                                 ///< between the parts, for look-ups
     Report report;                             ///< measured imbalance and statistics
-    Kokkos::View<Part*, MemorySpace> parts{};  ///< of the points of this rank, where they are
-    KokkosMemory<MemorySpace> memory{};        ///< for balance_into()
+    Kokkos::View<Part*, MemorySpace> parts{};  ///< parts of this rank's points, in the memory of
+                                               ///< the points
+    KokkosMemory<MemorySpace> memory{};        ///< reused by balance_into()
 };
 
 /// Replaces a result as balance() would, and reuses its memory on the device. Collective.
 ///
-/// @param result   has no parts if the call throws; of as many points as before, or fewer, it
-/// allocates nothing for each. Copies of a result, and of its views, share the memory
+/// @param result   has no parts if the call throws. If there are at most as many points as before,
+/// no memory is allocated for each. Copies of a result, and of its views, share the memory
 /// @param exec     instance on whose device the points are; the call ends with a fence of it
 /// @param x        View<T**> or View<T*[3]> of floats or doubles, points by axes, at any stride; or
 ///                 a std::array of one View<T*> for each axis
@@ -42,8 +43,9 @@ struct KokkosBalance {
 /// @param options  the same on every rank
 /// @param previous as for Points; may be `result.cuts`
 /// @param comm     as for Points
-/// Throws Error as balance(const Points&), on every rank alike, also if Kokkos is not initialized
-/// on one. Cuts may differ from those of Points by rounding. Cost: see docs/kokkos.md.
+/// Throws the same Error on every rank, as balance(const Points&), also if Kokkos is not
+/// initialized on one rank. Cuts may differ from those of Points by rounding. Cost: see
+/// docs/kokkos.md.
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views, class Weights>
 void balance_into(KokkosBalance<detail::MemoryOf<Views>>& result, const Execution& exec,
                   const Views& x, const Weights& weights, const Options& options,
@@ -55,11 +57,11 @@ void balance_into(KokkosBalance<detail::MemoryOf<Views>>& result, const Executio
               passes.memory()};
 }
 
-/// Divides points in views as the function of Points with the same name. Collective.
+/// Divides points in views, as the function with the same name for Points. Collective.
 ///
 ///     auto balance = rrcb::experimental::balance(exec, x, weights, options, {}, comm);
 ///
-/// @param exec     as for balance_into(), as all others
+/// @param exec     as for balance_into()
 /// @param x        positions
 /// @param weights  a view, empty if every point weighs 1
 /// @param options  the same on every rank
@@ -75,7 +77,7 @@ auto balance(const Execution& exec, const Views& x, const Weights& weights, cons
 
 /// Divides points in views that all weigh 1. Collective.
 ///
-/// @param exec     as for balance_into(), as all others
+/// @param exec     as for balance_into()
 /// @param x        positions
 /// @param options  the same on every rank
 /// @param previous cuts of an earlier call, or none
@@ -91,7 +93,7 @@ auto balance(const Execution& exec, const Views& x, const Options& options, cons
 
 /// Divides points in views that all weigh 1, from scratch. Collective.
 ///
-/// @param exec    as for balance_into(), as all others
+/// @param exec    as for balance_into()
 /// @param x       positions
 /// @param options the same on every rank
 /// @param comm    of the ranks with points
@@ -102,11 +104,12 @@ auto balance(const Execution& exec, const Views& x, const Options& options, MPI_
 
 /// Writes the part of every point in a view. Not collective.
 ///
-/// @param exec  as for balance(); ends with a fence of it
-/// @param cuts  complete ones
+/// @param exec  as for balance(); the call ends with a fence of it
+/// @param cuts  a complete tree
 /// @param x     of the dimension of the cuts
-/// @param parts a view in the memory of `x`, an entry for each point
-/// Throws Error if a coordinate is NaN or infinite, sizes differ, or the cuts are not complete.
+/// @param parts a view in the memory of `x`, with an entry for each point
+/// Throws Error if a coordinate is NaN or infinite, sizes differ, or the cuts are not a complete
+/// tree.
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 void assign(const Execution& exec, const Cuts& cuts, const Views& x,
             const Kokkos::View<Part*, detail::MemoryOf<Views>>& parts) {
@@ -124,17 +127,21 @@ void assign(const Execution& exec, const Cuts& cuts, const Views& x,
     passes.renumber(numbers);
 }
 
-/// Destinations of the points of this rank.
+/// Destinations of this rank's points.
 template <class MemorySpace>
 struct KokkosPlan {
-    Kokkos::View<int*, MemorySpace> ranks{};  ///< of each point, as Cabana's Distributor takes
-    Kokkos::View<LocalIndex*, MemorySpace> order{};  ///< points by rank, ascending for each
-    std::vector<RankCount> counts{};  ///< points for each rank that gets some, this one included
+    Kokkos::View<int*, MemorySpace> ranks{};         ///< of each point, in the form that Cabana's
+                                                     ///< Distributor takes
+    Kokkos::View<LocalIndex*, MemorySpace> order{};  ///< points sorted by rank, ascending for each
+                                                     ///< rank
+    std::vector<RankCount> counts{};  ///< number of points for each rank that gets some, including
+                                      ///< this one
 };
 
-/// Returns the rank that gets each point, as Cabana::Distributor takes them. Not collective.
+/// Returns for each point the rank that gets it, in the form that Cabana::Distributor takes. Not
+/// collective.
 ///
-/// @param exec    as for balance(); ends with a fence of it
+/// @param exec    as for balance(); the call ends with a fence of it
 /// @param balance of the points of this rank
 /// @param comm    of the balance
 /// Throws Error if Kokkos is not initialized.
@@ -163,12 +170,12 @@ Kokkos::View<int*, MemorySpace> destinations(const Execution& exec,
     return ranks;
 }
 
-/// Lists points by the rank that gets their part, as plan() of the host. Not collective.
+/// Lists points by the rank that gets their part, as plan() does on the host. Not collective.
 ///
 /// @param exec    as for balance()
 /// @param balance of the points of this rank
 /// @param comm    of the balance
-/// Throws Error as destinations(), which takes less memory and time.
+/// Throws Error as destinations(), which takes less memory and time if you need no lists.
 template <detail::KokkosSpace Execution, class MemorySpace>
 KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySpace>& balance,
                              MPI_Comm comm) {

@@ -12,23 +12,23 @@
 namespace rrcb::teuchos {
 
 /// Returns all parameters under their names in the Zoltan plug-in, with defaults, documentation and
-/// validators; print it with `print(out, PrintOptions().showDoc(true))`. Not collective.
+/// validators. You can print it with `print(out, PrintOptions().showDoc(true))`. Not collective.
 RRCB_API Teuchos::RCP<const Teuchos::ParameterList> valid_parameters();
 
-/// Reads a list from a file whose name ends in .xml, .yaml or .yml, as Teuchos writes them.
+/// Reads a list from a file that Teuchos has written, whose name ends in .xml, .yaml or .yml.
 ///
-/// Not collective. Throws Error with the file's name if it cannot be read; the list is checked when
-/// it is used.
+/// Not collective. Throws Error with the name of the file if it cannot be read. The list is checked
+/// when it is used.
 RRCB_API Teuchos::ParameterList read_parameters(const std::string& file);
 
-/// Returns the options of a list; others keep their default.
+/// Returns the options that a list sets; all others have their default.
 ///
-/// RRCB_DUMP and RRCB_DUMP_WHEN are for the plug-in only, and are only checked. A whole number may
-/// stand for a real one. Not collective; `balance` checks that ranks agree. Throws Error for an
+/// RRCB_DUMP and RRCB_DUMP_WHEN are for the plug-in; they are only checked. A whole number may
+/// stand for a real one. Not collective; balance() checks that ranks agree. Throws Error for an
 /// unknown name, a wrong type or a value out of range.
 RRCB_API Options options_from(const Teuchos::ParameterList& list);
 
-/// Returns names and values of the settings of a list, for Zoltan_Set_Param; see
+/// Returns the names and values of the settings in a list, for Zoltan_Set_Param; see
 /// zoltan_parameters.hpp.
 ///
 /// Not collective. Throws Error as options_from().

@@ -16,7 +16,7 @@
 
 namespace rrcb::detail {
 
-/// Throws Error unless a condition holds.
+/// Throws Error unless a condition is true.
 inline void require_on_device(bool holds, const std::string& what) {
     if (!holds) throw Error(ErrorCode::invalid_argument, what);
 }
@@ -32,8 +32,8 @@ template <class Execution>
 inline constexpr bool runs_on_host =
     std::is_same_v<typename Execution::memory_space, Kokkos::HostSpace>;
 
-/// Returns a lock for kernels that use scratch memory: before Kokkos 4 those of all threads on a
-/// host share it.
+/// Returns a lock for kernels that use scratch memory, because before Kokkos 4 all threads of a
+/// host share one scratch memory.
 template <class Execution>
 std::unique_lock<std::mutex> lock_scratch() {
     static std::mutex mutex;
@@ -43,8 +43,8 @@ std::unique_lock<std::mutex> lock_scratch() {
         return {};
 }
 
-/// An instance of an execution space, and memory that the steps of a call share: views of it hold
-/// their numbers until the next fence.
+/// An instance of an execution space, and memory that the steps of a call share. Views of this
+/// memory are valid until the next fence.
 template <class Space, class MemorySpace>
 class Device {
   public:
@@ -53,28 +53,28 @@ class Device {
     template <class T>
     using Lent = Kokkos::View<T*, Memory, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
-    /// Uses memory of an earlier call, see memory().
+    /// Uses the memory of an earlier call, if it is given; see memory().
     explicit Device(const Execution& exec, const Kokkos::View<char*, Memory>& memory = {})
         : exec_(exec), memory_(memory) {}
 
     const Execution& exec() const { return exec_; }
     const Kokkos::View<char*, Memory>& memory() const { return memory_; }
 
-    /// Returns the length of blocks of `count` points so that each worker, of some threads, gets
-    /// four.
+    /// Returns a length of blocks with which each worker, a team of `threads`, gets four of the
+    /// blocks of `count` points.
     std::int64_t block_length(std::int64_t count, int threads) const {
         const std::int64_t workers = std::max(static_cast<int>(exec_.concurrency()) / threads, 1);
         return count / (4 * workers) + 1;
     }
 
-    /// Returns indices 0 ... count - 1, of 64 bits, for a kernel.
+    /// Returns the range of indices 0 ... count - 1 for a kernel, with 64 bits.
     template <class Count>
     auto range(Count count) const {
         return Kokkos::RangePolicy<Execution, Kokkos::IndexType<std::int64_t>>(
             exec_, 0, static_cast<std::int64_t>(count));
     }
 
-    /// Returns memory of its own for numbers. Throws std::bad_alloc.
+    /// Returns newly allocated memory. Throws std::bad_alloc.
     template <class T>
     Kokkos::View<T*, Memory> allocate(std::size_t size) const {
         try {
@@ -82,12 +82,12 @@ class Device {
             return Kokkos::View<T*, Memory>(
                 Kokkos::view_alloc(exec_, name, Kokkos::WithoutInitializing), size);
         } catch (const std::exception&) {
-            // Versions of Kokkos throw different types.
+            // The type of the exception depends on the version of Kokkos.
             throw std::bad_alloc();
         }
     }
 
-    /// Returns shared memory for numbers. Throws std::bad_alloc.
+    /// Returns a part of the shared memory. Throws std::bad_alloc.
     template <class T>
     Lent<T> lend(std::size_t size) {
         const std::size_t bytes = (size * sizeof(T) + alignment - 1) / alignment * alignment;
@@ -101,7 +101,8 @@ class Device {
         return Lent<T>(first, size);
     }
 
-    /// Returns a copy of numbers of the host, which must stay until the next fence.
+    /// Returns a copy of numbers of the host on the device. The numbers must remain until the next
+    /// fence.
     template <class Values>
     auto copy_in(const Values& values) {
         using T = typename Values::value_type;
@@ -110,7 +111,7 @@ class Device {
             Kokkos::deep_copy(exec_, view, OnHost<const T>(values.data(), values.size()));
         return view;
     }
-    /// Returns a copy on the host. A fence.
+    /// Returns a copy on the host. Ends with a fence.
     template <class View>
     auto copy_out(const View& view) {
         using T = typename View::non_const_value_type;
@@ -132,47 +133,49 @@ class Device {
     using OnHost = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
     static constexpr std::size_t alignment = 64;
-    static constexpr std::size_t least_bytes = 1 << 18;  // those of the default mesh
+    static constexpr std::size_t least_bytes = 1 << 18;  // enough for the default mesh
 
     Execution exec_;
     Kokkos::View<char*, Memory> memory_{};
-    std::size_t lent_ = 0;  ///< bytes
+    std::size_t lent_ = 0;  ///< bytes in use
     std::vector<Kokkos::View<char*, Memory>> full_{};
 };
 
-/// Unsigned integers whose atomic addition is an instruction of all devices, which that of unsigned
-/// long long is not in each Kokkos; negative numbers wrap.
+/// Unsigned integers for which all devices have an instruction for atomic addition; unsigned long
+/// long does not have one in each Kokkos. Negative numbers wrap around.
 using Word = std::uint64_t;
 
-/// Points that a team adds up in a word for each bin: up to 2^15 numbers below 2^47.
+/// Largest number of points that a team adds up in one word per bin: it can hold 2^15 numbers below
+/// 2^47.
 inline constexpr std::int64_t most_in_block = 1 << 15;
 
-/// Consecutive points that a thread of a team takes in turn: of doubles a sector of 32 bytes.
+/// Number of consecutive points that a thread of a team reads in turn; as doubles they are a sector
+/// of 32 bytes.
 inline constexpr int run_length = 4;
 
-/// What a point adds: numbers to consecutive bins.
+/// The numbers that a point adds to consecutive bins.
 template <int Fields>
 struct Row {
     static constexpr std::int64_t none = INT64_MIN;
 
-    std::int64_t bin;  ///< the first; none: adds nothing. Values of 0 need no bin
+    std::int64_t bin;  ///< first bin; none: the point adds nothing. Values of 0 need no bin
     std::int64_t values[Fields];
 };
 
-/// Sums of integers in bins, exact and so the same in any order. Sums of all blocks have two words,
-/// for the higher and the lower bits, and hold 2^40 numbers.
+/// Sums of integers in bins. They are exact, so that they do not depend on the order. Each sum over
+/// all blocks has two words, for the higher and the lower bits, and can hold 2^40 numbers.
 template <class Execution>
 struct Bins {
     static constexpr int low_bits = 24;
     static constexpr Word low_mask = (Word{1} << low_bits) - 1;
 
-    /// A word in scratch memory, in which devices have atomic additions of 32 bits only.
+    /// A word in scratch memory, where devices can add only 32 bits atomically.
     struct Halves {
         std::uint32_t low, high;
     };
     using Scratch = std::conditional_t<runs_on_host<Execution>, Word, Halves>;
 
-    Scratch* of_block;  ///< null: only those of all
+    Scratch* of_block;  ///< null if only the sums over all blocks are used
     Word* of_all;
 
     KOKKOS_INLINE_FUNCTION void add(std::int64_t bin, std::int64_t value) const {
@@ -189,7 +192,7 @@ struct Bins {
         if (low != 0 && Kokkos::atomic_fetch_add(&word.low, low) > UINT32_MAX - low) ++high;
         if (high != 0) Kokkos::atomic_add(&word.high, high);
     }
-    /// Adds the sum of a bin of the block to those of all.
+    /// Adds the sum of a bin in this block to the sum over all blocks.
     KOKKOS_INLINE_FUNCTION void finish(std::int64_t bin) const {
         Word sum = 0;
         if constexpr (runs_on_host<Execution>)
@@ -211,8 +214,9 @@ struct Bins {
     }
 };
 
-/// Rows of the points of a thread. On a device those of equal bins are added up in registers first:
-/// neighbours in memory are often neighbours in space, and would meet in one word.
+/// Rows of the points of one thread. On a device, rows of equal bins are first added up in
+/// registers: neighbours in memory are often neighbours in space, and would otherwise wait for the
+/// same word.
 template <class Execution, int Fields>
 struct Rows {
     Bins<Execution> bins;
@@ -239,11 +243,13 @@ struct Rows {
     }
 };
 
-// A thread of the host is a team, with memory of its own; the scratch of a device is fast at 0.
+// On the host a thread is a team with its own memory, so level 1 is used; on a device the scratch
+// memory of level 0 is fast.
 template <class Execution>
 inline constexpr int scratch_level = runs_on_host<Execution> ? 1 : 0;
 
-/// Returns the number of bins for which a team has fast memory, at most as many as it adds numbers.
+/// Returns the number of bins for which a team has fast memory; at most the number of points that
+/// it adds.
 template <class Execution>
 std::int64_t bins_in_scratch(const Execution& exec) {
     const Kokkos::TeamPolicy<Execution> policy(exec, 1, 1);
@@ -251,7 +257,7 @@ std::int64_t bins_in_scratch(const Execution& exec) {
     return std::min<std::int64_t>(bytes / static_cast<int>(sizeof(Word)), 8 * most_in_block);
 }
 
-/// Adds the rows body(i) for i = 0 ... count - 1 to bins whose sums are in `of_all`.
+/// Adds the rows body(i), for i = 0 ... count - 1, to bins whose sums are in `of_all`.
 template <class Device, class Body>
 void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins, Word* of_all,
                  const Body& body) {
@@ -260,7 +266,8 @@ void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins
     const int in_block =
         num_bins <= bins_in_scratch(device.exec()) ? static_cast<int>(num_bins) : 0;
     const int bytes = in_block * static_cast<int>(sizeof(Word));
-    // Blocks for all of the machine, of no fewer points than bins.
+    // There are enough blocks to occupy the whole device, but a block has at least as many points
+    // as bins.
     const std::int64_t length =
         std::clamp(device.block_length(count, runs_on_host<Execution> ? 1 : 1024),
                    std::clamp<std::int64_t>(in_block, 1024, most_in_block), most_in_block);
@@ -282,7 +289,7 @@ void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins
             Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block),
                                  [&](int bin) { bins.of_block[bin] = {}; });
             team.team_barrier();
-            const Body row_of = body;  // a copy, which stays in registers
+            const Body row_of = body;  // a copy, which the compiler keeps in registers
             Rows<Execution, Body::fields> rows{bins};
             for (std::int64_t i = first + team.team_rank() * run_length; i < end;
                  i += team.team_size() * run_length)
@@ -295,7 +302,7 @@ void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins
         });
 }
 
-/// Returns the sums of the rows of each body, one body after the other. A fence.
+/// Returns the sums of the rows of each body, one body after the other. Ends with a fence.
 template <class Device, class Body>
 std::vector<double> sum_in_bins(Device& device, std::int64_t count, std::int64_t num_bins,
                                 const std::vector<Body>& bodies) {

@@ -11,19 +11,20 @@
 
 namespace rrcb::detail {
 
-/// Bounds of the points and weights, and where they are.
+/// Bounds of the coordinates and weights, and which points are at the bounds.
 template <int Dimension>
 struct Ends {
     static constexpr std::int64_t tied = -1;
 
-    double bounds[2 * Dimension];        ///< least along each axis, then greatest
-    std::int64_t points[2 * Dimension];  ///< at each bound; `tied` if there are several
+    double bounds[2 * Dimension];  ///< least coordinate along each axis, then the greatest along
+                                   ///< each
+    std::int64_t points[2 * Dimension];  ///< point at each bound; `tied` if there are several
     double lightest;
     double heaviest;
     std::int64_t faults;
 };
 
-/// Finds the ends of all points; reads weights if they count, and positions if asked for.
+/// Finds the ends of all points. Reads weights if they count, and positions if asked to.
 template <class Positions, class W, bool Weighs>
 struct FindEnds {
     static constexpr int dimension = Positions::static_dimension;
@@ -61,7 +62,7 @@ struct FindEnds {
         for (int k = 0; k < 2 * dimension; ++k) widen(k, others.bounds[k], others.points[k], ends);
         ends.faults += others.faults;
     }
-    // For Kokkos before 3.7, which joins values in turns.
+    // Needed by Kokkos before 3.7, which joins volatile values.
     KOKKOS_INLINE_FUNCTION void join(volatile value_type& ends,
                                      const volatile value_type& others) const {
         join(const_cast<value_type&>(ends), const_cast<const value_type&>(others));
@@ -87,7 +88,7 @@ struct Corners {
     Position<Dimension> positions[2 * Dimension];
 };
 
-/// Finds, of all points at each bound, the first by their axes in ascending order, or the last.
+/// Finds, among all points at each bound, the first or the last in the order of the other axes.
 template <class Positions>
 struct FindCorners {
     static constexpr int dimension = Positions::static_dimension;
@@ -125,7 +126,7 @@ struct FindCorners {
     }
 };
 
-/// Reduces the points of a functor to a value in the memory of the device.
+/// Reduces all points by a functor to a value in the memory of the device.
 template <class Device, class Functor>
 void reduce(const Device& device, std::int64_t count, const Functor& functor,
             typename Functor::value_type* value) {
@@ -135,7 +136,7 @@ void reduce(const Device& device, std::int64_t count, const Functor& functor,
         Kokkos::View<typename Functor::value_type, typename Device::Memory>(value));
 }
 
-/// Bounds of the points and weights, the positions at the bounds, and bad coordinates.
+/// Bounds of coordinates and weights, positions at the bounds, and illegal coordinates.
 template <int Dimension>
 struct Found {
     Ends<Dimension> ends;
@@ -143,7 +144,7 @@ struct Found {
     Faults coordinates;
 };
 
-/// Finds values that cannot be used.
+/// Finds illegal values.
 template <class Positions, class W>
 struct FindFaults {
     struct value_type {
@@ -172,7 +173,8 @@ struct FindFaults {
     }
 };
 
-/// Returns the coordinates that are not finite; throws Error for a bad weight. A fence.
+/// Returns the coordinates that are not finite. Throws Error for an illegal weight. Ends with a
+/// fence.
 template <class Device, class Positions, class W>
 Faults find_faults(Device& device, const Positions& x, const Weights<W>& weights) {
     using Functor = FindFaults<Positions, W>;
@@ -192,8 +194,8 @@ inline void check_coordinates(const Faults& faults) {
                                              " is NaN or infinite" + faults.tally());
 }
 
-/// Returns the ends of weights, and of positions if `reads_positions`. Throws Error for a bad
-/// weight. A fence, with points that share a bound two.
+/// Returns the ends of the weights and, if `reads_positions`, of the positions. Throws Error for an
+/// illegal weight. Ends with a fence; if several points share a bound, with two.
 template <bool Weighs, class Device, class Positions, class W>
 Found<Positions::static_dimension> find_ends(Device& device, const Positions& x,
                                              const Weights<W>& weights, bool reads_positions) {
@@ -222,11 +224,12 @@ Found<Positions::static_dimension> find_ends(Device& device, const Positions& x,
     return found;
 }
 
-/// Weights of points.
+/// Adds up the weights of points.
 template <class W>
 struct AddWeights {
     static constexpr int fields = 1;
-    static constexpr std::int64_t num_bins = 64;  // as many as threads may meet
+    static constexpr std::int64_t num_bins = 64;  // enough to keep threads from waiting for each
+                                                  // other
 
     Weights<W> weights;
 
@@ -235,7 +238,8 @@ struct AddWeights {
     }
 };
 
-/// Returns the sum of weights whose heaviest is set; throws Error if it overflows. A fence.
+/// Returns the sum of weights whose heaviest has been set. Throws Error if the sum overflows. Ends
+/// with a fence.
 template <class Device, class W>
 double total_weight(Device& device, std::int64_t count, const Weights<W>& weights) {
     const std::vector<double> sums =

@@ -12,7 +12,7 @@
 
 namespace rrcb::detail {
 
-/// A layer of a mesh across an axis, in scaled lengths.
+/// A layer of a mesh along an axis, in scaled lengths.
 struct Layer {
     double middle;
     double side;
@@ -24,15 +24,16 @@ inline Layer layer_of(const SupportMesh& mesh, const Box& cell, std::size_t axis
     return {lower / 2 + upper / 2, upper - lower};
 }
 
-/// The layers of a mesh across an axis in a kernel, in scaled lengths.
+/// The layers of a mesh along an axis, for a kernel, in scaled lengths.
 struct Layers {
     double scale;
-    double lower;  ///< of the frame
+    double lower;  ///< lower end of the frame
     double per_length;
     std::int32_t number;
-    const Layer* first;  ///< with the reciprocal of each side in its place
+    const Layer* first;  ///< here `side` is the reciprocal of the side
 
-    /// Returns the layer of a coordinate, and its offset from the middle in sides.
+    /// Returns the layer of a coordinate, and writes its offset from the middle in units of the
+    /// side.
     KOKKOS_INLINE_FUNCTION std::int32_t find(double coordinate, double& offset) const {
         const double value = coordinate * scale;
         const double place = (value - lower) * per_length;
@@ -45,9 +46,9 @@ struct Layers {
     }
 };
 
-/// Fields of points in the cells of a mesh: for each of some axes the first and second moment about
-/// the middle of the cell; after those of the last axis the number, and the weight if they have
-/// any.
+/// Sums over the points in the cells of a mesh: for each of some axes, the first and second moments
+/// about the middle of the cell; after those of the last axis, the number of points, and their
+/// weight if they have weights.
 template <class Positions, class W, bool Weighs>
 struct AddMoments {
     static constexpr int dimension = Positions::static_dimension;
@@ -57,7 +58,7 @@ struct AddMoments {
     Positions x;
     Weights<W> weights;
     Layers layers[max_dimension];
-    int num_fields;  ///< in a cell
+    int num_fields;  ///< number of sums of a cell
     int first_axis;
     int end_axis;
 
@@ -81,8 +82,8 @@ struct AddMoments {
     }
 };
 
-/// Returns the layers of all axes, one axis after the other, and describes them to a kernel, which
-/// needs them on the device.
+/// Returns the layers of all axes, one axis after the other, and describes them for a kernel. The
+/// caller must copy them to the device.
 inline std::vector<Layer> layers_of(const SupportMesh& mesh, Layers (&layers)[max_dimension]) {
     std::vector<Layer> all;
     LocalIndex stride = 1;
@@ -99,16 +100,16 @@ inline std::vector<Layer> layers_of(const SupportMesh& mesh, Layers (&layers)[ma
     return all;
 }
 
-/// Returns the cells whose fields a team adds up in one reading of the points.
+/// Returns the number of cells whose sums a team can add up in one reading of the points.
 template <class Execution>
 std::int64_t cells_in_scratch(const Execution& exec, int dimension, bool weighs) {
     return bins_in_scratch(exec) / (2 * dimension + (weighs ? 2 : 1));
 }
 
-/// Returns the moments of every cell that holds weight, as cell_moments(): mean and deviation to
-/// within 1e-6 of the sides of a cell unless its points are lighter than a millionth of the
-/// heaviest; the same bits in any order of the points. Adds up as many axes at once as a team has
-/// scratch for, all if it is too small for one. A fence.
+/// Returns the moments of every cell that has weight, as cell_moments(). Mean and deviation are
+/// accurate to 1e-6 of the sides of a cell, unless its points are lighter than a millionth of the
+/// heaviest. They are bit-identical for any order of the points. Adds up as many axes at once as
+/// fit in the scratch memory of a team; if not even one fits, all at once. Ends with a fence.
 template <bool Weighs, class Device, class Positions, class W>
 std::vector<CellMoments> moments_on(Device& device, const Positions& x, const Weights<W>& weights,
                                     const SupportMesh& mesh) {

@@ -11,13 +11,14 @@
 
 namespace rrcb::detail {
 
-/// A cut in the memory of a device: 32 bytes. The cuts below it follow, then those above.
+/// A cut in the memory of a device, 32 bytes long. The cuts below it follow, and then those above
+/// it.
 struct TreeNode {
     double at[max_dimension];
     std::int32_t axis;
-    std::int32_t lower_parts;  ///< parts below it
+    std::int32_t lower_parts;  ///< number of parts below it
 
-    /// Returns true if a position is not below the cut, as is_above() of the host.
+    /// Returns true if a position is above the cut or at it, as is_above() on the host.
     template <int Dimension>
     KOKKOS_INLINE_FUNCTION bool is_above(const Position<Dimension>& p) const {
         double x = p.x[0];
@@ -31,7 +32,7 @@ struct TreeNode {
     }
 };
 
-/// The positions lower <= x < upper: by default all.
+/// The positions with lower <= x < upper; by default all positions.
 struct Region {
     double lower[max_dimension] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     double upper[max_dimension] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -47,10 +48,11 @@ struct Region {
 /// A tree of cuts for a device.
 struct PackedCuts {
     std::vector<TreeNode> nodes{};
-    std::vector<Region> regions{};  ///< of each part: whose points no cut leaves to another part
+    std::vector<Region> regions{};  ///< for each part, the region whose points remain in the part
+                                    ///< wherever each cut ends in its interval
 
     PackedCuts() = default;
-    /// Packs complete cuts; without intervals they are fixed.
+    /// Packs a complete tree. Without intervals the cuts are final.
     PackedCuts(const Cuts& cuts, std::span<const Bracket> intervals) {
         add(cuts, intervals, 0, cuts.num_parts, {});
     }
@@ -76,20 +78,21 @@ struct PackedCuts {
     }
 };
 
-/// Points that become open, by the region of their part.
+/// Which points become open, depending on the region of their part.
 enum class Opens { none, outside, inside };
 
-/// Returns the mark of open points of a part until they are copied, or the part of a mark.
+/// Converts a part to the mark that its open points have until they are copied, and such a mark to
+/// the part.
 KOKKOS_INLINE_FUNCTION Part marked(Part part) {
     return no_part - 1 - part;
 }
 
-/// Finds the parts of points, or takes those that are given; marks the open points, and counts the
-/// others.
+/// Finds the parts of points, or takes given ones. Marks the open points, and counts the others.
 template <class Positions, class W, bool Weighs>
 struct Assign {
-    static constexpr int fields = Weighs ? 2 : 1;  ///< the number of points, their weight
-    // Rows of bins: points whose coordinates are not finite, open points, points of each part.
+    static constexpr int fields = Weighs ? 2 : 1;  ///< the number of points, and their weight
+    // Bins of the rows: points with coordinates that are not finite, open points, then the points
+    // of each part.
     static constexpr int bad = 0;
     static constexpr int open = 1;
     static constexpr int first = 2;
@@ -136,8 +139,8 @@ struct Assign {
     }
 };
 
-/// Adds points to those on the host, without totals; those with `parts` lose their marks for
-/// no_part. Returns their parts. A fence.
+/// Appends points to those on the host, but not to their totals. If `parts` are given, replaces
+/// their marks by no_part. Returns the parts that the points had. Ends with a fence.
 template <bool Weighs, class Device, class Positions, class W>
 std::vector<Part> copy_points(Device& device, const Positions& x, const Weights<W>& weights,
                               const typename Device::template Lent<LocalIndex>& indices,
@@ -168,7 +171,7 @@ std::vector<Part> copy_points(Device& device, const Positions& x, const Weights<
     return before;
 }
 
-/// Lists marked points, of which there are `number`, in ascending order of their indices.
+/// Lists the marked points in ascending order of their indices. There are `number` of them.
 template <class Device>
 typename Device::template Lent<LocalIndex> list_marked(Device& device, std::size_t count,
                                                        std::size_t number, const Part* parts) {
@@ -184,7 +187,8 @@ typename Device::template Lent<LocalIndex> list_marked(Device& device, std::size
     return indices;
 }
 
-/// Returns an integer in the order of a number, and back: devices have atomic bounds of integers.
+/// Converts a double's bits to an integer in the same order, and back. Devices have atomic minima
+/// and maxima only of integers.
 KOKKOS_INLINE_FUNCTION std::int64_t flipped(std::int64_t bits) {
     return bits < 0 ? bits ^ INT64_MAX : bits;
 }
@@ -194,7 +198,7 @@ KOKKOS_INLINE_FUNCTION std::int64_t to_ordered(double value) {
     return flipped(bits);
 }
 
-/// Returns the box of the points of each part. A fence.
+/// Returns the box of the points of each part. Ends with a fence.
 template <class Device, class Positions>
 std::vector<Box> boxes_of_parts(Device& device, const Positions& x, const Part* parts,
                                 int num_parts) {
@@ -211,7 +215,7 @@ std::vector<Box> boxes_of_parts(Device& device, const Positions& x, const Part* 
             auto* const lower = reinterpret_cast<std::int64_t*>(bounds.data() + parts[i]);
             volatile const std::int64_t* const before = lower;
             for (int a = 0; a < dimension; ++a) {
-                // Most points need no atomic operation.
+                // For most points these tests save the atomic operation.
                 const std::int64_t place = to_ordered(x(i, a));
                 if (place < before[a]) Kokkos::atomic_fetch_min(lower + a, place);
                 if (place > before[dimension + a])
@@ -230,15 +234,15 @@ std::vector<Box> boxes_of_parts(Device& device, const Positions& x, const Part* 
     return boxes;
 }
 
-/// Lists points by rank, each list in ascending order: a thread for each block of points counts
-/// them, and later lists them. Places are [block][rank].
+/// Lists points by rank, each list in ascending order. A thread for each block of points counts
+/// them first, and lists them in a second run. Places are ordered by block, then by rank.
 struct ListBlock {
     const int* ranks;
     std::int64_t count;
     std::int64_t length;
     int num_ranks;
     std::int64_t* places;
-    LocalIndex* order;  ///< null: counts
+    LocalIndex* order;  ///< null in the first run, which counts
 
     KOKKOS_INLINE_FUNCTION void operator()(std::int64_t block) const {
         const std::int64_t end = (block + 1) * length < count ? (block + 1) * length : count;
@@ -249,13 +253,13 @@ struct ListBlock {
     }
 };
 
-/// Fills `order` with the points by rank, each list in ascending order; returns the lengths of the
-/// lists. A fence.
+/// Fills `order` with the points sorted by rank, each list in ascending order. Returns the lengths
+/// of the lists. Ends with a fence.
 template <class Device, class Ranks, class Order>
 std::vector<RankCount> list_by_rank(Device& device, int num_ranks, const Ranks& ranks,
                                     const Order& order) {
     const auto count = static_cast<std::int64_t>(ranks.extent(0));
-    // So that the places need less memory than the points.
+    // With this length the places need less memory than the points.
     const std::int64_t length =
         std::max<std::int64_t>({256, num_ranks, device.block_length(count, 1)});
     const std::int64_t num_blocks = count / length + 1;
@@ -275,7 +279,7 @@ std::vector<RankCount> list_by_rank(Device& device, int num_ranks, const Ranks& 
         });
     list.order = order.data();
     Kokkos::parallel_for("rrcb::list_by_rank", device.range(num_blocks), list);
-    // Each place in the last block is now the end of a list.
+    // Now each place in the last block is the end of a list.
     const auto first = num_places - static_cast<std::size_t>(num_ranks);
     std::vector<RankCount> lengths;
     std::int64_t before = 0;

@@ -13,7 +13,7 @@
 
 namespace rrcb::detail {
 
-/// Weights of points that all weigh 1.
+/// Stands for weights if all points weigh 1.
 template <class MemorySpace>
 struct UnitWeights {
     using memory_space = MemorySpace;
@@ -27,19 +27,20 @@ struct UnitWeights {
 
 namespace rrcb::experimental {
 
-/// Memory of calls with views, which the next call uses.
+/// Memory of calls with views, which the next call reuses.
 template <class MemorySpace>
 struct KokkosMemory {
-    Kokkos::View<Part*, MemorySpace> parts{};    ///< of at least as many points as the last call's
-    Kokkos::View<char*, MemorySpace> scratch{};  ///< for the steps of a call
+    Kokkos::View<Part*, MemorySpace> parts{};    ///< has at least as many entries as the last call
+                                                 ///< had points
+    Kokkos::View<char*, MemorySpace> scratch{};  ///< shared by the steps of a call
 };
 
 /// The points of one rank in the memory of an execution space of Kokkos, for balance(PointPasses&).
 ///
-/// Kernels run on `exec` and give the same bits in each run and for each layout. Positions: a view
-/// of points by axes, or a std::array of one view for each axis; floats or doubles at any stride.
-/// Weights: a view of floats or doubles; empty if every point weighs 1. What leaves the device is
-/// the results.
+/// Kernels run on `exec`. Results are bit-identical in each run and for each layout. Positions are
+/// a view of points by axes, or a std::array of one view for each axis, of floats or doubles at any
+/// stride. Weights are a view of floats or doubles, which is empty if every point weighs 1. Only
+/// results are copied from the device.
 template <class ExecutionSpace, class Views, class WeightView>
 class KokkosPasses final : public PointPasses {
     using Memory = detail::MemoryOf<Views>;
@@ -60,8 +61,8 @@ class KokkosPasses final : public PointPasses {
   public:
     using PartsView = Kokkos::View<Part*, Memory>;
 
-    /// Takes views, and memory if it is not to be allocated; copies nothing. Not collective, as all
-    /// of these.
+    /// Takes views, and memory of an earlier call if it is given. Copies nothing. Not collective,
+    /// as all functions of this class.
     KokkosPasses(const ExecutionSpace& exec, const Views& x, const WeightView& weights,
                  const KokkosMemory<Memory>& memory = {})
         : device_(exec, memory.scratch),
@@ -83,11 +84,11 @@ class KokkosPasses final : public PointPasses {
         return detail::cells_in_scratch(device_.exec(), x_.dimension, weighs());
     }
 
-    /// Returns the parts of the points, on the device.
+    /// Returns the parts of the points, in the memory of the device.
     PartsView device_parts() const {
         return Kokkos::subview(parts_, std::pair(std::size_t{0}, std::size_t{count()}));
     }
-    /// Returns the memory for another call.
+    /// Returns the memory, for use in another call.
     KokkosMemory<Memory> memory() const { return {parts_, device_.memory()}; }
 
     PointSummary summary(bool reads_positions) override {
@@ -163,7 +164,7 @@ class KokkosPasses final : public PointPasses {
                                           Collected& collected) override {
         const std::size_t num_parts = collected.settled.counts.size();
         detail::PackedCuts given;
-        // At first no position.
+        // These regions contain no position; wanted nodes get theirs below.
         given.regions.assign(num_parts, {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {}});
         std::vector<std::size_t> found(num_parts);
         for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -235,7 +236,8 @@ class KokkosPasses final : public PointPasses {
 
     bool weighs() const { return has_weights() && uses_weights_; }
 
-    /// Returns call(x, whether weights count) with what the compiler can know.
+    /// Returns call(x, whether weights count) with types by which the compiler knows the dimension
+    /// and whether weights count.
     template <class Call>
     auto on_points(const Call& call, bool may_weigh = true) const {
         return detail::with_dimension(x_, [&](const auto& x) {
@@ -245,7 +247,7 @@ class KokkosPasses final : public PointPasses {
         });
     }
 
-    /// Reads the weights if the heaviest is not known. A fence at first.
+    /// Reads the weights if the heaviest is not known yet. Ends with a fence if it reads them.
     void learn_heaviest() {
         if (!weighs() || heaviest_ >= 0) return;
         on_points([&](const auto& x, auto weighs) {
@@ -255,17 +257,18 @@ class KokkosPasses final : public PointPasses {
     }
 
     Part* known_parts() {
-        // Memory for a number of points that grows.
+        // Allocates an eighth more after the first call, because the number of points may grow.
         const std::size_t room = parts_.extent(0) > 0 ? count() / 8 : 0;
         if (parts_.extent(0) < count())
             parts_ = device_.template allocate<Part>(std::size_t{count()} + room);
         return parts_.data();
     }
 
-    /// Finds parts, unless they are given, marks open points, and counts the others. A fence.
+    /// Finds the parts, unless they are given; marks the open points, and counts the others. Ends
+    /// with a fence.
     Assigned find_parts(const detail::PackedCuts& cuts, bool finds, detail::Opens opens,
                         bool counts) {
-        learn_heaviest();  // with its fence
+        learn_heaviest();  // may fence, so it comes before the copies
         const auto num_parts = static_cast<Part>(cuts.regions.size());
         const auto nodes = device_.copy_in(cuts.nodes);
         const auto regions = device_.copy_in(cuts.regions);
@@ -296,7 +299,8 @@ class KokkosPasses final : public PointPasses {
         });
     }
 
-    /// Moves open points to the host, behind others; returns their parts. A fence.
+    /// Appends the open points to those on the host. Returns the parts that they had. Ends with a
+    /// fence.
     std::vector<Part> take(Assigned&& found, Collected& collected) {
         collected.dimension = x_.dimension;
         collected.settled = std::move(found.settled);
@@ -311,7 +315,7 @@ class KokkosPasses final : public PointPasses {
     decltype(detail::positions_of(std::declval<Views>())) x_;
     detail::Weights<W> given_{};
     bool uses_weights_ = true;
-    double heaviest_ = -1;  ///< weight; -1: not known
+    double heaviest_ = -1;  ///< heaviest weight; -1 if it is not known
     PartsView parts_;
 };
 

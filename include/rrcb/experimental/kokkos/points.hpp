@@ -19,8 +19,8 @@ struct Position {
     double x[Dimension];
 };
 
-/// Coordinates in the memory of a device, at any stride, or at 1. A dimension of 0 is known only in
-/// a run, see with_dimension().
+/// Coordinates in the memory of a device. Their stride is 1 if `IsUnit`, otherwise any. A dimension
+/// of 0 means that it is known only at run time; see with_dimension().
 template <class T, int Dimension, bool IsUnit>
 struct Positions {
     static constexpr int static_dimension = Dimension;
@@ -29,9 +29,9 @@ struct Positions {
     std::int64_t strides[max_dimension] = {};
     std::int64_t count = 0;
     int dimension = Dimension;
-    bool are_even = true;  ///< all axes have `count` coordinates
+    bool are_even = true;  ///< whether all axes have `count` coordinates
 
-    /// Returns a coordinate; -0 as 0, so that minima do not depend on an order.
+    /// Returns a coordinate. Converts -0 to 0, so that minima do not depend on the order.
     KOKKOS_INLINE_FUNCTION double operator()(std::int64_t i, int axis) const {
         return static_cast<double>(axes[axis][IsUnit ? i : i * strides[axis]]) + 0.0;
     }
@@ -45,7 +45,7 @@ struct Positions {
 template <class Positions>
 inline constexpr int dimension_of = std::remove_cvref_t<Positions>::static_dimension;
 
-/// Calls call(x) with positions whose dimension the compiler knows.
+/// Calls call(x) with positions whose dimension is a compile-time constant.
 template <class T, bool IsUnit, int Dimension, class Call>
 auto with_dimension(const Positions<T, Dimension, IsUnit>& x, const Call& call) {
     if constexpr (Dimension > 0) {
@@ -63,7 +63,8 @@ auto with_dimension(const Positions<T, Dimension, IsUnit>& x, const Call& call) 
     }
 }
 
-/// The views of positions: one of points by axes, or an array with one for each axis.
+/// Type of the views of positions: one view of points by axes, or an array with a view for each
+/// axis.
 template <class Views>
 struct ViewOf {
     using Type = Views;
@@ -104,33 +105,34 @@ auto positions_of(const Views& views) {
     return x;
 }
 
-/// Bits behind the point of sums of weights and first moments, and of second moments.
+/// Number of binary digits after the point: in sums of weights and first moments, and in second
+/// moments.
 inline constexpr int weight_bits = 46;
 inline constexpr int square_bits = 48;
 
-/// Returns a number below 2^51 in units of 2^-bits.
+/// Returns a number, whose size must be below 2^51 units, in units of 2^-bits.
 KOKKOS_INLINE_FUNCTION std::int64_t to_units(double value, int bits) {
-    // A sum with 1.5 * 2^52 is rounded to an integer.
+    // Adding 1.5 * 2^52 rounds the number to an integer.
     constexpr double shift = 0x1.8p52;
     const double units = value * static_cast<double>(std::int64_t{1} << bits);
     return static_cast<std::int64_t>(units + shift - shift);
 }
 
-/// Weights in the memory of a device, relative to a power of two above the heaviest.
+/// Weights in the memory of a device, divided by a power of two above the heaviest.
 template <class W>
 struct Weights {
-    const W* values = nullptr;  ///< null: every point weighs 1
+    const W* values = nullptr;  ///< null if every point weighs 1
     std::int64_t stride = 0;
-    int exponent = 0;  ///< of the power of two
+    int exponent = 0;  ///< exponent of the power of two
     double scales[2] = {1, 1};
 
     void set_heaviest(double heaviest) {
         exponent = heaviest > 0 ? std::ilogb(heaviest) + 1 : 0;
-        // In two factors, as the reciprocal of a tiny weight may overflow.
+        // The scale has two factors, because the reciprocal of a tiny weight may overflow.
         scales[0] = std::ldexp(1.0, -(exponent / 2));
         scales[1] = std::ldexp(1.0, -(exponent - exponent / 2));
     }
-    /// Returns a total in units of 2^-weight_bits as a weight.
+    /// Converts a sum in units of 2^-weight_bits to a weight.
     double from_units(double units) const { return std::ldexp(units, exponent - weight_bits); }
 
     KOKKOS_INLINE_FUNCTION double operator()(std::int64_t i) const {
@@ -144,10 +146,10 @@ struct Weights {
     }
 };
 
-/// Values that cannot be used.
+/// Number of illegal values, and the first of them.
 struct Faults {
     std::int64_t count;
-    std::int64_t first;  ///< least of 4 i + axis
+    std::int64_t first;  ///< least value of 4 i + axis, for point i
 
     KOKKOS_INLINE_FUNCTION void add(const Faults& others) {
         count += others.count;

@@ -5,7 +5,7 @@
     ghosts = balance.ghosts(data["x"], radius=0.1)
     x_of_ghosts = ghosts.fetch_positions(data["x"])
 
-The calls are collective over the communicator, and raise rrcb.Error on every rank alike.
+The calls are collective over the communicator. An error raises the same rrcb.Error on every rank.
 """
 
 from . import _library, experimental as experimental

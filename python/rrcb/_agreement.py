@@ -1,4 +1,4 @@
-"""Errors of one rank, raised on all."""
+"""Raises errors of one rank on all ranks."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 def communicator(comm: MPI.Comm | None) -> MPI.Intracomm:
     """Returns the communicator of a call. Raises Error for one that cannot be used."""
-    # MPI would end the program without the place of the call.
+    # Otherwise MPI would end the program without naming the call.
     if not MPI.Is_initialized() or MPI.Is_finalized():
         raise Error("MPI is not running: call after MPI.Init() and before MPI.Finalize()")
     chosen = MPI.COMM_WORLD if comm is None else comm
@@ -31,10 +31,10 @@ def communicator(comm: MPI.Comm | None) -> MPI.Intracomm:
 def together(
     comm: MPI.Intracomm, local: Callable[[], tuple[Any, ...]], collective: Callable[..., T]
 ) -> T:
-    """Returns collective(*local()), a call of the library with points. Raises Error on every rank.
+    """Returns collective(*local()), where collective() calls the library. Raises Error on every rank.
 
-    A rank where local() fails passes no arguments. The library's own messages report that on every
-    rank, so that only a failure costs another reduction.
+    If local() fails on a rank, that rank passes no arguments. The messages of the library itself
+    report this on every rank, so that another reduction is needed only after a failure.
     """
     failure: Exception | None = None
     arguments: tuple[Any, ...] = ()
@@ -55,7 +55,7 @@ def together(
 def prepare(
     comm: MPI.Intracomm, local: Callable[[], T], signature: Callable[[T], str] | None = None
 ) -> T:
-    """Returns local(). Raises Error on every rank if it fails on one, or signatures differ.
+    """Returns local(). Raises Error on every rank if it fails on one, or if signatures differ.
 
     Collective: one reduction of three integers.
     """
@@ -78,7 +78,7 @@ def prepare(
 
 
 def agree(comm: MPI.Intracomm, failure: Exception | None, number: int = 0) -> bool:
-    """Returns whether the numbers of all ranks are the same. Raises a failure on every rank.
+    """Returns whether all ranks have the same number. Raises the failure of a rank on every rank.
 
     Collective: one reduction of three integers.
     """

@@ -1,4 +1,4 @@
-"""Points and columns of numpy as the library takes them."""
+"""Converts points and columns of numpy to the form that the library takes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NUMBERS = {np.dtype(np.int32): 1, np.dtype(np.int64): 2, **FLOATS}
 
 
 def pointer(values: Array) -> int | None:
-    """Returns the address of an array, None if it is empty."""
+    """Returns the address of an array, or None if it is empty."""
     return values.ctypes.data if values.size else None
 
 
@@ -39,7 +39,7 @@ def float_type(values: Array, name: str) -> int:
     return FLOATS[values.dtype]
 
 
-# Types of devices of DLPack whose memory the host reads: CPU, pinned by CUDA or ROCm, managed.
+# Device types of DLPack whose memory the host can read: CPU, pinned by CUDA or ROCm, managed.
 HOSTS = (1, 3, 11, 13)
 
 
@@ -64,7 +64,7 @@ def as_array(values: Any) -> Array:
 
 
 def numbers_in(values: Any, name: str) -> Array:
-    """Returns values as float64. Raises Error if some are no numbers, or on a device."""
+    """Returns values as float64. Raises Error if some are not numbers, or are on a device."""
     refuse_device(values)
     try:
         return np.asarray(values, dtype=np.float64)
@@ -75,7 +75,7 @@ def numbers_in(values: Any, name: str) -> Array:
 
 
 def axes_of(x: Any) -> list[Array]:
-    """Returns an array for each axis of points: (n, d), (n,) or a tuple of columns."""
+    """Returns an array for each axis of points, given as (n, d), (n,) or a tuple of columns."""
     if isinstance(x, tuple):
         axes = [as_array(axis) for axis in x]
         if not axes or any(axis.ndim != 1 or len(axis) != len(axes[0]) for axis in axes):
@@ -103,7 +103,7 @@ def can_borrow(axes: list[Array], item: int) -> bool:
 
 
 class Points:
-    """View of positions and weights, which it keeps alive."""
+    """A view of positions and weights, which it keeps alive."""
 
     def __init__(self, x: Any, weights: Any = None) -> None:
         axes = axes_of(x)
@@ -131,7 +131,7 @@ class Points:
 
 
 def weights_of(weights: Any, count: int) -> Array:
-    """Returns weights as the library takes them."""
+    """Returns weights in the form that the library takes."""
     values = as_array(weights)
     if values.dtype.kind not in "fiub":
         given = type(weights).__name__ if values.dtype.hasobject else values.dtype
@@ -145,7 +145,7 @@ Build = Callable[[list[Array]], Any]
 
 
 def split(data: Any) -> tuple[list[tuple[str, Array]], Build]:
-    """Returns the named arrays of data, and a function that makes such data of other arrays."""
+    """Returns the arrays of data with their names, and a function that builds such data from arrays."""
     if isinstance(data, Mapping):
         names = sorted(data, key=str)
         order = list(data)
@@ -173,11 +173,11 @@ def numpy_of(name: str, column: Any) -> Array:
 
 
 def split_frame(frame: Any) -> tuple[list[tuple[str, Array]], Build]:
-    """As split(), for a DataFrame; the index moves with the rows."""
+    """Does as split() for a DataFrame. The index moves with the rows."""
     columns = [(str(name), numpy_of(str(name), frame.iloc[:, k])) for k, name in enumerate(frame)]
     index = frame.index
     values = index.to_numpy()
-    # An empty frame of pandas 1 has an index of objects.
+    # In pandas 1 the index of an empty frame has the dtype object.
     no_type = len(index) == 0 and values.dtype.hasobject
     columns.append(("index", values.astype(np.int64) if no_type else values))
 
@@ -193,7 +193,7 @@ def split_frame(frame: Any) -> tuple[list[tuple[str, Array]], Build]:
 
 
 class Columns:
-    """Columns to send, and arrays for what arrives."""
+    """Columns to send, with arrays for the rows that arrive."""
 
     def __init__(self, data: Any, rows: int, of: str, rows_after: int, fill: Any = np.empty) -> None:
         named, self._build = split(data)
@@ -206,7 +206,7 @@ class Columns:
         ]
 
     def signature(self) -> str:
-        """Returns names, dtypes and shapes of rows, which must be the same on every rank."""
+        """Returns the names, dtypes and shapes of rows, which must be the same on every rank."""
         texts = [
             f"{name}: {values.dtype}" + (f" {values.shape[1:]}" if values.ndim > 1 else "")
             for name, values in zip(self.names, self.arrays)
@@ -214,19 +214,19 @@ class Columns:
         return ", ".join(texts).removeprefix("data: ") or "no column"
 
     def result(self) -> Any:
-        """Returns what has arrived, as the data are."""
+        """Returns the rows that have arrived, in the form of the data."""
         return self._build(self.results)
 
     def as_bytes(self) -> tuple[int, Any]:
-        """Returns the columns as the library takes them, of any dtypes."""
+        """Returns the columns in the form that the library moves, with any dtypes."""
         return self._columns([(BYTES, a.itemsize * row_length(a)) for a in self.arrays])
 
     def as_numbers(self) -> tuple[int, Any]:
-        """Returns the columns as the library takes them, to be added."""
+        """Returns the columns in the form that the library adds up."""
         return self._columns([(NUMBERS[a.dtype], row_length(a)) for a in self.arrays])
 
     def as_arrays(self) -> tuple[int, Any]:
-        """Returns the results as arrays that the library makes longer or shorter."""
+        """Returns the results as arrays that the library lengthens or shortens."""
         made = []
         for k, a in enumerate(self.results):
             kind = NUMBERS.get(a.dtype, BYTES)
@@ -263,7 +263,7 @@ class Columns:
 def move(
     comm: MPI.Intracomm, function: str, own: c.Handle, local: Callable[[], Columns]
 ) -> Any:
-    """Moves the columns of local() by a function of the library; returns what arrives. Collective."""
+    """Moves the columns of local() by a function of the library. Returns what arrives. Collective."""
     columns = prepare(comm, local, Columns.signature)
     c.call(function, own, *columns.as_bytes(), None, None)
     return columns.result()

@@ -1,4 +1,4 @@
-"""Balancing, and moving data to the ranks of their parts."""
+"""Balances points, and moves data to the ranks of their parts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ._ghosts import Ghosts
 
 @dataclasses.dataclass(frozen=True, repr=False)
 class Report:
-    """Report of a balance, the same on every rank; printed as a table."""
+    """Report of a balance. It is the same on every rank, and prints as a table."""
 
     imbalance: float  #: heaviest part / mean part; nan with refine="NONE", which counts nothing
     within_tolerance: bool
@@ -47,7 +47,7 @@ class Report:
 
 
 class Plan:
-    """Parts of the points of this rank, to be moved to; made by plan()."""
+    """Parts to which the points of this rank are to be moved; made by plan()."""
 
     def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, parts: Array) -> None:
         self.comm = comm
@@ -64,15 +64,15 @@ class Plan:
 
     @property
     def parts(self) -> Array:
-        """Part of each point of this rank, int32; read-only."""
+        """The part of each point of this rank, as read-only int32."""
         return self._parts
 
     def distribute(self, data: Any) -> Any:
         """Returns data with a row for each point that belongs on this rank. Collective.
 
-        `data` has a row for each assigned point: an array, a dict or a tuple of arrays, or a
-        pandas DataFrame, of any dtypes of a fixed size. The result is of the same kind: first the
-        points that stay, then those that arrive, by rank.
+        `data` has a row for each assigned point. It is an array, a dict or a tuple of arrays, or a
+        pandas DataFrame, with any dtypes of a fixed size. The result is of the same kind: the
+        points that stay come first, then those that arrive, in ascending order of ranks.
         """
         rows = self._plan()
 
@@ -92,7 +92,7 @@ class Plan:
 
 
 class Distribution(Plan):
-    """Parts of the points of this rank, by cuts; made by assign_all(), balance() and remap()."""
+    """Parts of this rank's points, with the cuts; made by assign_all(), balance() and remap()."""
 
     numbers: Array | None = None  #: after remap(), the number of each part of the cuts
 
@@ -104,7 +104,7 @@ class Distribution(Plan):
     def remap(self, previous: Any = None) -> Distribution:
         """Returns the same parts under numbers with which many points stay. Collective.
 
-        `previous` has the part that each point was in; None: points stay on their ranks.
+        `previous` has the part that each point was in. With None, points should stay on their ranks.
         """
         own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", self.comm.py2f())
         numbers = np.empty(self.cuts.num_parts, dtype=np.int32)
@@ -121,14 +121,14 @@ class Distribution(Plan):
         return made
 
     def part_weights(self, weights: Any = None) -> Array:
-        """Returns the weight of each part over all ranks; weights of None are 1. Collective."""
+        """Returns the weight of each part over all ranks. By default each point weighs 1. Collective."""
         found = np.empty(self.cuts.num_parts)
         points = prepare(self.comm, lambda: self._weighed(weights))
         c.call("part_weights", self._own, points, self.parts, len(found), found)
         return found
 
     def moved_fraction(self, weights: Any = None) -> float:
-        """Returns the share of the weight that changes its rank, 0 to 1. Collective."""
+        """Returns which share of the weight, from 0 to 1, moves to another rank. Collective."""
         fraction = ctypes.c_double()
         points = prepare(self.comm, lambda: self._weighed(weights))
         c.call("moved_fraction", self._own, points, self.parts, fraction)
@@ -140,24 +140,25 @@ class Distribution(Plan):
     def ghosts(self, x: Any, radius: Any, period: Any = None, needs: str = "sender") -> Ghosts:
         """Finds the points that other ranks need within a radius. Collective.
 
-        `x` are the positions on this rank, after distribute(); those before it are refused.
+        `x` are the positions on this rank after distribute(); positions before it are refused.
         `radius` is a number, or an array with a radius for each point, within which other ranks
-        need it; with `needs` "receiver" within which the point needs others, with "either" both
-        (docs/loop.md). `period` is the length of a periodic box from 0, one number or one
-        for each axis (infinity: not periodic), or its corners (lower, upper).
+        need the point. With `needs` "receiver" it is the radius within which the point needs
+        others, with "either" it is both (docs/loop.md). `period` is the length of a periodic box
+        that begins at 0, as one number or one for each axis (infinity: not periodic), or the
+        corners (lower, upper) of the box.
         """
         return Ghosts(self.comm, self._own, x, radius, period, needs, self.numbers)
 
 
 class Balance(Distribution):
-    """Parts of the points of this rank, cuts and report; made by balance()."""
+    """Parts of this rank's points, with the cuts and a report; made by balance()."""
 
     def __repr__(self) -> str:
         return f"<rrcb.Balance of {self.cuts.num_parts} parts, imbalance {self.report.imbalance:.6g}>"
 
     @cached_property
     def report(self) -> Report:
-        """Measured imbalance, and more."""
+        """The measured imbalance, and statistics of the call."""
         shown = c.Report()
         c.call("get_report", self._own, shown)
         values = {
@@ -180,14 +181,15 @@ def balance(
     """Divides points so that every part has the same weight. Collective over `comm`.
 
     `x` are the positions of this rank's points: (n, d) float64 or float32, or a tuple of d
-    columns, d from 1 to 3; n may be 0. `weights` has a number for each point; None: 1 each.
-    `tolerance` is the largest heaviest part / mean part to accept, 1.01 by default. With
-    `previous`, starts from earlier cuts, for points that moved little. `part_sizes` are relative
-    weights of the parts. `options` are those of docs/parameters.md, with a double underscore for
-    a dot: refine="EXACT", num_parts=8, axes__min_width=(0.1, 0.1).
+    columns, with d from 1 to 3; n may be 0. `weights` has a number for each point; by default each
+    point weighs 1. `tolerance` is the largest accepted value of heaviest part / mean part, 1.01 by
+    default. With `previous` the call starts from earlier cuts, which suits points that have moved
+    little. `part_sizes` are relative weights of the parts. `options` are those of
+    docs/parameters.md, with a double underscore in place of a dot: refine="EXACT", num_parts=8,
+    axes__min_width=(0.1, 0.1).
 
-    `comm` is MPI.COMM_WORLD by default, and every rank of it calls. The library duplicates it at the
-    first call. Raises Error on every rank alike.
+    `comm` is MPI.COMM_WORLD by default; every rank of it must make the call. The library duplicates
+    it at the first call. Raises the same Error on every rank.
     """
     chosen = communicator(comm)
     own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
@@ -215,8 +217,8 @@ def balance(
 def plan(parts: Any, num_parts: int | None = None, comm: MPI.Comm | None = None) -> Plan:
     """Plans a move of points to the ranks of any parts. Collective over `comm`.
 
-    `parts` has the part of each point of this rank, 0 to num_parts - 1; `num_parts` is the number
-    of ranks by default, so that part p is rank p. distribute() of the result moves columns.
+    `parts` has the part of each point of this rank, from 0 to num_parts - 1. By default `num_parts`
+    is the number of ranks, so that part p is on rank p. The result's distribute() moves columns.
     """
     chosen = communicator(comm)
     own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
@@ -232,7 +234,7 @@ def plan(parts: Any, num_parts: int | None = None, comm: MPI.Comm | None = None)
 
 
 def parts_in(given: Any, count: int | None = None) -> Array:
-    """Returns parts as the library takes them."""
+    """Returns parts in the form that the library takes."""
     numbers = as_array(given)
     if numbers.dtype.kind not in "iu" and numbers.size:
         raise c.Error(f"parts must be integers, not {numbers.dtype}")
@@ -264,9 +266,9 @@ def assign_all(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) 
 def balanced_sizes(loads: Any, part_sizes: Any = None) -> Array:
     """Returns `part_sizes` for the next balance that make the loads of the parts more even.
 
-    `loads` are those of all parts in the last step, in any unit, such as points + 0.25 * ghosts;
-    `part_sizes` are those of the last balance, None for equal parts. Give the next balance the cuts
-    of the last one. Not collective.
+    `loads` has the load of each part in the last step, in any unit, such as points + 0.25 * ghosts.
+    `part_sizes` are those of the last balance; None stands for equal parts. Pass the cuts of the
+    last balance to the next one. Not collective.
     """
     of_parts = np.ascontiguousarray(numbers_in(loads, "loads").ravel())
     before = None
@@ -281,7 +283,7 @@ def balanced_sizes(loads: Any, part_sizes: Any = None) -> Array:
 
 
 def cuts_from(given: Any) -> Cuts:
-    """Returns given cuts, or those of a balance."""
+    """Returns the given cuts, or the cuts of a given balance."""
     cuts = given.cuts if isinstance(given, Distribution) else given
     if not isinstance(cuts, Cuts):
         raise c.Error(f"give a balance or its cuts, not {type(given).__name__}")
@@ -289,17 +291,17 @@ def cuts_from(given: Any) -> Cuts:
 
 
 def set_option(own: c.Handle, name: str, value: Any) -> None:
-    """Sets an option by its text."""
+    """Sets an option to a value, passed as text."""
     if value is None:
         raise c.Error(f"the option {name} is None: leave it out for its default")
     try:
         c.call("balancer_set", own, name.encode(), text_of(value).encode())
-    except c.Error as error:  # A keyword has no dot.
+    except c.Error as error:  # The text must name the keyword, which has no dot.
         raise c.Error(re.sub(r"\b(axes|tree|tuning)\.", r"\1__", str(error)), error.kind) from None
 
 
 def text_of(value: Any) -> str:
-    """Returns a value as the text of an option: numbers of a row by spaces, rows by commas."""
+    """Returns a value as the text of an option: spaces separate numbers, commas separate rows."""
     if isinstance(value, (bool, np.bool_)):
         return "ON" if value else "OFF"
     if isinstance(value, (tuple, list, np.ndarray)):

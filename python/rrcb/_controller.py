@@ -18,7 +18,7 @@ Self = TypeVar("Self", bound="Owner")
 
 
 class Owner:
-    """Object with a collective free(), which `with` calls; never freed, it lasts until MPI ends."""
+    """An object with a collective free(), which `with` calls. If never freed, it lasts until MPI ends."""
 
     _comm: MPI.Intracomm
     _own: c.Handle
@@ -31,13 +31,13 @@ class Owner:
         return self
 
     def __exit__(self, kind: object, error: object, trace: object) -> None:
-        # An error on one rank would wait here for the others.
+        # After an error on this rank only, a collective free() would wait for the others.
         if kind is None:
             self.free()
 
 
 def number(value: Any) -> float:
-    """Returns a float; NaN, which the library reports on every rank, for what is none."""
+    """Returns a float. Returns NaN for anything else, which the library reports on every rank."""
     try:
         return float(value)
     except (TypeError, ValueError):
@@ -45,7 +45,7 @@ def number(value: Any) -> float:
 
 
 class Controller(Owner):
-    """Decides when a rebalance pays. Making and freeing one are collective over `comm`."""
+    """Decides when a rebalance pays. Making and freeing a controller are collective over `comm`."""
 
     def __init__(self, comm: MPI.Comm | None = None) -> None:
         self._comm = communicator(comm)
@@ -53,7 +53,7 @@ class Controller(Owner):
         self._models: weakref.WeakSet[Owner] = weakref.WeakSet()
 
     def save(self) -> bytes:
-        """Returns the state as bytes, the same on every rank. Collective."""
+        """Returns the state as bytes, which are the same on every rank. Collective."""
         communicator(self._comm)
         return c.saved("controller_save", self._own)
 
@@ -77,16 +77,17 @@ class Controller(Owner):
 
     @property
     def due(self) -> bool:
-        """Whether to rebalance before the next step; the same on every rank."""
+        """Whether to rebalance before the next step. It is the same on every rank."""
         due = ctypes.c_int()
         c.call("controller_due", self._own, due)
         return bool(due.value)
 
     def step(self, load: float, weight: float | None = None) -> bool:
-        """Records a step that took this rank `load` of its own work; returns `due`. Collective.
+        """Records a step in which this rank's own work took `load`. Returns `due`. Collective.
 
-        `weight` is the sum of the weights balanced by of this rank's points, without weights
-        their number; give it with measured loads. An illegal number raises Error on every rank, one call later.
+        `weight` is the sum of the weights that balance() got for this rank's points; without weights
+        it is their number. Pass it with measured loads. An illegal number raises Error on every
+        rank, one call later.
         """
         communicator(self._comm)
         due = ctypes.c_int()
@@ -97,9 +98,9 @@ class Controller(Owner):
         return bool(due.value)
 
     def rebalanced(self, report: Report | None, cost: float) -> None:
-        """Records a rebalance and its cost on this rank, in the unit of the loads. On all ranks.
+        """Records a rebalance and its cost on this rank, in the unit of the loads. Call it on all ranks.
 
-        `report` is that of the balance, None after another balancer.
+        `report` is that of the balance; use None after another balancer.
         """
         is_report = isinstance(report, Report)
         if report is not None and not is_report:

@@ -16,9 +16,10 @@ CUT = np.dtype([("axis", np.int32), ("divides", np.int32), ("at", np.float64, 3)
 
 
 class Cuts:
-    """The cuts of a balance, the same on every rank. Can be pickled.
+    """The cuts of a balance. They are the same on every rank, and can be pickled.
 
-    `tree` holds num_parts - 1 cuts in preorder: axis, divides, at. Nothing here is collective.
+    `tree` contains num_parts - 1 cuts in preorder, each with axis, divides and at. No method is
+    collective.
     """
 
     def __init__(
@@ -50,7 +51,7 @@ class Cuts:
         return f"<rrcb.Cuts of {self.num_parts} parts in {self.dimension} dimensions>"
 
     def save(self) -> bytes:
-        """Returns the cuts as bytes, which programs in all languages load."""
+        """Returns the cuts as bytes, which programs in all languages can load."""
         return c.saved("save_cuts", self._handle())
 
     @staticmethod
@@ -75,7 +76,7 @@ class Cuts:
     def boxes(self) -> Array:
         """Returns the regions of the parts, (num_parts, 2, d): lower and upper corners.
 
-        Sides without a cut are +-infinity; the upper corner of an empty region is below its lower.
+        Sides without a cut are +-infinity. In an empty region the upper corner is below the lower one.
         """
         corners = np.empty((self.num_parts, 2, 3))
         for part, (lower, upper) in enumerate(corners):
@@ -83,13 +84,13 @@ class Cuts:
         return corners[:, :, : self.dimension].copy()
 
     def finite_boxes(self, within: Any = None) -> Array:
-        """Returns boxes() clipped to a box: (lower, upper), or one a little around all cuts."""
+        """Returns boxes() clipped to a box (lower, upper); by default one slightly larger than all cuts."""
         boxes = self.boxes()
         ends = np.asarray(self._around(boxes) if within is None else within, dtype=float)
         return np.clip(boxes, ends[0], ends[1])
 
     def plot(self, ax: Any = None, within: Any = None, **style: Any) -> Any:
-        """Draws the parts by matplotlib into `ax`, or new axes, which it returns."""
+        """Draws the parts with matplotlib into `ax`, or into new axes. Returns the axes."""
         from . import _plot
 
         return _plot.plot(self, ax, within, style)

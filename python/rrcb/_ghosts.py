@@ -1,4 +1,4 @@
-"""Ghosts: copies of points of other ranks."""
+"""Ghosts, which are copies of points of other ranks."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NEEDS = ("sender", "receiver", "either")
 class Ghosts:
     """Points of other ranks that this rank needs; made by Balance.ghosts().
 
-    Can be used again as long as no point changes its row.
+    It can be used as long as no point changes its row.
     """
 
     count: int  #: ghosts of this rank
@@ -61,7 +61,7 @@ class Ghosts:
         return f"<rrcb.Ghosts: {self.count} of {self.num_points} points>"
 
     def fetch(self, data: Any) -> Any:
-        """Returns data of the ghosts, a row each, of the kind of `data`. Collective.
+        """Returns a row of data for each ghost, in the form of `data`. Collective.
 
         `data` has a row for each point of this rank, as for Balance.distribute().
         """
@@ -77,8 +77,8 @@ class Ghosts:
     def reply(self, data: Any) -> Any:
         """Returns rows that the ranks of the ghosts send back, such as answers. Collective.
 
-        `data` has a row for each ghost of this rank, as for Balance.distribute(). The result has one
-        for each row in `sent`, by ascending rank: np.concatenate([*ghosts.sent.values()]).
+        `data` has a row for each ghost of this rank, as for Balance.distribute(). The result has a
+        row for each entry of `sent`, in the order of np.concatenate([*ghosts.sent.values()]).
         """
         rows = sum(map(len, self.sent.values()))
 
@@ -90,7 +90,8 @@ class Ghosts:
     def accumulate(self, data: Any) -> Any:
         """Returns the sum of the ghosts' values for each point of this rank. Collective.
 
-        `data` has a row for each ghost, of int32, int64, float32 or float64: forces += returned.
+        `data` has a row for each ghost, of int32, int64, float32 or float64. Add the result to the
+        values of the points, for example to their forces.
         """
         columns = prepare(
             self.comm, lambda: numbers_of(data, self.count, self.num_points), Columns.signature
@@ -133,7 +134,7 @@ def sent_of(shown: c.GhostPlan) -> dict[int, Array]:
 
 
 def shifted(function: str, own: c.Handle, x: Any, fetched: Any) -> Any:
-    """Returns fetched positions, moved to those of the periodic images, of the kind of `x`."""
+    """Returns fetched positions in the form of `x`, moved to those of the periodic images."""
     images = np.ascontiguousarray(np.stack(axes_of(fetched), axis=1))
     c.call(function, own, Points(images))
     return tuple(images.T) if isinstance(x, tuple) else images.reshape(fetched.shape)
@@ -156,12 +157,12 @@ def radius_of(radius: Any, count: int) -> Array:
     radii = numbers_in(radius, "radius")
     if radii.ndim > 1 or (radii.ndim == 1 and len(radii) != count):
         raise c.Error(f"radius must be a number or have the shape ({count},), not {radii.shape}")
-    # To the library a radius of 0 is none.
+    # For the library a single radius of 0 means that none is given.
     return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii.copy()
 
 
 def ranges_of(numbers: Array, num_ranks: int) -> ctypes.Array[c.RankRange]:
-    """Returns the ranks of each part of the cuts, by its number."""
+    """Returns the ranks of each part of the cuts, from the numbers of the parts."""
     ranges = (c.RankRange * len(numbers))()
     for number, ranks in zip(numbers, ranges):
         c.call("ranks_of_part", int(number), len(numbers), num_ranks, ranks)
@@ -184,7 +185,7 @@ def options_of(radii: Array, box: Array | None, needs: str) -> c.GhostOptions:
 
 
 def box_of(period: Any, dimension: int) -> Array | None:
-    """Returns the corners of a periodic box, (2, 3), infinite on axes that are not periodic."""
+    """Returns the corners (2, 3) of a periodic box, infinite along axes that are not periodic."""
     if period is None:
         return None
     given = numbers_in(period, "period")

@@ -16,7 +16,7 @@ PLACES = ("centre", "first_point")
 
 
 class Groups:
-    """Points with equal keys, as one point each; made by groups().
+    """Groups of points with equal keys, each represented by one point; made by groups().
 
         molecules = rrcb.groups(x, keys, comm=comm)
         balance = rrcb.balance(molecules.x, molecules.weights, comm)
@@ -39,7 +39,7 @@ class Groups:
         return f"<rrcb.Groups: {len(self.x)} of {self._num_points} points>"
 
     def fetch(self, data: Any) -> Any:
-        """Returns data of the group of each point, of the kind of `data`. Collective.
+        """Returns for each point the data of its group, in the form of `data`. Collective.
 
         `data` has a row for each group of this rank, as for Balance.distribute().
         """
@@ -52,7 +52,7 @@ class Groups:
     def sums(self, values: Any) -> Array:
         """Returns the sum over the points of each group of this rank. Collective.
 
-        `values` has a row of numbers for each point, of one shape on every rank.
+        `values` has a row of numbers for each point, with the same shape on every rank.
         """
 
         def local() -> Array:
@@ -106,7 +106,7 @@ def groups(
 
 
 def keys_of(keys: Any, shape: tuple[int, ...]) -> Array:
-    """Returns keys as the library takes them."""
+    """Returns keys in the form that the library takes."""
     values = as_array(keys)
     if values.size and values.dtype.kind not in "iu":
         raise c.Error(f"keys must be integers, not {values.dtype}")

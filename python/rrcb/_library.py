@@ -1,4 +1,4 @@
-"""The shared library: where it is, and its functions."""
+"""Finds and loads the shared library, and declares its functions."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ CODES = ("", "invalid argument", "out of memory", "MPI error", "internal error")
 
 
 class Error(RuntimeError):
-    """Error of the library or of an argument; from a collective call the same on every rank.
+    """Error of the library or of an argument. A collective call raises the same on every rank.
 
     `kind` is "invalid argument", "out of memory", "MPI error" or "internal error".
     """
@@ -58,7 +58,7 @@ class DlInfo(Structure):
 
 
 def file_of(library: ctypes.CDLL, symbol: str) -> str:
-    """Returns the file that holds a symbol, as a library or what it links resolves it."""
+    """Returns the file that contains a symbol, as resolved by a library and those that it links."""
     info = DlInfo()
     address = ctypes.cast(getattr(library, symbol), c_void_p)
     ctypes.CDLL(None).dladdr(address, ctypes.byref(info))
@@ -142,7 +142,7 @@ library = load()
 
 
 def in_python(message: str) -> str:
-    """Returns a text of the library with the names of Python's functions."""
+    """Returns a text of the library with the names that functions have in Python."""
     for name, here in (("the transfer", "distribute()"), ("transfer", "distribute"),
                        ("transferred", "distributed")):
         message = re.sub(rf"\b{name}\b", here, message)
@@ -160,14 +160,14 @@ def call(function: str, *arguments: Any) -> None:
 
 
 def saved(function: str, handle: Handle) -> bytes:
-    """Returns the bytes that a function shows."""
+    """Returns the bytes to which a function of the library points."""
     address, size = c_void_p(), c_size_t()
     call(function, handle, ctypes.byref(address), ctypes.byref(size))
     return ctypes.string_at(address, size.value)
 
 
 class Handle:
-    """An object of the library, which is destroyed with this one if that is not collective."""
+    """An object of the library. It is destroyed with this one, unless that is collective."""
 
     def __init__(self, create: str, destroy: str, *arguments: Any) -> None:
         self._as_parameter_: c_void_p | None = None
@@ -183,7 +183,7 @@ class Handle:
             raise Error(f"the {self._name} was freed: make another")
 
     def destroy(self) -> None:
-        """Destroys the object; does nothing the second time."""
+        """Destroys the object. Does nothing when called again."""
         if self._as_parameter_ is not None:
             self._destroy(ctypes.byref(self._as_parameter_))
             self._as_parameter_ = None

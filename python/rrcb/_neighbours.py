@@ -18,7 +18,7 @@ from ._ghosts import NEEDS, box_of, numbers_of, radius_of, ranges_of, sent_of, s
 
 
 class Neighbours:
-    """The ranks near this one, by the cuts of a balance: made once for each balance.
+    """The ranks near this one, found from the cuts of a balance. Make it once for each balance.
 
         neighbours = rrcb.Neighbours(balance, radius=0.1, travel=0.02)
         here = neighbours.migrate(here["x"], here)  # in each step
@@ -26,11 +26,12 @@ class Neighbours:
         near = neighbours.fetch_positions(here["x"])
         force += neighbours.accumulate(force_of_ghosts)
 
-    `radius` is the cut-off of ghosts, the greatest if points have radii; `travel` the distance that a
-    point may move between two migrate(). `period` and `needs` as for Distribution.ghosts(). The
-    constructor is collective over `comm`, that of the balance by default. The other calls wait only
-    for neighbours, in the same order on every rank. If one raises Error on a rank, it does on its
-    neighbours in the same call, on theirs in the next: then all ranks make other Neighbours.
+    `radius` is the cut-off radius of ghosts, the largest one if points have different radii.
+    `travel` is the distance that a point may move between two calls of migrate(). `period` and
+    `needs` are as for Distribution.ghosts(). The constructor is collective over `comm`, which is
+    the communicator of the balance by default. All other calls wait only for neighbours; every rank
+    must make them in the same order. If a call raises Error on a rank, it does so on the neighbours
+    in the same call, and on their neighbours in the next; then all ranks must make new Neighbours.
     """
 
     ranks: Array  #: of the neighbours, ascending
@@ -78,20 +79,21 @@ class Neighbours:
 
     @property
     def count(self) -> int:
-        """Ghosts of the latest fetch; 0 between find_ghosts() and that."""
+        """Number of ghosts of the latest fetch; 0 between find_ghosts() and the next fetch."""
         return int(self._lists().num_ghosts)
 
     @property
     def sent(self) -> dict[int, Array]:
-        """Rows of the points that each rank needs, by find_ghosts()."""
+        """Rows of the points that each rank needs, found by find_ghosts()."""
         return sent_of(self._lists())
 
     def migrate(self, x: Any, data: Any) -> Any:
-        """Returns data of the points that are now on this rank, of the kind of `data`.
+        """Returns data of the points that are now on this rank, in the form of `data`.
 
-        `x` are the positions on this rank, which `data` contains too. Points that left the parts of
-        this rank go to their ranks; arriving points take their rows, then the end. With all
-        neighbours. Raises Error if a point is in a part of no neighbour; `data` stay as they are.
+        `x` are the positions on this rank, which `data` must contain too. Points that have left the
+        parts of this rank go to their ranks; arriving points take their rows, and then rows at the
+        end. Exchanges messages with all neighbours. Raises Error if a point is in a part that no
+        neighbour holds; `data` remain unchanged then.
         """
 
         def local() -> tuple[Columns, tuple[Any, ...]]:
@@ -104,10 +106,10 @@ class Neighbours:
         return self._exchange("migrate", local, (None, 0, None))
 
     def find_ghosts(self, x: Any, radius: Any = None) -> None:
-        """Finds the points that other ranks need, for fetch(); after migrate(), on every rank.
+        """Finds the points that other ranks need. Call it on every rank after migrate(), before fetch().
 
-        `radius` has one for each point, at most that of these neighbours; None: that one. Without
-        messages, except with `needs` "receiver" or "either".
+        `radius` has a number for each point, at most the radius of these neighbours, which is the
+        default. Sends no messages, except with `needs` "receiver" or "either".
         """
 
         def local() -> tuple[None, tuple[Any, ...]]:
@@ -120,9 +122,10 @@ class Neighbours:
         self._exchange("find_ghosts", local, (None, None))
 
     def fetch(self, data: Any) -> Any:
-        """Returns data of the ghosts, a row each, of the kind of `data`. With all neighbours.
+        """Returns a row of data for each ghost, in the form of `data`.
 
-        `data` has a row for each point of this rank, as for Plan.distribute().
+        `data` has a row for each point of this rank, as for Plan.distribute(). Exchanges messages
+        with all neighbours.
         """
 
         def local() -> tuple[Columns, tuple[Any, ...]]:
@@ -140,9 +143,10 @@ class Neighbours:
         return shifted("neighbours_apply_shifts", self._own, x, fetched)
 
     def accumulate(self, data: Any) -> Any:
-        """Returns the sum of the ghosts' values for each point of this rank. With all neighbours.
+        """Returns the sum of the ghosts' values for each point of this rank.
 
-        `data` has a row for each ghost, of int32, int64, float32 or float64: forces += returned.
+        `data` has a row for each ghost, of int32, int64, float32 or float64. Add the result to the
+        values of the points, for example to their forces. Exchanges messages with all neighbours.
         """
 
         def local() -> tuple[Columns, tuple[Any, ...]]:
@@ -153,10 +157,11 @@ class Neighbours:
         return self._exchange("accumulate", local, (1, None))
 
     def sum(self, shared: Mapping[int, Any], data: Any) -> Any:
-        """Returns data whose shared rows are the sums over the ranks. With all neighbours.
+        """Returns data in which shared rows are replaced by their sums over the ranks.
 
-        `shared` has, for each neighbour in common, the rows of `data` that it has too, such as nodes
-        at the faces of parts: the same entries in the same order on both ranks.
+        `shared` contains for each neighbour the rows of `data` that the neighbour has too, such as
+        nodes at the faces of parts. Both ranks must list the same entries in the same order.
+        Exchanges messages with all neighbours.
         """
 
         def local() -> tuple[Columns, tuple[Any, ...]]:
@@ -184,7 +189,7 @@ class Neighbours:
         local: Callable[[], tuple[Columns | None, tuple[Any, ...]]],
         nothing: tuple[Any, ...],
     ) -> Any:
-        """Returns the result of a call; if local() fails, it fails on the neighbours too."""
+        """Returns the result of a call. If local() fails, the call fails on the neighbours too."""
         communicator(self.comm)
         try:
             columns, arguments = local()

@@ -1,4 +1,4 @@
-"""Pictures of the parts."""
+"""Draws the parts."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CELLS = {1: 3, 2: 8, 3: 11}  # VTK_LINE, VTK_PIXEL, VTK_VOXEL
 
 
 def corners_of(boxes: Array) -> Array:
-    """Returns the corners of boxes, (n, 2^d, d), the first axis fastest."""
+    """Returns the corners of boxes, (n, 2^d, d), with the first axis running fastest."""
     dimension = boxes.shape[2]
     sides = [side[::-1] for side in itertools.product((0, 1), repeat=dimension)]
     axes = np.arange(dimension)
@@ -60,7 +60,7 @@ def plot(cuts: Cuts, ax: Any, within: Any, style: dict[str, Any]) -> Any:
 
 
 def to_vtk(cuts: Cuts, path: str | Path, within: Any) -> None:
-    """Writes a cell for each part."""
+    """Writes a VTK file with a cell for each part."""
     corners = corners_of(cuts.finite_boxes(within))
     count, each, dimension = corners.shape
     points = np.zeros((count * each, 3))

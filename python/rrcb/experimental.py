@@ -1,6 +1,6 @@
-"""Without a promise: costs of points, keys of overlapping groups, a check of ghosts.
+"""Experimental functions: costs of points, keys of overlapping groups, a check of ghosts.
 
-Any version may change this module. Its calls are collective and raise rrcb.Error as those of rrcb.
+Any version may change this module. Its calls are collective, and raise rrcb.Error as rrcb's do.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ FAULT = np.dtype([("id", "u8"), ("rank", "i4"), ("needed_by", "u8")], align=True
 
 @dataclasses.dataclass(frozen=True)
 class Verification:
-    """Result of verify(), with the faults that concern this rank: fields id, rank, needed_by."""
+    """Result of verify(). Each fault that concerns this rank has the fields id, rank and needed_by."""
 
     num_pairs: int  #: of the sample, over all ranks
     num_faults: int  #: over all ranks
@@ -37,7 +37,7 @@ class Verification:
 
 
 def values_of(columns: Any) -> Any:
-    """Returns numbers as one row; NaN for what has no shape."""
+    """Returns numbers as one row. Returns NaN for anything that has no shape."""
     try:
         return np.ravel(columns)
     except ValueError:
@@ -45,7 +45,7 @@ def values_of(columns: Any) -> Any:
 
 
 def index_of(num_columns: Any) -> int:
-    """Returns a number of columns. Raises Error for what is none."""
+    """Returns a number of columns as an int. Raises Error for anything else."""
     try:
         columns = operator.index(num_columns)
     except TypeError:
@@ -56,7 +56,7 @@ def index_of(num_columns: Any) -> int:
 
 
 def address_of(controller: Controller | None) -> Any:
-    """Returns the address of a controller, or None. Raises Error for what is none."""
+    """Returns the address of a controller, or None. Raises Error for any other object."""
     if controller is None:
         return None
     if not isinstance(controller, Controller):
@@ -68,7 +68,7 @@ def address_of(controller: Controller | None) -> Any:
 class CostModel(Owner):
     """Learns the seconds that points cost. Making one is collective.
 
-    Its sums travel with the steps of `controller`, or on a communicator of their own. The first
+    Its sums are sent with the steps of `controller`, or on a communicator of their own. The first
     column is the number of points.
     """
 
@@ -90,7 +90,7 @@ class CostModel(Owner):
             controller._models.add(self)
 
     def save(self) -> bytes:
-        """Returns the state as bytes, the same on every rank; save its controller, too. Collective."""
+        """Returns the state as bytes, the same on every rank. Save its controller, too. Collective."""
         communicator(self._comm)
         return c.saved("cost_model_save", self._own)
 
@@ -112,13 +112,13 @@ class CostModel(Owner):
         return made
 
     def step(self, seconds: float, columns: Any) -> None:
-        """Records a step: seconds of this rank's own work, its number of each column. Collective."""
+        """Records the seconds of this rank's own work and its number for each column. Collective."""
         communicator(self._comm)
         counts = np.array([number(value) for value in values_of(columns)])
         c.call("cost_model_step", self._own, number(seconds), counts.size, counts)
 
     def weights(self, columns: Any) -> Array:
-        """Returns the weight of each point by its share of the columns, (n, num_columns)."""
+        """Returns the weight of each point, from its share of the columns, (n, num_columns)."""
         rows = np.ascontiguousarray(numbers_in(columns, "columns"))
         if rows.size and rows.shape[1:] != (self.num_columns,):
             raise c.Error(f"columns must have the shape (n, {self.num_columns}), not {rows.shape}")
@@ -128,20 +128,20 @@ class CostModel(Owner):
 
     @property
     def costs(self) -> Array:
-        """Seconds of a unit of each column."""
+        """The seconds that one unit of each column costs."""
         costs = np.empty(self.num_columns)
         c.call("cost_model_costs", self._own, costs.size, costs)
         return costs
 
     @property
     def uses_costs(self) -> bool:
-        """Whether weights() uses the costs; otherwise each point weighs 1."""
+        """Whether weights() uses the costs. If not, each point weighs 1."""
         uses = ctypes.c_int()
         c.call("cost_model_uses_costs", self._own, uses)
         return bool(uses.value)
 
     def report(self) -> str:
-        """Returns a sentence: whether costs are used, and why."""
+        """Returns a sentence that explains whether costs are used, and why."""
         self._own.require_alive()
         return c.text(c.library.rrcb_cost_model_report(self._own))
 
@@ -149,8 +149,8 @@ class CostModel(Owner):
 def join_keys(keys: Any, comm: MPI.Comm | None = None) -> Array:
     """Returns one key for each point of overlapping groups. Collective over `comm`.
 
-    `keys` are (n, k) integers, -1 for those that a point lacks; k is the same on every rank. Points
-    that share a key, directly or through others, get the least key of all of them.
+    `keys` are (n, k) integers, with -1 in place of missing keys; k must be the same on every rank.
+    Points that share a key, directly or through other points, all get the least of their keys.
     """
     chosen = communicator(comm)
 
@@ -180,9 +180,9 @@ def verify(
 ) -> Verification:
     """Compares ghosts with all pairs of a random sample of the points. Collective.
 
-    `x` are the positions on this rank. `sample` is the most points, over all ranks, whose
-    neighbours are looked for. `radius` is the true one, if the ghosts have a skin. `ids` are
-    numbers of the points, `ids_before` those of the points of this rank before distribute().
+    `x` are the positions on this rank. `sample` is the maximum number of points, over all ranks,
+    whose neighbours are searched. `radius` is the true radius, if the ghosts have a skin. `ids` are
+    numbers of the points, and `ids_before` those of this rank's points before distribute().
     """
     seen, kept = c.Verification(), []
 

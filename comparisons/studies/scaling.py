@@ -21,7 +21,6 @@ import plot
 from document import Report, show
 from driver import COMPARE, OUT, Driver, build, has_multijagged
 from results import read, row_of
-from simulation import limit_of
 
 RANKS = (2, 3, 4, 8, 16, 32, 64)
 MOST_RANKS = 1 << 20
@@ -207,17 +206,7 @@ def fit_errors(counts: dict[str, pd.DataFrame]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def matter_table(times: pd.DataFrame, machine: Machine, step_ns: float) -> pd.DataFrame:
-    """Steps between rebalances below which Zoltan's RCB costs a program 1 % more than rrcb, by ranks."""
-    step = 1e-6 * step_ns * machine.points  # ms
-    rows = times.loc[[ranks for ranks in (2, 16, 64, 1024) if ranks in times.index]]
-    limits = [f"{limit_of(row[ZOLTAN], row['rrcb'], step):.0f}" for _, row in rows.iterrows()]
-    return pd.DataFrame({"ranks": rows.index.map("{:,}".format), "matters below, steps": limits})
-
-
-def report(
-    out: Path, counts: dict[str, pd.DataFrame], paths: pd.DataFrame, machine: Machine, step_ns: float
-) -> None:
+def report(out: Path, counts: dict[str, pd.DataFrame], paths: pd.DataFrame) -> None:
     times = 1e3 * paths.pivot(index="ranks", columns="method", values="model_s")
     clock = read(out / "clock-2/table.csv").set_index("method")["time_ms_median"]
     pairs = [(m, f"{times.loc[2, m]:.2f}", f"{clock[NAMES[m]]:.2f}") for m in times]
@@ -226,8 +215,6 @@ def report(
         "Modelled time of a call, ms": by_ranks,
         "The model and a clock: 2 ranks of one machine, lists included":
             pd.DataFrame(pairs, columns=["method", "model ms", "clock ms"]),
-        f"The balancer matters by more than 1 %, steps of {step_ns:g} ns a point":
-            matter_table(times, machine, step_ns),
         "A fit without the most ranks, compared with the counts on these": fit_errors(counts),
     }  # fmt: skip
     found = Report("To a million ranks: counts and a model", out)
@@ -244,7 +231,6 @@ def main() -> int:
     parser.add_argument("--latency-us", type=float, default=1.5)
     parser.add_argument("--bandwidth-gb", type=float, default=12.0)
     parser.add_argument("--points-per-rank", type=int, default=50_000)
-    parser.add_argument("--step-ns", type=float, default=25, help="of a program for a point; 25")
     parser.add_argument("--quick", action="store_true", help="up to 8 ranks")
     parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     given = parser.parse_args()
@@ -261,7 +247,7 @@ def main() -> int:
     paths.to_csv(given.out / "scaling.csv", index=False)
     plot.use_style()
     plot.save(draw(paths), given.out / "scaling.png")
-    report(given.out, counts, paths, machine, given.step_ns)
+    report(given.out, counts, paths)
     return 0
 
 

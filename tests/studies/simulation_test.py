@@ -7,9 +7,7 @@ from math import isnan
 
 import support  # noqa: F401, before the studies
 
-import matters
 import pandas as pd
-from intervals import NOT_TOLD_APART, Value
 from simulation import KEY, MEDIANS, limit_of, noise, summarise
 
 
@@ -96,14 +94,6 @@ class MatterTest(unittest.TestCase):
         # r = 4: 200 (1 - 1/2) 8 / 2 steps, whichever of the two is slower.
         self.assertEqual([limit_of(8, 2, 2), limit_of(2, 8, 2)], [400, 400])
         self.assertEqual(limit_of(5, 5, 1), 0)
-
-    def test_identical_runs_are_not_told_apart(self) -> None:
-        noise = Value(1.02, 1.015, 1.03)
-        self.assertEqual(matters.verdict(noise, noise), NOT_TOLD_APART)
-        self.assertEqual(matters.verdict(Value(1.06, 1.04, 1.08), noise), "slower")
-        self.assertEqual(matters.verdict(Value(0.9, 0.85, 0.95), noise), "faster")
-        self.assertEqual(matters.verdict(Value(1.06, 1.02, 1.08), noise), NOT_TOLD_APART)
-        self.assertEqual(matters.verdict(Value(2), noise), "too few rounds")
 
 
 if __name__ == "__main__":

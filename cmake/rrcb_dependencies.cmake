@@ -77,7 +77,6 @@ rrcb_part(RRCB_MPM_SCENES ${examples}
           "Its scene files and its program (need Teuchos)")
 rrcb_part(RRCB_COMPARISONS ${examples}
           "The comparison driver (needs the plug-in and the material point example)")
-rrcb_part(RRCB_BENCHMARKS ${top_level_parts} "The benchmarks (need Google Benchmark)")
 
 if(RRCB_FORTRAN)
   include(CheckLanguage)
@@ -133,11 +132,6 @@ endif()
 foreach(option IN ITEMS RRCB_ZOLTAN RRCB_MPM_SCENES)
   rrcb_needs(RRCB_COMPARISONS ${option} ${option})
 endforeach()
-
-if(RRCB_BENCHMARKS)
-  rrcb_find_package(benchmark)
-  rrcb_needs(RRCB_BENCHMARKS benchmark_FOUND "Google Benchmark" benchmark)
-endif()
 
 if(RRCB_TESTS)
   rrcb_find_package(GTest)

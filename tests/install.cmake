@@ -17,7 +17,7 @@ add_test(
     -DEXPECT_TEUCHOS=${RRCB_TEUCHOS}
     "-DMPIEXEC_PREFLAGS=${RRCB_MPIEXEC_FLAGS}" --test-command ${CMAKE_CTEST_COMMAND}
     --output-on-failure --no-tests=error)
-# Compiles what is installed; examples and benchmarks it only configures.
+# Compiles what is installed; examples it only configures.
 set(targets --build-target my_program)
 if(RRCB_FORTRAN)
   list(APPEND targets --build-target rrcb_fortran)
@@ -31,7 +31,7 @@ add_test(
     -DCMAKE_CXX_FLAGS_DEBUG= -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_MPM=OFF -DRRCB_EXAMPLES=ON -DRRCB_EIGEN_DIR=${eigen}
     -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON -DBUILD_SHARED_LIBS=ON
-    -DRRCB_BENCHMARKS=AUTO -DRRCB_FORTRAN=AUTO -DRRCB_ZOLTAN=AUTO -DRRCB_TEUCHOS=AUTO
+    -DRRCB_FORTRAN=AUTO -DRRCB_ZOLTAN=AUTO -DRRCB_TEUCHOS=AUTO
     -DRRCB_WERROR=${RRCB_WERROR})
 add_test(
   NAME install.left_out
@@ -93,7 +93,7 @@ if(RRCB_ZOLTAN)
     COMMAND
       ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${zoltan_targets} -G ${CMAKE_GENERATOR}
       -DZoltan_DIR=${zoltan_dir} -DRRCB_ZOLTAN=ON -DRRCB_TESTS=OFF -DRRCB_EXAMPLES=OFF
-      -DRRCB_TEUCHOS=OFF -DRRCB_FORTRAN=OFF -DRRCB_BENCHMARKS=OFF -DRRCB_EIGEN_DIR=${eigen}
+      -DRRCB_TEUCHOS=OFF -DRRCB_FORTRAN=OFF -DRRCB_EIGEN_DIR=${eigen}
       -DCMAKE_INSTALL_PREFIX=${CMAKE_INSTALL_PREFIX})
   add_test(NAME install.zoltan_targets_flags
            COMMAND ${CMAKE_COMMAND} -E compare_files ${zoltan_targets}/rrcb_zoltan.pc

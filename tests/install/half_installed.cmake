@@ -1,7 +1,7 @@
 # Packages whose files for CMake include a file that is absent end neither the configuring of the library nor that of
 # a project that uses it: stand-ins for all that are optional.
 set(half_installed ${CMAKE_CURRENT_BINARY_DIR}/half_installed)
-foreach(package IN ITEMS Zoltan Teuchos KokkosCore Kokkos TpetraCore benchmark rapidcheck GTest)
+foreach(package IN ITEMS Zoltan Teuchos KokkosCore Kokkos TpetraCore rapidcheck GTest)
   file(WRITE ${half_installed}/${package}Config.cmake
        "include(\${CMAKE_CURRENT_LIST_DIR}/absent.cmake)\nset(${package}_FOUND TRUE)\n")
   set(${package}_stand_in -D${package}_DIR=${half_installed})
@@ -24,10 +24,10 @@ endfunction()
 set(error "cannot be used: include could not find requested file: [^ ]*/absent.cmake")
 rrcb_add_half_installed_test(
   packages
-  "RRCB_ZOLTAN: Zoltan of Trilinos ${error}.*RRCB_TEUCHOS: Teuchos of Trilinos ${error}.*RRCB_BENCHMARKS: Google Benchmark ${error}.*Kokkos: Kokkos ${error}.*properties: rapidcheck ${error}.*libbenchmark-dev.*librapidcheck-dev.*libtrilinos-teuchos-dev.*libtrilinos-zoltan-dev"
-  ${trilinos} ${benchmark_stand_in} ${rapidcheck_stand_in})
+  "RRCB_ZOLTAN: Zoltan of Trilinos ${error}.*RRCB_TEUCHOS: Teuchos of Trilinos ${error}.*Kokkos: Kokkos ${error}.*properties: rapidcheck ${error}.*librapidcheck-dev.*libtrilinos-teuchos-dev.*libtrilinos-zoltan-dev"
+  ${trilinos} ${rapidcheck_stand_in})
 rrcb_add_half_installed_test(test_library "RRCB_TESTS: GoogleTest ${error}.*libgtest-dev" ${GTest_stand_in}
-                             -DRRCB_EXAMPLES=OFF -DRRCB_ZOLTAN=OFF -DRRCB_TEUCHOS=OFF -DRRCB_BENCHMARKS=OFF)
+                             -DRRCB_EXAMPLES=OFF -DRRCB_ZOLTAN=OFF -DRRCB_TEUCHOS=OFF)
 
 # The installed library: Zoltan and Teuchos are nothing to those who do not ask for them.
 add_test(NAME install.half_installed.library

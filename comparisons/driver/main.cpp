@@ -1,7 +1,6 @@
 #include "comparison_mpi.hpp"
 #include "failure_mpi.hpp"
 #include "git_hash.hpp"
-#include "machine_load_mpi.hpp"
 #include "scene_mpi.hpp"
 #include "text.hpp"
 #include "traffic.hpp"
@@ -138,23 +137,14 @@ bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progre
 
 int compare(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
     check_surroundings(arguments, comm);
-    const MachineWatch watch(comm);
     const ResultsFolder folder(arguments.out, comm);
     Progress progress(arguments.progress && rank_of(comm) == 0);
     const std::string record = run_record(arguments, command, comm);
     folder.write("run.txt", [&] { return record; });
 
     const bool succeeded = compare_all(arguments, folder, progress, comm);
-    const MachineUse use = watch.use();
-    std::ostringstream whole_record;
-    whole_record << record;
-    write_use(whole_record, use);
-    folder.write("run.txt", [&] { return whole_record.str(); });
-    if (rank_of(comm) == 0) {
-        std::cout << '\n';
-        print_warning(std::cout, use);
-        std::cout << definitions << "Written to " << arguments.out << '\n';
-    }
+    if (rank_of(comm) == 0)
+        std::cout << '\n' << definitions << "Written to " << arguments.out << '\n';
     return succeeded ? 0 : 1;
 }
 

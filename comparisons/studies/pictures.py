@@ -1,5 +1,5 @@
-"""The pictures of comparisons/run: points by part, ghosts, and load unbalance over
-the steps. Their captions are the docstrings of what draws them."""
+"""The pictures of comparisons/run: ghosts, and load unbalance over the steps. Their captions are the docstrings of
+what draws them."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ import numpy as np
 import pandas as pd
 import plot
 from history import draw_history, draw_seconds
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from results import Results, cases
+from results import Results
 
 BASE, METHOD = "zoltan-rcb", "rrcb"
 
@@ -27,50 +26,13 @@ def draw_all(results: Results) -> dict[str, str]:
     return captions
 
 
-def _middle_case(results: Results) -> pd.DataFrame:
-    by_case = list(cases(results.table).values())
-    return by_case[len(by_case) // 2] if by_case else results.table
-
-
-# --- points by part, with the boxes of the parts ---
-
-
-def draw_parts(results: Results) -> Figure | None:
-    """The points by part under each method, with the boxes of the parts."""
-    found = []
-    for row in _middle_case(results).itertuples():
-        points, boxes = (results.data(kind, row.workload, row.method) for kind in ("points", "boxes"))
-        found += [(row, points, boxes)] * (len(points) > 0)
-    if not found:
-        return None
-    columns = min(2, len(found))
-    lines = -(-len(found) // columns)
-    height = 4.2 * plot.length_ratio(points for _, points, _ in found) + 0.8
-    figure, grid = plot.panels(lines, columns, 4.2 * columns, height * lines, sharex=True, sharey=True)
-    for axes in grid.flat[len(found) :]:
-        axes.set_visible(False)
-    for axes, (row, points, boxes) in zip(grid.flat, found):
-        draw_part_boxes(axes, points, boxes, points)
-        axes.set_title(f"{row.method}: {row.imbalance:.5f}", fontsize=9)
-    return figure
-
-
-def draw_part_boxes(axes: Axes, points: pd.DataFrame, boxes: pd.DataFrame, whole: pd.DataFrame) -> None:
-    """Open sides reach to the ends of the whole."""
-    plot.draw_cloud(axes, points, plot.part_colours(points["part"]), largest=6)
-    boxes = boxes.copy()
-    for side in [f"{end}_{axis}" for end in ("lower", "upper") for axis in "xy" if len(boxes)]:
-        end = "min" if side.startswith("lower") else "max"
-        boxes.loc[boxes[side] == boxes[side].agg(end), side] = whole[side[-1]].agg(end)
-    for box in plot.rectangles(boxes, fill=False, lw=1, ec="black"):
-        axes.add_patch(box)
-    plot.show_lengths(axes)
-
-
 def draw_ghosts(results: Results) -> Figure | None:
     """Points by part at the end of a scene, and in black those that are ghosts of another part, because
-    one of its points is within twice the median distance to the nearest point."""
-    end = results.table[results.table["workload"].str.endswith("-end")] if len(results.table) else results.table
+    one of its points is within twice the median distance to the nearest point. Not of the slope, whose parts
+    are strips under all methods."""
+    end = results.table
+    if len(end):
+        end = end[end["workload"].str.endswith("-end") & (end["workload"] != "slope-end")]
     found = [
         (row, points, results.data("boxes", row.workload, row.method))
         for row in end.itertuples()
@@ -83,7 +45,10 @@ def draw_ghosts(results: Results) -> Figure | None:
     height = 6 * plot.length_ratio([points for _, points, _ in found]) + 0.6
     figure, grid = plot.panels(1, 2, 12, height, sharex=True, sharey=True)
     for axes, (row, points, boxes) in zip(grid[0], found):
-        draw_part_boxes(axes, points, boxes, points)
+        plot.draw_cloud(axes, points, plot.part_colours(points["part"]), largest=6)
+        for box in plot.rectangles(boxes, fill=False, lw=1, ec="black"):
+            axes.add_patch(box)
+        plot.show_lengths(axes)
         near = points[are_near_others(points)]
         axes.scatter(near["x"], near["y"], c="black", s=6, linewidths=0)
         axes.set_title(f"{row.method}: {row.ghosts:,.0f} ghosts")
@@ -123,7 +88,6 @@ def draw_rank_times(results: Results) -> Figure | None:
 
 
 PICTURES = {
-    "parts.png": draw_parts,
     "ghosts.png": draw_ghosts,
     "unbalance_history.png": draw_unbalance,
     "rank_times.png": draw_rank_times,

@@ -36,7 +36,6 @@ RIVALS = {
     ZOLTAN: "Zoltan's RCB", "zoltan-hsfc": "Zoltan's HSFC", "hilbert-counts": "counted keys",
     "zoltan2-mj": "multijagged",
 }  # fmt: skip
-MESHES = (2, 4, 8, 16, 32)
 MOST_A_CORE = 8  # ranks that are timed; of more the waits are those of the machine
 LOOKS = {
     "time": "time / Zoltan's RCB", "rounds": "rounds of counting", "bytes": "bytes / Zoltan's RCB",
@@ -51,11 +50,9 @@ def measure(driver: Driver, parts: list[int], points: int, repeats: int) -> None
     for number in parts:
         turns = repeats if number <= MOST_A_CORE * CORES else 1
         words = ["--no-data", f"--repeats={turns}", f"--points={points}"]
-        meshes = [f"rrcb[mesh={mesh}]" for mesh in MESHES] * (number == parts[0])
         for cloud in list(CLOUDS)[:: len(CLOUDS) if driver.quick else 1]:
             for dimension in (2, 3):
-                driver.run(f"{cloud}-{dimension}-{number}", number, methods + meshes, f"--cloud={cloud}",
-                           f"--dim={dimension}", *words)  # fmt: skip
+                driver.run(f"{cloud}-{dimension}-{number}", number, methods, f"--cloud={cloud}", f"--dim={dimension}", *words)
 
 
 def rows_of(out: Path) -> pd.DataFrame:
@@ -195,24 +192,6 @@ def _value(row: pd.Series, name: str) -> Value:
                   "excess_percent": 100 * row["excess"]}[name])  # fmt: skip
 
 
-def draw_meshes(rows: pd.DataFrame) -> Figure:
-    """The support mesh: cost of a call to 1.01 with a mesh of so many cells along an axis, over that of RRCB's
-    own choice."""
-    names = ["rounds", "bytes", *["time"] * bool(rows["is_timed"].any())]
-    rows = rows[rows["ranks"] == rows["ranks"].min()].set_index("method")
-    figure, grid = plot.panels(1, len(names), 3.4 * len(names), 3.2)
-    for axes, name in zip(grid[0], names):
-        for (cloud, dimension), of in rows.groupby(["cloud", "dim"], sort=False):
-            values = of["time"].map(lambda v: v.number) if name == "time" else of[name]
-            ratios = [values[f"rrcb[mesh={mesh}]"] / values["rrcb"] for mesh in MESHES]
-            axes.plot(MESHES, ratios, color=CLOUDS[cloud], linestyle="-" if dimension == 2 else "--",
-                      label=cloud if dimension == 2 else None)  # fmt: skip
-        axes.set(xscale="log", yscale="log", title=f"{name} / those of the own mesh", xlabel="cells along an axis")
-        axes.set_xticks(MESHES, map(str, MESHES))
-        axes.grid(True)
-    return plot.legend_above(figure, grid[0, 0], inches=1.2)
-
-
 def report(out: Path, step_ns: float) -> None:
     rows = rows_of(out)
     timed, parts = bool(rows["is_timed"].any()), sorted(rows["ranks"].unique())
@@ -220,14 +199,11 @@ def report(out: Path, step_ns: float) -> None:
     counts = rows[["cloud", "dim", "ranks", "method", "imbalance", "rounds", "bytes", "ghosts"]]
     counts.to_csv(out / "price.csv", index=False, float_format="%.9g")
     plot.use_style()
-    pictures = {"price.png": draw, "meshes.png": draw_meshes}
-    for name, make in pictures.items():
-        plot.save(make(rows), out / name)
+    plot.save(draw(rows), out / "price.png")
     tables = {f"{most} parts: median of the clouds, worst in brackets": table_of(rows, most, step_ns),
               f"{most} parts: by cloud": choice_table(rows, most)}  # fmt: skip
     found = Report("What accuracy costs", out)
-    for name, make in pictures.items():
-        found.picture(name, " ".join(make.__doc__.split()))
+    found.picture("price.png", " ".join(draw.__doc__.split()))
     for caption, table in tables.items():
         found.table(caption, table)
         show(caption, table)

@@ -18,12 +18,10 @@ ZOLTAN = "zoltan-rcb"
 # Each with the exact setting of the same interface: callbacks with callbacks, arrays with arrays.
 INTERFACES = {"rrcb": "rrcb-exact", "rrcb-arrays": "rrcb-arrays[refine=exact]"}
 DEFINITIONS = (
-    "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 if it is"
-    " too heavy. time: slowest rank, median of the repeats. speed-up: Zoltan RCB's time / this"
-    " method's. bytes and messages: of one call over all ranks. moved: weight that changes rank."
-    " ghosts: copies of points that parts need from others, the price of their shape. neighbours: the"
-    " most parts that a part needs them from. gain kept: of what ideal"
-    " balance without cost would gain; of even time: of what even times of all ranks without messages would"
+    "imbalance: heaviest part / mean part. time: slowest rank, median of the repeats. speed-up: Zoltan RCB's"
+    " time / this method's. bytes and messages: of one call over all ranks. moved: weight that changes rank. ghosts:"
+    " copies of points that parts need from others, the price of their shape. table.csv has more columns. gain"
+    " kept: of what ideal balance without cost would gain; of even time: of what even times of all ranks without messages would"
     " gain. count, learned: rrcb-arrays, whose points weigh 1 or the seconds that they cost. wall: by the"
     " clock. In brackets: intervals of 95 %; if the interval of a ratio contains 1, the two methods are"
     " not told apart."
@@ -37,8 +35,6 @@ def write_report(folder: Path) -> None:
             rows.to_csv(folder / name, index=False)
     captions = pictures.draw_all(results)
     report = Report("RRCB compared with Zoltan's balancers", folder)
-    if results.busy:
-        report.text(f"The machine was busy: other processes used {results.busy} of its processor time.")
     for text in [*failures(results), *sentences(results)]:
         report.text(text)
         print(f"\n{text}")
@@ -105,19 +101,13 @@ def method_table(rows: pd.DataFrame) -> pd.DataFrame:
         {
             "method": rows["method"],
             "imbalance": _texts(rows, "imbalance", 5),
-            "largest Lu, signed %": _numbers(rows["lu_worst_percent"] + 0.0, "+.3f"),
             "time ms": _texts(rows, "time_ms", 2),
             "speed-up": [_ratio(v, m == ZOLTAN) for v, m in zip(speeds, rows["method"])],
             "bytes": _numbers(rows["bytes"], ","),
             "messages": _numbers(rows["messages"], ","),
-            "bytes received by rank 0": _numbers(rows["root_bytes_in"], ","),
             "moved %": _numbers(100 * rows["moved_fraction"], ".1f"),
             "ghosts": _numbers(rows["ghosts"], ",.0f"),
             "% of the points": _numbers(100 * rows["ghosts"] / rows["points"], ".1f"),
-            "most on a part": _numbers(rows["ghosts_max"], ",.0f"),
-            "neighbours": _numbers(rows["neighbours_max"], ".0f"),
-            "ghosts from other machines %":
-                _numbers(100 * rows["off_machine_ghosts"] / rows["ghosts"], ".1f"),
         }
     )
 

@@ -93,14 +93,6 @@ class Results:
         """The rows of noise.csv."""
         return noise(self.all_runs, self.turns)
 
-    @cached_property
-    def busy(self) -> str:
-        """The share of processor time that other processes took, if that was much."""
-        path = self.folder / "run.txt"
-        text = path.read_text() if path.exists() else ""
-        share = re.search(r"used by other processes: (.*)", text)
-        return share[1] if share and "\nbusy: yes" in text else ""
-
     def histories(self) -> dict[str, pd.DataFrame]:
         """The rows of each method in history.csv."""
         rows = read(self.folder / "history.csv")

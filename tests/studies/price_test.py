@@ -29,7 +29,6 @@ def folder_of(out: Path, cloud: str, repeats: int, ranks: int = 4, again: float 
     ]
     rows += [rows[2] | {"method": price.TOLERANCES[name]} for name in ("1.05", "1.02")]
     rows += [rows[5] | {"method": price.TOLERANCES[name]} for name in ("1.001", "1.0003")]
-    rows += [rows[4] | {"method": f"rrcb[mesh={mesh}]", "bytes": 100 * mesh} for mesh in price.MESHES]
     folder = out / f"{cloud}-{ranks}"
     folder.mkdir()
     pd.DataFrame(rows).to_csv(folder / "table.csv", index=False)

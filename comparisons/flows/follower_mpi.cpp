@@ -21,20 +21,13 @@ std::vector<rrcb::Part> gathered(const std::vector<rrcb::Part>& parts,
     return all;
 }
 
-double imbalance_of(const std::vector<rrcb::Part>& parts, int num_parts) {
-    std::vector<double> sizes(static_cast<std::size_t>(num_parts));
-    for (const rrcb::Part part : parts) ++sizes[static_cast<std::size_t>(part)];
-    return rrcb::imbalance(sizes);
-}
-
 }  // namespace
 
 std::vector<Policy> policies(const std::vector<std::string>& names) {
-    const std::vector<Policy> all{
-        {"library", true, false, false, false},         {"kept axes", true, true, false, false},
-        {"fresh", false, false, false, true},           {"fresh + remap", false, false, true, true},
-        {"library + remap", true, false, true, false},  {"in place", false, false, false, false},
-        {"in place + remap", false, false, true, false}};
+    const std::vector<Policy> all{{"library", true, false, false},
+                                  {"kept axes", true, true, false},
+                                  {"fresh", false, false, false},
+                                  {"fresh + remap", false, false, true}};
     if (names.empty()) return all;
     std::vector<Policy> chosen;
     for (const std::string& name : names) {
@@ -59,7 +52,7 @@ Follower::Follower(const Policy& policy, int num_parts, MPI_Comm comm)
 std::vector<std::size_t> Follower::particles_here(std::size_t count) const {
     int num_ranks = 1;
     MPI_Comm_size(comm_, &num_ranks);
-    const bool are_dealt = parts_.empty() || policy_.deals;
+    const bool are_dealt = parts_.empty() || !policy_.has_previous;
     std::vector<std::size_t> here;
     for (std::size_t i = 0; i < count; ++i) {
         const int rank = are_dealt
@@ -90,9 +83,9 @@ CallCounts Follower::go_on(const Workload& all) {
     start_counting_traffic();
     rrcb::Balance balance =
         rrcb::balance(mine.points(), options_, policy_.has_previous ? cuts_ : rrcb::Cuts{}, comm_);
-    const rrcb::Cuts old = std::exchange(cuts_, std::move(balance.cuts));
+    cuts_ = std::move(balance.cuts);
     if (policy_.renumbers && !parts_.empty()) renumber(balance.parts, here);
-    const Traffic traffic = stop_counting_traffic();
+    CallCounts counts{.messages = stop_counting_traffic().messages};
     if (policy_.keeps_axes && parts_.empty()) {
         std::vector<int> axes;
         for (const rrcb::Cut& cut : cuts_.tree) axes.push_back(cut.axis);
@@ -100,15 +93,8 @@ CallCounts Follower::go_on(const Workload& all) {
     }
     const std::vector<rrcb::Part> before =
         std::exchange(parts_, gathered(balance.parts, here, count, comm_));
-    CallCounts counts{.imbalance = imbalance_of(parts_, options_.num_parts),
-                      .rounds = balance.report.details.rounds,
-                      .messages = traffic.messages,
-                      .bytes = traffic.bytes};
-    for (std::size_t k = 0; k < old.tree.size(); ++k)
-        counts.turned += old.tree[k].axis != cuts_.tree[k].axis;
     for (std::size_t i = 0; i < before.size(); ++i) counts.moved += before[i] != parts_[i];
-    for (std::int64_t* number : {&counts.messages, &counts.bytes})
-        MPI_Allreduce(MPI_IN_PLACE, number, 1, MPI_INT64_T, MPI_SUM, comm_);
+    MPI_Allreduce(MPI_IN_PLACE, &counts.messages, 1, MPI_INT64_T, MPI_SUM, comm_);
     return counts;
 }
 

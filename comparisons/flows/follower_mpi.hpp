@@ -15,10 +15,9 @@ namespace comparisons {
 /// A way to call the balancer along a flow.
 struct Policy {
     std::string name;
-    bool has_previous;  ///< gives the cuts of the call before
+    bool has_previous;  ///< gives the cuts of the call before; otherwise deals the particles anew
     bool keeps_axes;    ///< of the first call
     bool renumbers;     ///< parts, by rrcb::remap, so that many points keep theirs
-    bool deals;         ///< the particles to the ranks, whatever their parts were
 };
 
 /// Returns the policies, or those of some names in the order of these. Not collective. Throws
@@ -28,17 +27,13 @@ std::vector<Policy> policies(const std::vector<std::string>& names = {});
 /// Counts of a call over all ranks.
 struct CallCounts {
     std::int64_t moved = 0;  ///< particles whose part is not that of the call before; first call: 0
-    std::int64_t turned = 0;  ///< cuts whose axis is not that of the call before; first call: 0
-    double imbalance = 1;
-    int rounds = 0;
     std::int64_t messages = 0;  ///< as of Traffic
-    std::int64_t bytes = 0;
 };
 
 /// A program that balances the particles of a flow by a policy.
 ///
-/// Each rank holds the particles of its parts. At the first call, and at each one of a policy that
-/// deals them, particle i is on rank i modulo the number of ranks instead.
+/// Each rank holds the particles of its parts. At the first call, and at each one without earlier
+/// cuts, particle i is on rank i modulo the number of ranks instead.
 class Follower {
   public:
     Follower(const Policy& policy, int num_parts, MPI_Comm comm);

@@ -93,13 +93,9 @@ void follow(const Flow& flow, const std::vector<Policy>& chosen, int num_parts) 
                       .add("call", call)
                       .add("points", flow.num_points)
                       .add("moved", counts[p].call.moved)
-                      .add("turned", counts[p].call.turned)
                       .add("ghosts_near", counts[p].ghosts[0])
                       .add("ghosts_wide", counts[p].ghosts[1])
-                      .add("imbalance", counts[p].call.imbalance)
-                      .add("rounds", counts[p].call.rounds)
-                      .add("messages", counts[p].call.messages)
-                      .add("bytes", counts[p].call.bytes));
+                      .add("messages", counts[p].call.messages));
     }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "row.hpp"
-#include "traffic.hpp"
 #include "workload_mpi.hpp"
 
 #include <mpi.h>
@@ -21,26 +20,6 @@ inline constexpr double ghost_reach = 3;
 
 /// Prints a row of the one table of the program on rank 0, before the first its header.
 void print(const Row& row, MPI_Comm comm);
-
-/// Parts of a method, and the costs of the call, which are sums over the ranks.
-struct MadeParts {
-    std::vector<rrcb::Part> parts;
-    int rounds = 0;
-    std::int64_t cells = 0;  ///< on rank 0
-    Traffic traffic{};
-};
-
-/// Balances points by a method of the driver. Collective over `comm`.
-MadeParts make_parts(const std::string& method, const Workload& workload, int num_parts,
-                     MPI_Comm comm);
-
-/// Prints ghosts and costs of meshes of several sizes, and of Zoltan's RCB, on sorted and on
-/// scattered points. Collective over `comm`.
-void compare_meshes(bool quick, MPI_Comm comm);
-
-/// Calls RRCB with each mesh, for Callgrind to count within rrcb_ghosts_call(), and prints their
-/// methods. Collective over `comm`.
-void call_with_meshes(int dimension, int num_parts, MPI_Comm comm);
 
 /// Prints the largest loads of parts, points + a cost * ghosts, as part sizes are corrected call by
 /// call; a part for each rank. Collective over `comm`.

@@ -1,11 +1,9 @@
 // Ghosts of the parts of several methods as CSV on standard output.
 //
 // On one process:
-//   rrcb_ghosts clouds [--quick]        clouds of 20,000 points, several seeds
+//   rrcb_ghosts clouds [--quick]   clouds of 20,000 points, several seeds
 // On several:
-//   rrcb_ghosts meshes [--quick]        the clouds with support meshes of several sizes
-//   rrcb_ghosts loads [--quick]         loads of the ranks with corrected part sizes
-//   rrcb_ghosts calls DIMENSION PARTS   a call with each of these meshes, for Callgrind
+//   rrcb_ghosts loads [--quick]    loads of the ranks with corrected part sizes
 //
 // A point is a ghost within three times the radius of GhostCounter.
 #include "cloud.hpp"
@@ -19,6 +17,7 @@
 #include <rrcb/rrcb.hpp>
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
 #include <numeric>
@@ -26,6 +25,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace {
@@ -86,7 +86,18 @@ class WidestHalves {
 
 std::vector<Part> by(const std::string& method, const Workload& workload, int num_parts) {
     if (method == lammps_axes) return WidestHalves(workload.points(), num_parts).parts();
-    return make_parts(method, workload, num_parts, MPI_COMM_SELF).parts;
+    const Method read = read_method(method);
+    if (read.options) {
+        auto options = std::get<rrcb::Options>(*read.options);
+        options.num_parts = num_parts;
+        return rrcb::balance(workload.points(), options, {}, MPI_COMM_SELF).parts;
+    }
+    ZoltanParameters parameters = zoltan_parameters(read, Lists::parts);
+    parameters.emplace_back("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+    parameters.emplace_back("IMBALANCE_TOL", "1.01");
+    ZoltanPartitioner zoltan(parameters, workload, MPI_COMM_SELF);
+    if (zoltan.partition() != ZOLTAN_OK) throw Failure("Zoltan failed");
+    return zoltan.parts();
 }
 
 double imbalance_of(const std::vector<Part>& parts, int num_parts) {
@@ -128,6 +139,26 @@ void compare_clouds(bool quick) {
 
 }  // namespace
 
+namespace comparisons {
+
+std::span<const char* const> ghost_clouds() {
+    static constexpr std::array names{"uniform",  "slab",  "slope",  "run_out",  "polygon", "wave",
+                                      "clusters", "shell", "spiral", "diagonal", "cusps",   "drops",
+                                      "pile",     "jets",  "web",    "discs"};
+    return names;
+}
+
+void print(const Row& row, MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    if (rank != 0) return;
+    static bool is_first = true;
+    if (std::exchange(is_first, false)) std::cout << row.header() << '\n';
+    std::cout << row.text() << std::endl;
+}
+
+}  // namespace comparisons
+
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
     float version = 0;
@@ -138,12 +169,8 @@ int main(int argc, char** argv) {
     try {
         if (!words.empty() && words[0] == "clouds") {
             compare_clouds(quick);
-        } else if (!words.empty() && words[0] == "meshes") {
-            compare_meshes(quick, MPI_COMM_WORLD);
         } else if (!words.empty() && words[0] == "loads") {
             compare_loads(quick, MPI_COMM_WORLD);
-        } else if (words.size() == 3 && words[0] == "calls") {
-            call_with_meshes(std::stoi(words[1]), std::stoi(words[2]), MPI_COMM_WORLD);
         } else {
             throw Failure("unknown words; see the source for those that it takes");
         }

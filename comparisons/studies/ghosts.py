@@ -1,6 +1,6 @@
 """Compares the ghosts of methods on 16 clouds.
 
-With --meshes it compares support meshes of several sizes instead, with --loads part sizes that are corrected by ghosts.
+With --loads it counts the loads of part sizes that are corrected by ghosts instead.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ import argparse
 import sys
 from pathlib import Path
 
-import callgrind
 import numpy as np
 import pandas as pd
 from document import markdown_table
@@ -17,13 +16,9 @@ from driver import OUT, PROGRAMS, build, on_ranks
 from results import read_all
 
 CASE = ["cloud", "dim", "parts"]
-BASE, OURS = "zoltan-rcb", "rrcb-arrays"
+BASE = "zoltan-rcb"
 COUNTS = ["ghosts", "ghosts_max", "neighbours_max"]
-LAYOUTS = ("sorted", "scattered")
-MEANS = ("ghosts / RCB", "rounds", "kB")
-MESH_RANKS = 8
 LOAD_RANKS = (8, 16, 32)
-CALL_PARTS = 16  # of calls whose instructions are counted
 
 
 def ratios(rows: pd.DataFrame) -> pd.DataFrame:
@@ -49,36 +44,6 @@ def table(found: pd.DataFrame) -> list[list[str]]:
     worst = found["ghosts"].groupby([*CASE, "method"]).agg(mean).groupby("method").max()
     lines.append(["worst cloud and number of parts", *(f"{worst[m]:.2f}" for m in methods)])
     return lines
-
-
-def mesh_table(rows: pd.DataFrame, instructions: dict[tuple[int, int, str], int]) -> list[list[str]]:
-    """By dimension, parts and mesh: ghosts over those of Zoltan's RCB, cells and rounds with both layouts, sums of bytes."""
-    counts = rows.set_index([*CASE, "layout", "seed", "method"])
-    base = counts.xs(BASE, level="method").reindex(counts.droplevel("method").index)
-    counts["ratio"] = counts["ghosts"] / base["ghosts"].to_numpy()
-    lines = [["dim", "parts", "mesh", *(f"{layout}: {name}" for layout in LAYOUTS for name in MEANS),
-              "instructions of rank 0, millions"]]  # fmt: skip
-    counts = counts.drop(BASE, level="method").reset_index()
-    for (dim, parts, method), of in counts.groupby(["dim", "parts", "method"], sort=False):
-        line = [f"{dim}-D", str(parts), method.removeprefix(OURS).strip("[]").removeprefix("mesh=") or "default"]
-        for layout in LAYOUTS:
-            here = of[of["layout"] == layout]
-            line += [f"{mean(here['ratio']):.3f}", f"{here['rounds'].mean():.2f}", f"{here['bytes'].mean() / 1e3:.0f}"]
-        known = instructions.get((dim, parts, method))
-        lines.append([*line, f"{known / 1e6:.2f}" if known else "–"])
-    return lines
-
-
-def instructions_of_rank_0(program: Path, out: Path) -> dict[tuple[int, int, str], int]:
-    """Instructions of the busiest rank in a call for the sorted slope, by dimension, parts and method; MPI's are left out."""
-    found = {}
-    for dim in (2, 3) if callgrind.is_here() else ():
-        words = [str(program), "calls", str(dim), str(CALL_PARTS)]
-        text, files = callgrind.run(words, MESH_RANKS, "rrcb_ghosts_call", out / "callgrind")
-        for k, method in enumerate(text.split()[1:]):
-            of_ranks = [sum(callgrind.own_instructions(calls[k]).values()) for calls in files]
-            found[dim, CALL_PARTS, method] = max(of_ranks)
-    return found
 
 
 def load_table(rows: pd.DataFrame) -> list[list[str]]:
@@ -107,7 +72,6 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=OUT / "ghosts", help="folder of the results")
     parser.add_argument("--quick", action="store_true", help="few points, one seed")
-    parser.add_argument("--meshes", action="store_true", help="compare support meshes of several sizes")
     parser.add_argument("--loads", action="store_true", help="correct part sizes by ghosts, on 8, 16 and 32 ranks")
     parser.add_argument("--driver", type=Path, help="a program beside rrcb_ghosts, which is not built then")
     given = parser.parse_args()
@@ -116,11 +80,6 @@ def main() -> None:
         build("rrcb_ghosts")
     program = (given.driver.parent if given.driver else PROGRAMS) / "rrcb_ghosts"
     quick = ["--quick"] * given.quick
-    if given.meshes:
-        rows = count(program, given.out / "meshes.csv", "meshes", *quick, ranks=MESH_RANKS)
-        known = {} if given.quick else instructions_of_rank_0(program, given.out)
-        print(markdown_table(mesh_table(rows, known)))
-        return
     if given.loads:
         found = [count(program, given.out / f"loads_{ranks}.csv", "loads", *quick, ranks=ranks)
                  for ranks in ((8,) if given.quick else LOAD_RANKS)]  # fmt: skip

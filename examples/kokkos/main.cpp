@@ -1,5 +1,5 @@
-// Balances positions in the memory of a device, sends them to their ranks, and fetches the
-// neighbours of each rank's.
+// Balances positions that are in the memory of a device, sends them to the ranks of their parts,
+// and fetches the points that are near the box of each rank.
 #include <rrcb/experimental/kokkos.hpp>
 #include <rrcb/ghosts.hpp>
 #include <rrcb/transfer.hpp>
@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
         const Kokkos::DefaultExecutionSpace exec;
         const auto balance = rrcb::experimental::balance(exec, x, rrcb::Options{}, MPI_COMM_WORLD);
         const auto plan = rrcb::experimental::plan(exec, balance, MPI_COMM_WORLD);
-        // Packed by rank on the device, exchanged in memory of the host.
+        // The positions are packed by rank on the device, and exchanged in the memory of the host.
         const Positions sorted("sorted", x.extent(0));
         const auto order = plan.order;
         Kokkos::parallel_for(
@@ -46,7 +46,8 @@ int main(int argc, char** argv) {
         MPI_Alltoallv(leaving.data(), sent.data(), starts.data(), MPI_DOUBLE, here.data(),
                       got.data(), ends.data(), MPI_DOUBLE, MPI_COMM_WORLD);
 
-        // Points near the boundary of this rank's box, by its copy on the host.
+        // Sends each point to the ranks whose boxes are near it. Reads the host's copy of the
+        // positions.
         const rrcb::GhostPlan near =
             rrcb::ghosts(balance.cuts, rrcb::view_points(here), {.radius = 0.02}, MPI_COMM_WORLD);
         const std::span values(here.data(), here.span());

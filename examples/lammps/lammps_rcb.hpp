@@ -4,7 +4,7 @@
 
 namespace LAMMPS_NS {
 
-/// LAMMPS' class RCB as it is laid out in memory (its src/rcb.h and src/pointers.h), with the two
+/// The layout in memory of LAMMPS' class RCB (see its src/rcb.h and src/pointers.h), with the two
 /// functions that librrcb_lammps defines in place of LAMMPS.
 class RCB {
   public:
@@ -19,9 +19,9 @@ class RCB {
 
     int noriginal, nfinal, nkeep;
     int *recvproc, *recvindex;
-    double *lo, *hi;  // of the box of this rank; they point into `box`
-    double cut;       // below the ranks whose lowest is this one
-    int cutdim;       // its axis; -1 on rank 0
+    double *lo, *hi;  // bounds of this rank's box; they point into `box`
+    double cut;       // position of the cut whose upper side begins with this rank
+    int cutdim;       // axis of that cut; -1 on rank 0
     int *sendproc, *sendindex;
 
     int me, nprocs;

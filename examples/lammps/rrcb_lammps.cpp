@@ -1,6 +1,6 @@
-// Preloaded into LAMMPS, makes the parts of `balance ... rcb` and `fix balance ... rcb`. README.md
-// says how to use it. The parts are the ranks in ascending order, the larger half of an odd number
-// of them below the cut, as LAMMPS expects.
+// This library is preloaded into LAMMPS and computes the parts of `balance ... rcb` and `fix
+// balance ... rcb`; README.md describes its use. As LAMMPS expects, the parts have the numbers of
+// the ranks in ascending order, and of an odd number of ranks the larger half is below the cut.
 #include "lammps_rcb.hpp"
 
 #include <rrcb/rrcb.hpp>
@@ -22,7 +22,7 @@ namespace {
 
 using LAMMPS_NS::RCB;
 
-/// Calls LAMMPS' own function of the class, by its symbol.
+/// Calls LAMMPS' own function of the class, found by its symbol.
 template <class... Arguments>
 void call_original(const char* symbol, RCB* rcb, Arguments... arguments) {
     void* const function = dlsym(RTLD_NEXT, symbol);
@@ -48,8 +48,8 @@ bool is_set(const char* variable) {
     return value != nullptr && *value != '\0' && std::string(value) != "0";
 }
 
-/// Returns true on the first process of a program that used MPI, by the launcher's environment: MPI
-/// has ended.
+/// Returns true on the first process of a program that used MPI. It reads the launcher's
+/// environment, because MPI has been finalized when it is called.
 bool is_first_of_mpi() {
     int initialized = 0;
     MPI_Initialized(&initialized);
@@ -59,12 +59,13 @@ bool is_first_of_mpi() {
     return true;
 }
 
-/// All that is kept between the calls of a process.
+/// The state that is kept between the calls of a process.
 struct Session {
-    std::optional<bool> active;  // agreed in the first call
-    bool verbose = false;        // agreed as well
-    bool answered = false;       // by RRCB, the latest compute()
-    bool noticed = false;        // that LAMMPS answers
+    std::optional<bool> active;  // whether RRCB computes the parts; the ranks agree on it in the
+                                 // first call
+    bool verbose = false;        // agreed in the first call as well
+    bool answered = false;       // whether RRCB computed the latest parts
+    bool noticed = false;        // whether a message has said that LAMMPS computes the parts
     int rank = -1;
     std::map<MPI_Comm, rrcb::Balance> balances;
     long long calls = 0, answers = 0;
@@ -89,8 +90,8 @@ void notice(const std::string& reason) {
     session.noticed = true;
 }
 
-/// Returns true if the object, which LAMMPS allocates, is large enough and members that a wrong
-/// layout would make unusable have sensible values. Not collective.
+/// Returns true if LAMMPS' allocation of the object is large enough, and if the members that a
+/// wrong layout would make unusable have sensible values. Not collective.
 bool looks_like_rcb(RCB& rcb) {
     int all = 0, size = 0;
     MPI_Comm_size(MPI_COMM_WORLD, &all);
@@ -100,8 +101,9 @@ bool looks_like_rcb(RCB& rcb) {
     return size == rcb.nprocs;
 }
 
-/// Returns true if LAMMPS' own functions write a known answer where the layout has it: one point a
-/// rank, all on a line and in the reverse order of the ranks.
+/// Returns true if LAMMPS' own functions write a known result to the members where this layout
+/// expects it. The test has one point per rank; the points are on a line, in the reverse order of
+/// the ranks.
 bool writes_known_answer(RCB& rcb) {
     double point[3] = {rcb.nprocs - rcb.me - 0.5, 0, 0};
     double* points[1] = {point};
@@ -115,7 +117,7 @@ bool writes_known_answer(RCB& rcb) {
            std::abs(rcb.hi[0] - rcb.me - 1) <= 0.5 && rcb.sendproc[0] == rcb.nprocs - 1 - rcb.me;
 }
 
-/// Decides on all ranks together whether RRCB answers in this process.
+/// Makes all ranks agree on whether RRCB computes the parts in this process.
 void agree(RCB& rcb) {
     if (!looks_like_rcb(rcb)) {
         MPI_Comm_rank(MPI_COMM_WORLD, &session.rank);
@@ -154,8 +156,8 @@ rrcb::Options options_of(int dimension) {
     return options;
 }
 
-/// Writes the box and the cut of this rank; `cut` is the first one of ranks `first` to `last`.
-/// Returns false, on all ranks, if some box would be empty.
+/// Writes the box and the cut of this rank. `cut` is the first of the cuts that divide the ranks
+/// from `first` to `last`. Returns false, on all ranks, if some box would be empty.
 bool write_box(RCB& rcb, const rrcb::Cut*& cut, int first, int last, const rrcb::Box& box) {
     if (first == last) {
         if (first != rcb.me) return true;
@@ -178,7 +180,7 @@ bool write_box(RCB& rcb, const rrcb::Cut*& cut, int first, int last, const rrcb:
            write_box(rcb, cut, middle, last, above);
 }
 
-/// Writes the ranks of the points. LAMMPS frees the arrays with free().
+/// Writes the rank of each point. LAMMPS frees the arrays with free().
 void write_ranks(RCB& rcb, const std::vector<rrcb::Part>& parts) {
     const int n = static_cast<int>(parts.size());
     if (n > rcb.maxsend || rcb.sendproc == nullptr) {
@@ -192,7 +194,7 @@ void write_ranks(RCB& rcb, const std::vector<rrcb::Part>& parts) {
     std::copy(parts.begin(), parts.end(), rcb.sendproc);
 }
 
-/// Returns false, on all ranks, if LAMMPS has to answer.
+/// Computes the parts. Returns false, on all ranks, if LAMMPS has to compute them instead.
 bool answer(RCB& rcb, bool is_new, const rrcb::Points& points, const double* lower,
             const double* upper) try {
     rrcb::Balance& balance = session.balances[*rcb.world];

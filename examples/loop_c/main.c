@@ -63,8 +63,8 @@ static double count_in_cell(const double* here, const double* x, size_t i, const
     return count;
 }
 
-// Rows of columns, 1 and how many particles and ghosts lie within the radius of each particle;
-// returns their sum.
+// Fills a row of two columns for each particle: 1, and the number of particles and ghosts within
+// its radius. Returns the sum of these numbers.
 static double count_neighbours(const rrcb_array* x, const rrcb_array* ghosts, double* columns) {
     static size_t first[cells_per_axis * cells_per_axis];
     const size_t count = x->count;
@@ -102,7 +102,7 @@ static rrcb_points points_of(const rrcb_array* x, const double* weights) {
     return rrcb_interleaved_points(RRCB_DOUBLE, 2, x->count, x->values, weights);
 }
 
-// Balances the particles by the rows of columns, and brings them to the ranks of their parts.
+// Balances the particles by the rows of columns, and sends them to the ranks of their parts.
 static void divide(rrcb_balancer* balancer, rrcb_cost_model* model, const double* columns,
                    rrcb_array* x) {
     int32_t* parts = malloc((x->count + 1) * sizeof *parts);
@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
     options.travel = travel;
     rrcb_neighbours* neighbours = NULL;
     if (run.cuts.size > 0) check(rrcb_neighbours_create(balancer, &options, &neighbours));
-    // The calls set the values, and make room for particles that arrive.
+    // The calls allocate the values of these arrays, and enlarge them when particles arrive.
     rrcb_array x = RRCB_ARRAY_INIT(RRCB_DOUBLE, 2);
     rrcb_array ghosts = RRCB_ARRAY_INIT(RRCB_DOUBLE, 2);
     x.values = run.positions;

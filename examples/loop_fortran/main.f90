@@ -135,8 +135,8 @@ contains
                      MPI_DOUBLE_PRECISION, 0, MPI_COMM_WORLD)
   end function
 
-  ! Rank 0 writes all, each record with the number of its values before; the bytes of the library are
-  ! the same on every rank.
+  ! Writes the run from rank 0. The number of values precedes each record. The state that the
+  ! library saves is the same on every rank.
   subroutine write_run(path)
     character(*), intent(in) :: path
     real(dp), allocatable :: sizes(:), x(:), rows(:)
@@ -225,7 +225,7 @@ contains
     cell = 1 + floor(position/radius)
   end function
 
-  ! How many particles, own ones and ghosts, lie within the radius of each own one.
+  ! Returns how many particles and ghosts are within the radius of each local particle.
   function count_neighbours(own, others) result(counts)
     real(dp), intent(in) :: own(:, :), others(:, :)
     integer :: counts(size(own, 2))
@@ -253,7 +253,7 @@ contains
     end do
   end function
 
-  ! A row of columns for each particle: 1, its neighbours.
+  ! Returns a row of two columns for each particle: 1, and the number of its neighbours.
   function rows_of(neighbours) result(rows)
     integer, intent(in) :: neighbours(:)
     real(dp) :: rows(2, size(neighbours))

@@ -11,10 +11,10 @@
 
 namespace {
 
-constexpr std::size_t num_nearest = 9;  // of which the first is the galaxy itself
-constexpr double farthest = 2;          // more than any distance in the unit square
+constexpr std::size_t num_nearest = 9;  // includes the galaxy itself
+constexpr double farthest = 2;          // larger than any distance in the unit square
 
-/// Galaxies of this rank: every `num_ranks`-th of 1500, in clusters of 75.
+/// Returns the galaxies of this rank: every `num_ranks`-th of 1500, in clusters of 75.
 std::vector<double> catalogue(int rank, int num_ranks) {
     std::mt19937 engine(1);
     const auto next = [&] { return static_cast<double>(engine()) / 4294967296.0; };
@@ -31,7 +31,7 @@ std::vector<double> catalogue(int rank, int num_ranks) {
     return positions;
 }
 
-/// Distances of each of the queries to the nearest of the points, ascending.
+/// Returns for each query its distances to the nearest points, ascending.
 std::vector<double> nearest(const std::vector<double>& points, const std::vector<double>& queries) {
     std::vector<double> result;
     for (std::size_t q = 0; q < queries.size(); q += 2) {
@@ -58,8 +58,8 @@ int main(int argc, char** argv) {
     const std::vector<double> here =
         rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(given, 2), comm);
 
-    // The nearest on this rank bound the distances. Only galaxies whose ball touches other parts
-    // ask.
+    // The nearest galaxies on this rank bound the distances. A query is sent only if the ball of
+    // this radius touches other parts.
     std::vector<double> found = nearest(here, here);
     std::vector<double> radii;
     for (std::size_t i = 0; i < here.size() / 2; ++i)
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
     const std::vector<double> answers =
         rrcb::reply(asked, rrcb::column(nearest(here, queries), num_nearest), comm);
 
-    // Row k answers the galaxy send_indices[k].
+    // Row k is the answer for the galaxy send_indices[k].
     for (std::size_t k = 0; k < asked.send_indices.size(); ++k) {
         double* mine = &found[asked.send_indices[k] * num_nearest];
         std::vector<double> both(mine, mine + num_nearest);

@@ -1,4 +1,4 @@
-// Particles of a fluid in a unit square, with what two of them do to each other.
+// Particles of a fluid in a unit square, and the interaction of two of them.
 #pragma once
 
 #include <mpi.h>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-constexpr double reach = 0.06;  // of the kernel
+constexpr double reach = 0.06;  // radius of the kernel
 constexpr double mass = 1.0 / 1600;
 constexpr double pi = 3.14159265358979323846;
 
@@ -20,7 +20,7 @@ struct Particles {
     std::vector<int> numbers{};
 };
 
-// The rank's share of 40 x 40 particles, closest in the middle, which moves.
+// Returns this rank's share of 40 x 40 moving particles, which are densest in the middle.
 inline Particles share_of(MPI_Comm comm) {
     int rank = 0;
     int num_ranks = 1;
@@ -39,12 +39,12 @@ inline Particles share_of(MPI_Comm comm) {
     return own;
 }
 
-// Density at a distance from a particle.
+// Returns the contribution to the density of a particle at this distance.
 inline double kernel(double distance) {
     return mass * 4 / (pi * reach * reach) * std::pow(1 - std::pow(distance / reach, 2), 3);
 }
 
-// Acceleration of a particle by another, over their distance along an axis.
+// Returns the acceleration of a particle by another one, divided by their distance.
 inline double push(double distance, double density, double other_density) {
     const double slope =
         -24 / (pi * std::pow(reach, 4)) * std::pow(1 - std::pow(distance / reach, 2), 2);
@@ -58,7 +58,7 @@ struct Pair {
     double distance;
 };
 
-// Pairs within reach, i below j and among the first `count`, by cells.
+// Returns the pairs i < j within reach with i among the first `count`. Searches by cells.
 inline std::vector<Pair> pairs_among(const std::vector<double>& at, std::size_t count) {
     using Cell = std::pair<long, long>;
     std::map<Cell, std::vector<std::size_t>> cells;
@@ -80,7 +80,7 @@ inline std::vector<Pair> pairs_among(const std::vector<double>& at, std::size_t 
     return pairs;
 }
 
-// Own values, then those of ghosts.
+// Returns the local values followed by those of ghosts.
 template <class T>
 std::vector<T> joined(std::vector<T> own, const std::vector<T>& ghosts) {
     own.insert(own.end(), ghosts.begin(), ghosts.end());

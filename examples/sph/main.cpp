@@ -7,7 +7,8 @@
 
 constexpr double skin = 0.02;
 constexpr double time_step = 0.002;
-constexpr double cost = 20000;  // of a rebalance, in pairs as the loads; a simulation takes seconds
+constexpr double cost =
+    20000;  // of a rebalance, in pairs like the loads; a simulation uses seconds
 
 Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
     using rrcb::column;
@@ -17,9 +18,9 @@ Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
     std::vector<int> numbers;
     double travelled = skin;
     for (int step = 0; step < num_steps; ++step) {
-        if (2 * travelled >= skin) {  // from now on the plan may lack pairs
+        if (2 * travelled >= skin) {  // otherwise the plan might miss pairs
             for (double& x : own.positions) x -= std::floor(x);
-            // The denser the particles, the more pairs.
+            // A denser particle has more pairs, so it weighs more.
             const rrcb::Points points = rrcb::interleaved_points(own.positions, 2, own.densities);
             const bool is_due = step == 0 || controller.due();
             if (is_due) balance = rrcb::balance(points, {}, balance.cuts, comm);
@@ -47,7 +48,8 @@ Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
         const auto densities = joined(own.densities, rrcb::fetch(near, own.densities, comm));
         std::vector<double> forces(x.size());
         for (const auto& [i, j, distance] : pairs) {
-            if (j >= count && numbers[i] > numbers[j]) continue;  // the other rank's
+            // the other rank computes it
+            if (j >= count && numbers[i] > numbers[j]) continue;
             for (std::size_t a = 0; a < 2; ++a) {
                 const double force =
                     push(distance, densities[i], densities[j]) * (x[2 * i + a] - x[2 * j + a]);

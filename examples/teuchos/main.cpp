@@ -1,4 +1,4 @@
-// Balances by parameters from a file; without a file, prints all parameters.
+// Balances with parameters from a file. Without a file it prints all parameters.
 #include <rrcb/rrcb.hpp>
 #include <rrcb/teuchos/parameters.hpp>
 
@@ -8,7 +8,7 @@
 #include <iostream>
 #include <vector>
 
-// A square of 100 x 100 points for each rank, all of them in a row.
+// Returns a square of 100 x 100 points. The squares of the ranks form a row.
 std::vector<double> square_of(int rank) {
     std::vector<double> coordinates;
     for (int i = 0; i < 100; ++i) {

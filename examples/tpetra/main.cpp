@@ -1,4 +1,4 @@
-// Balances the coordinates in a MultiVector of Tpetra, and redistributes it by an Import.
+// Balances by the coordinates in a MultiVector of Tpetra, which an Import then redistributes.
 #include <rrcb/experimental/kokkos.hpp>
 #include <rrcb/transfer.hpp>
 
@@ -13,7 +13,7 @@ using Vectors = Tpetra::MultiVector<double>;
 using Id = Vectors::global_ordinal_type;
 using Map = Vectors::map_type;
 
-// Rank r has r + 1 of the rows of 1,000 nodes of a mesh.
+// Creates the coordinates of a mesh that consists of rows of 1,000 nodes. Rank r has r + 1 rows.
 Vectors coordinates_of(const Teuchos::RCP<const Teuchos::Comm<int>>& comm) {
     const int rank = comm->getRank();
     const auto map = Teuchos::rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
@@ -36,7 +36,8 @@ int main(int argc, char** argv) {
     const Vectors::execution_space exec;
     const auto balance = rrcb::experimental::balance(exec, x, rrcb::Options{}, MPI_COMM_WORLD);
 
-    // The ids of the nodes go to the ranks of their parts; an Import moves all else.
+    // Only the ids of the nodes are sent to the ranks of their parts. An Import moves the other
+    // data.
     const auto parts = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), balance.parts);
     const rrcb::Plan plan = rrcb::plan(std::span<const rrcb::Part>(parts.data(), parts.size()),
                                        balance.cuts.num_parts, MPI_COMM_WORLD);

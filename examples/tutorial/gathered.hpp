@@ -1,4 +1,4 @@
-// Copies of the particles of all ranks, as steps 2 and 3 of the tutorial use them.
+// Gathers copies of the particles of all ranks, which steps 2 and 3 of the tutorial need.
 #pragma once
 
 #include <mpi.h>

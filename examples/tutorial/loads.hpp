@@ -1,4 +1,4 @@
-// What all parallel steps of the tutorial measure: pairs, and how evenly the ranks count them.
+// Measurements of all parallel steps of the tutorial: pairs, and how evenly the ranks count them.
 #pragma once
 
 #include <mpi.h>
@@ -6,8 +6,8 @@
 #include <cstdio>
 
 struct Loads {
-    double pairs = 0;     // of all ranks in all steps
-    double heaviest = 0;  // pairs of the busiest rank of each step, added up
+    double pairs = 0;     // sum over all ranks and steps
+    double heaviest = 0;  // sum over the steps of the pairs on the busiest rank
 
     void add(double own, MPI_Comm comm) {
         double sum = own;

@@ -1,5 +1,6 @@
-/* Zoltan from C. Rank 0 holds all particles, in a row; after the partition every rank holds as
- * many. The one thing that knows RRCB beside its name is the question whether the plug-in is there.
+/* Uses Zoltan from C. At first all particles are on rank 0, in a row. After the partition each
+ * rank has the same number. Apart from the method's name only one line refers to RRCB: it asks
+ * whether the plug-in is available.
  */
 #include <rrcb/zoltan/rrcb_zoltan.h>
 
@@ -33,7 +34,7 @@ static void give_position(void* data, int num_gid, int num_lid, ZOLTAN_ID_PTR gl
     *code = ZOLTAN_OK;
 }
 
-/* The number of particles of this rank after the partition, -1 when it fails. */
+/* Returns the number of particles of this rank after the partition, or -1 if it fails. */
 static int balance(struct Zoltan_Struct* zoltan, int count) {
     int changes, num_gid, num_lid, num_import, num_export;
     ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;

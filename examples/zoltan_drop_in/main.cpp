@@ -1,5 +1,5 @@
-// A plain Zoltan program: nothing in it knows RRCB but the word that may stand behind its name on
-// the command line, which becomes the value of LB_METHOD.
+// A plain Zoltan program. It contains no reference to RRCB: the value of LB_METHOD is the word that
+// follows its name on the command line.
 #include <mpi.h>
 #include <zoltan.h>
 
@@ -12,7 +12,8 @@ struct Particles {
     std::vector<ZOLTAN_ID_TYPE> ids;
 };
 
-// Rank r fills its strip of the unit square, rank 0 with most particles, as after a landslide.
+// Creates the particles in the rank's strip of the unit square. As after a landslide, rank 0 has
+// most.
 Particles particles_of(int rank, int num_ranks) {
     std::mt19937 random(rank + 1);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -60,7 +61,7 @@ struct Result {
     int particles_after = 0;
 };
 
-// Balances once; what would be sent is only counted here.
+// Balances once. The particles are not sent; the program only counts them.
 bool balance(Zoltan_Struct* zz, int particles_before, Result& result) {
     int changes, gid_entries, lid_entries, num_import, num_export;
     ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;

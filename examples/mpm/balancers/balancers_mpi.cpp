@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 6> names{"none",       "rrcb",         "r
                                 "; choose from: " + balancer_names());
 }
 
-/// Limits the cuts to faces of cells, and the parts to the width of shape functions.
+/// Allows cuts on faces of cells only, and no parts narrower than a shape function.
 void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
     const int num_nodes = scene.shape_function == mpm::ShapeFunction::linear ? 2 : 3;
     const mpm::GridShape& grid = scene.grid;
@@ -38,8 +38,9 @@ rrcb::Points points_of(mpm::Positions positions) {
         std::span(columns).first(static_cast<std::size_t>(positions.dimension)));
 }
 
-/// The box of a part. A cut on a face of cells leaves the points on it above, so that the box below
-/// ends before it and touches no cell beyond.
+/// Returns the closed box of a part. Points on a cut at a face of cells belong to the part above
+/// it. The box below therefore ends slightly before the cut, and does not touch the cells beyond
+/// it.
 mpm::Box closed_box(const rrcb::Cuts& cuts, rrcb::Part part, bool on_faces) {
     rrcb::Box box = rrcb::box_of(cuts, part);
     for (double& face : box.upper)
@@ -48,7 +49,7 @@ mpm::Box closed_box(const rrcb::Cuts& cuts, rrcb::Part part, bool on_faces) {
     return {box.lower, box.upper};
 }
 
-/// The decomposition of a balance, whose parts it takes.
+/// Returns the decomposition of a balance. Moves the parts out of `balance`.
 mpm::Decomposition decomposition_of(rrcb::Balance& balance, bool on_faces) {
     mpm::Decomposition decomposition;
     for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part)
@@ -60,7 +61,7 @@ mpm::Decomposition decomposition_of(rrcb::Balance& balance, bool on_faces) {
     return decomposition;
 }
 
-/// RRCB, or RCB, by rrcb::balance_as_in_paper.
+/// Returns a balancer by rrcb::balance_as_in_paper: RCB if `of_all_points`, RRCB otherwise.
 mpm::Balancer paper_balancer(bool of_all_points) {
     rrcb::PaperOptions options;
     if (of_all_points) options.domain = rrcb::PaperDomain::points;
@@ -75,7 +76,7 @@ mpm::Balancer paper_balancer(bool of_all_points) {
 mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weights,
                             bool reuses_cuts) {
     rrcb::Options options = asked;
-    // Every rank has the boxes of all, and looks up owners by itself.
+    // Every rank has the boxes of all ranks, so it looks owners up without communication.
     const auto last = std::make_shared<rrcb::Balance>();
     return [options, weights, reuses_cuts, last](mpm::Positions positions, MPI_Comm comm) {
         const std::vector<double> weight = weights ? weights() : std::vector<double>();

@@ -10,22 +10,23 @@
 #include <string>
 #include <vector>
 
-/// Returns the weights of the points that are to be divided; none: each weighs 1.
+/// Returns the weights of the points that are to be divided. An empty function gives each weight 1.
 using PointWeights = std::function<std::vector<double>()>;
 
-/// Balancer by rrcb::balance, collective as that is. With `reuses_cuts` it starts from the cuts of
-/// its last call, for a loop over steps.
+/// Returns a balancer that calls rrcb::balance and is collective like it. With `reuses_cuts` each
+/// call starts from the cuts of the previous one, which suits a loop over steps.
 mpm::Balancer rrcb_balancer(const rrcb::Options& options = {}, const PointWeights& weights = {},
                             bool reuses_cuts = false);
 
-/// Names that make_balancer knows, with commas between them.
+/// Returns the names that make_balancer accepts, separated by commas.
 std::string balancer_names();
 
-/// Makes the balancer of a name; none for `none`, which leaves the equal slabs of the start.
+/// Returns the balancer with a name. The name `none` has no balancer: the equal slabs of the start
+/// are kept.
 ///
-/// Not collective. Throws std::invalid_argument for an unknown name, and for weights if the
-/// balancer takes none. Those of rrcb start from the cuts of their last call. `rrcb-cells` cuts
-/// only on faces of the cells of `scene`, into parts as wide as a shape function, so that nodes are
-/// shared with adjacent ranks only.
+/// Not collective. Throws std::invalid_argument if the name is unknown, or if weights are passed to
+/// a balancer that takes none. The balancers of rrcb start from the cuts of their previous call.
+/// `rrcb-cells` cuts only on faces of the cells of `scene`, into parts at least as wide as a shape
+/// function, so that only ranks of adjacent parts share nodes.
 std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::Scene& scene = {},
                                            const PointWeights& weights = {});

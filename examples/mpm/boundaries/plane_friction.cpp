@@ -39,24 +39,25 @@ struct Ground {
 /// Columns of the points for friction on one plane.
 template <int D>
 struct FrictionColumns {
-    std::array<Column, D> anchor{};  ///< of the spring along the plane, m
-    Column damping = 0;              ///< part of the force out of the plane that a dashpot gives, N
+    std::array<Column, D> anchor{};  ///< anchor of the spring along the plane, m
+    Column damping = 0;              ///< share of the dashpot in the force normal to the plane, N
 };
 
-/// Columns of the points for one plane. All points have them, near or far: columns travel between
-/// ranks, are sorted and written, which a list of the points at the plane would need as well.
+/// Columns of the points for one plane. All points have them, also those far from the plane,
+/// because columns migrate, are sorted and are written without further code. A list of the points
+/// at the plane would need such code.
 template <int D>
 struct PlaneColumns {
     MotionColumns motion;
-    std::array<Column, D> force{};  ///< in the next step, N; 0 where they do not touch
-    Column reach = 0;               ///< height above the plane below which they touch it, m
+    std::array<Column, D> force{};  ///< force in the next step, N; 0 without contact
+    Column reach = 0;               ///< height above the plane below which the point touches it, m
     std::optional<FrictionColumns<D>> friction{};
 };
 
 /// Consecutive points that are skipped together if all are far from the plane.
 constexpr std::size_t seen_together = 32;
 
-/// Columns that show whether points are at the plane, or were in the step before.
+/// Columns that show which points touch the plane now or touched it in the previous step.
 template <int D>
 struct SeenPoints {
     SeenPoints(const Particles& particles, const PlaneColumns<D>& columns)
@@ -73,7 +74,7 @@ struct SeenPoints {
     const double* reach;
 };
 
-/// Whether any of some points is at the plane, or has forces of the step before.
+/// Returns whether any of the points touches the plane, or has forces of the previous step.
 template <int D>
 MPM_VECTOR_CLONES bool touches_any(const SeenPoints<D>& points, const Ground<D>& ground,
                                    std::size_t begin, std::size_t end) {
@@ -87,14 +88,14 @@ MPM_VECTOR_CLONES bool touches_any(const SeenPoints<D>& points, const Ground<D>&
     return any != 0;
 }
 
-/// A plane that meets points through a layer of springs and, with friction, dashpots.
+/// A plane that acts on points through a layer of springs and, with friction, dashpots.
 ///
-/// The nodes behind an inclined plane are no plane: they shake a body that slides across them,
-/// which then sticks and slips by turns. So the plane meets the points. A spring bears the body,
-/// and one along the plane holds it up to the friction (Cundall and Strack 1979). A dashpot with
-/// the impedance of the body takes its vibrations (Lysmer and Kuhlemeyer 1969): with a quarter of
-/// it, a body near the limit of friction creeps. Without friction there is none, for it takes a
-/// fifth to a half of the energy of an impact.
+/// The plane acts on points because the nodes behind an inclined plane form a staircase: it shakes
+/// a body that slides across, which then alternately sticks and slips. One spring carries the body,
+/// and one along the plane holds it up to the limit of friction (Cundall and Strack 1979). A
+/// dashpot with the impedance of the body absorbs its vibrations (Lysmer and Kuhlemeyer 1969). With
+/// a quarter of this impedance a body near the limit of friction creeps. Planes without friction
+/// have no dashpot, because it takes a fifth to a half of the energy of an impact.
 template <int D>
 class RubbingPlane {
   public:
@@ -106,9 +107,9 @@ class RubbingPlane {
           rate_(wave_speed / spacing),
           columns_(columns) {}
 
-    /// Points touch the plane when it is half their width away. Those that begin within their width
-    /// touch it there, or a body on an inclined plane would fall until enough of its lowest points
-    /// have come to the plane.
+    /// A point touches the plane when its distance is half its width. Points that start within
+    /// their width of the plane touch it at that distance. Otherwise a body on an inclined plane
+    /// would first fall until enough of its lowest points have reached the plane.
     void start(Particles& particles) const {
         for (std::size_t p = 0; p < particles.size(); ++p) {
             const double height = ground_.height(position_of(particles, p));
@@ -153,13 +154,14 @@ class RubbingPlane {
         return std::pow(particles[columns_.motion.volume][p], 1.0 / D);
     }
 
-    /// Mass of a cell's height above the area that a point stands for, kg.
+    /// Returns the mass of a column of points as high as a cell, over the area that the point
+    /// covers, kg.
     double mass_above(const Particles& particles, std::size_t p) const {
         return particles[columns_.motion.mass][p] * spacing_ / width_of(particles, p);
     }
 
-    /// Force of the spring out of the plane, N. The deeper, the stiffer: some tenths of a cell are
-    /// the most.
+    /// Returns the force of the spring normal to the plane, N. The spring stiffens with depth, so
+    /// that points sink in by a few tenths of a cell at most.
     double spring_of(const Particles& particles, std::size_t p, double depth) const {
         constexpr double softness = 10;
         const double relative = softness * depth / spacing_;
@@ -167,8 +169,8 @@ class RubbingPlane {
         return mass_above(particles, p) * stiffness * depth;
     }
 
-    /// Force of the dashpot out of the plane, N. In a step it takes no more than the velocity of
-    /// half a cell of points, those that a node on the plane stands for.
+    /// Returns the force of the dashpot normal to the plane, N. In one step it changes the momentum
+    /// by at most that of half a cell of points, which is the mass of a node on the plane.
     double damping_of(const Particles& particles, std::size_t p, double time_step) const {
         double across = 0;
         for (std::size_t a = 0; a < D; ++a)
@@ -176,7 +178,8 @@ class RubbingPlane {
         return -mass_above(particles, p) * std::min(rate_, 0.5 / time_step) * across;
     }
 
-    /// Force along the plane, N. Where the spring is at the friction, the anchor is dragged along.
+    /// Returns the force along the plane, N. When the spring exceeds the friction, its anchor is
+    /// dragged.
     Components<D> friction_on(Particles& particles, std::size_t p, const Components<D>& at,
                               double push, double time_step) const {
         const double stiffness =
@@ -212,7 +215,7 @@ class RubbingPlane {
     Ground<D> ground_;
     double friction_;
     double spacing_;
-    double rate_;  ///< of transits of a wave through a cell, 1/s
+    double rate_;  ///< how often a wave crosses a cell, 1/s
     PlaneColumns<D> columns_;
 };
 
@@ -235,10 +238,10 @@ PlaneColumns<D> add_columns(const std::string& plane, bool has_friction, Particl
     return columns;
 }
 
-/// Adds the forces of a plane to the nodes, whose fields begin at `first`.
+/// Adds the forces of a plane to the nodes. The first of their fields has the number `first`.
 ///
-/// Dashpots do no more in a step than stop a node: one that only few points touch has less mass
-/// than those points stand for. Friction goes with the force out of the plane.
+/// In one step dashpots at most stop a node: a node that only few points reach has less mass than
+/// the force of these points assumes. Friction is scaled like the force normal to the plane.
 template <int D>
 NodeKernel<D> force_kernel(const Ground<D>& ground, std::size_t first, bool has_friction) {
     return [=](GridPatch<D>& patch, const StepTime& now) {

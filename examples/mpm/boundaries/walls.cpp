@@ -16,7 +16,7 @@ void stop(NodeSums<D>& node, Wall::Kind kind, std::size_t axis) {
     for (std::size_t a = 0; kind == Wall::fixed && a < D; ++a) stop(node, a);
 }
 
-/// Nodes on one side of the domain and beyond it.
+/// Returns the nodes on one side of the domain and beyond it.
 template <int D>
 NodeRange<D> nodes_at(const GridPatch<D>& patch, std::size_t axis, bool is_upper) {
     NodeRange<D> side = patch.nodes;
@@ -40,7 +40,7 @@ void visit_sides(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
         }
 }
 
-/// Number along an axis of the nodes on a side.
+/// Returns the index along an axis of the nodes on a side.
 template <int D>
 int side_of(const GridPatch<D>& patch, std::size_t axis, double inward) {
     return inward > 0 ? 0 : patch.shape.num_cells[axis];
@@ -54,7 +54,7 @@ bool has_walls(const Walls& walls) {
 }
 
 /// Calls visit(node beyond a wall, its mirror image, wall, axis) for the nodes of a patch. A patch
-/// that reaches beyond a wall has the layer of images, too.
+/// that reaches beyond a wall also contains the layer of images.
 template <int D, typename Visit>
 void visit_images(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
     visit_sides(patch, walls,
@@ -67,13 +67,13 @@ void visit_images(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
                 });
 }
 
-/// Sign that a component of a vector has in the mirror image.
+/// Returns the sign of a component of a vector in the mirror image.
 double parity(const Wall& wall, std::size_t axis, std::size_t component) {
     return wall.kind == Wall::fixed || component == axis ? -1 : 1;
 }
 
-/// Adds the sums and fields of nodes beyond a wall to their images inside, and clears them. A field
-/// is a component of a vector, or -1, a scalar.
+/// Adds the sums and fields of nodes beyond a wall to their images inside, and clears them.
+/// `components` has the component of each field that is part of a vector, and -1 for a scalar.
 template <int D>
 void fold(const Walls& walls, const std::vector<int>& components, GridPatch<D>& patch) {
     visit_images(
@@ -97,7 +97,7 @@ void fold(const Walls& walls, const std::vector<int>& components, GridPatch<D>& 
         });
 }
 
-/// Moves the nodes beyond a wall as the mirror images of those inside.
+/// Moves the nodes beyond a wall like the mirror images of those inside.
 template <int D>
 void mirror(const Walls& walls, GridPatch<D>& patch) {
     visit_images(patch, walls,
@@ -112,7 +112,7 @@ void mirror(const Walls& walls, GridPatch<D>& patch) {
                  });
 }
 
-/// Whether shape functions reach beyond walls.
+/// Returns whether shape functions reach beyond walls.
 bool has_images(const Scene& scene) {
     return scene.shape_function != ShapeFunction::linear && has_walls(scene.walls);
 }

@@ -27,7 +27,8 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// The weight of the water displaced: gravity is reduced to (1 - water / density), inertia is not.
+/// Reduces gravity to (1 - water / density) by the weight of the displaced water; inertia is
+/// unchanged.
 EffectKind buoyancy_effect() {
     return {"buoyancy", {not_negative("water_density", "kg/m^3")}, build<2>, build<3>};
 }

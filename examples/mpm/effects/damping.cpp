@@ -21,7 +21,8 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// Momentum that decays by exp(-rate * time) until a time, for a start at rest. Stable at any rate.
+/// Makes momentum decay by exp(-rate * time) until a given time, so that a simulation can start
+/// from rest. It is stable at any rate.
 EffectKind damping_effect() {
     return {
         "damping", {not_negative("rate", "1/s"), not_negative("until", "s")}, build<2>, build<3>};

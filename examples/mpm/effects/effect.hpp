@@ -8,14 +8,14 @@
 
 namespace mpm {
 
-/// Scene, points and stages, handed to an effect that is built.
+/// The scene, points and stages that the function that builds an effect receives.
 template <int D>
 struct EffectBuilder {
     const Scene& scene;
-    const Values& values;  ///< its parameters, checked
+    const Values& values;  ///< checked parameters of the effect
     Particles& particles;  ///< to add columns to
     Stages<D>& stages;     ///< to add kernels to
-    double wave_speed;     ///< the largest of its materials, m/s
+    double wave_speed;     ///< largest wave speed of the scene's materials, m/s
 };
 
 /// An effect: one file in effects/, named in effects.inc.
@@ -32,11 +32,11 @@ struct NamedEffect {
     Values values;
 };
 
-/// Effects there are, in the order they enter a stage; see effects.inc.
+/// Returns all effects, in the order in which they are added to a stage; see effects.inc.
 std::span<const EffectKind> effect_kinds();
 
-/// Effects of a scene in the order of their kinds. Throws std::invalid_argument for an unknown
-/// effect, one named twice, and wrong parameters.
+/// Returns the effects of a scene in the order of effect_kinds(). Throws std::invalid_argument for
+/// an unknown effect, one that is named twice, and wrong parameters.
 std::vector<NamedEffect> effects_of(const Scene& scene);
 
 }  // namespace mpm

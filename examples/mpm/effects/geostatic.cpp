@@ -27,7 +27,7 @@ void build(const EffectBuilder<D>& builder) {
         for (std::size_t p = 0; p < particles.size(); ++p) {
             const double depth = surface - particles[motion.position[vertical]][p];
             const double pressure = density * pull * std::max(depth, 0.0);
-            // The first three columns are those along the axes.
+            // The first three columns are the stresses along the axes.
             for (std::size_t a = 0; a < 3; ++a)
                 particles.data(stress[a])[p] = a == vertical ? -pressure : -ratio * pressure;
         }
@@ -36,8 +36,9 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// Ground that rests under its weight from the start: vertical stress density * gravity * depth
-/// below a level surface, lateral stress a share of it. All materials have one density.
+/// Starts ground in equilibrium with its weight. The vertical stress is density * gravity * depth
+/// below a level surface; the lateral stress is a given share of it. All materials must have one
+/// density.
 EffectKind geostatic_effect() {
     return {"geostatic",
             {number("surface", "m", 0.0), not_negative("lateral_ratio", "", 1.0)},

@@ -22,7 +22,7 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// Weight, in its full strength at once or after a ramp.
+/// Applies gravity, at full strength from the start or after a ramp.
 EffectKind gravity_effect() {
     return {"gravity",
             {vector("acceleration", "m/s^2"), not_negative("ramp", "s", 0.0)},

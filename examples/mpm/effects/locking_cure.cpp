@@ -11,8 +11,9 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// A cure of locking where volume is kept: the points that share their nodes change their volume as
-/// their centre (selective reduced integration, as the B-bar method of Hughes 1980).
+/// Prevents locking of materials that keep their volume. All points that share their nodes change
+/// their volume at the rate of their centre (selective reduced integration, like the B-bar method
+/// of Hughes 1980).
 EffectKind locking_cure_effect() {
     return {"locking_cure", {}, build<2>, build<3>};
 }

@@ -15,18 +15,18 @@ namespace mpm {
 
 namespace {
 
-/// A rigid body among points, and the force between them.
+/// A rigid body in contact with points, and the contact force.
 template <int D>
 struct RigidContact {
     Penetrator<D> body;
     double friction = 0;                         ///< Coulomb's coefficient
-    std::optional<FrictionBands<D>> bands = {};  ///< if friction has a limit
-    double force = 0;       ///< along y on the points of all ranks in this step, N
-    double last_force = 0;  ///< in the step before, N
-    double next_force = 0;  ///< on those of this rank in the next step, N
+    std::optional<FrictionBands<D>> bands = {};  ///< present if friction has a limit
+    double force = 0;       ///< force along y on the points of all ranks in this step, N
+    double last_force = 0;  ///< the same in the previous step, N
+    double next_force = 0;  ///< force along y on this rank's points in the next step, N
 };
 
-/// The undrained strength of points, whatever their material.
+/// Computes the undrained strength of points of any material.
 template <int D>
 class SoilStrength {
   public:
@@ -45,7 +45,7 @@ class SoilStrength {
             plastic_strain_ = builder.particles.find_column("plastic_strain");
     }
 
-    /// Strength at the depth, softening and rate of point `p` of the block, Pa.
+    /// Returns the strength of point `p` of the block at its depth, softening and strain rate, Pa.
     double at(const Particles& particles, const PointBlock<D>& block, std::size_t p) const {
         const double number = material_ ? particles[*material_][p] : 0;
         const UndrainedStrength& clay = clays_[static_cast<std::size_t>(number)];
@@ -61,7 +61,7 @@ class SoilStrength {
     std::optional<Column> material_, plastic_strain_;
 };
 
-/// Parameters of contact that do not change.
+/// Constant parameters of the contact.
 template <int D>
 struct Settings {
     MotionColumns motion;
@@ -70,14 +70,14 @@ struct Settings {
     double adhesion_factor = 0;
     std::optional<SoilStrength<D>> strength = {};
 
-    /// Time in which a point loses its speed into a body of a speed, s: that of a step with a
-    /// Courant number of 0.3, or of a longer one.
+    /// Returns the time in which contact stops a point relative to a body of this speed, s. It is
+    /// the step for a Courant number of 0.3, or the actual step if that is longer.
     double contact_time(double speed, double time_step) const {
         return std::max(0.3 * spacing / (wave_speed + std::abs(speed)), time_step);
     }
 };
 
-/// The forces of one step on the points of a block.
+/// Computes the contact forces of one step on the points of a block.
 template <int D>
 class Pusher {
   public:
@@ -88,7 +88,7 @@ class Pusher {
           particles_(particles),
           block_(block),
           body_(contact.body) {
-        // By the time the force acts the body will have moved on.
+        // The force acts in the next step, when the body has moved on.
         body_.tip[1] += block.time_step * body_.velocity;
         time_ = settings.contact_time(body_.velocity, block.time_step);
         ahead_ = time_ * std::abs(body_.velocity);
@@ -97,7 +97,7 @@ class Pusher {
     std::optional<Components<D>> force_on(std::size_t p) const {
         Vector at{};
         for (std::size_t a = 0; a < D; ++a) at[a] = particles_[settings_.motion.position[a]][p];
-        // Most points are far away: a point is at most as large as a cell.
+        // No point is larger than a cell, so most points are too far away.
         const double largest = 0.5 * settings_.spacing;
         if (!body_.touch(at, largest + ahead_)) return std::nullopt;
         const double width = std::pow(particles_[settings_.motion.volume][p], 1.0 / D);
@@ -109,7 +109,7 @@ class Pusher {
   private:
     Components<D> force_of(const Touch<D>& touch, std::size_t p, double height) const {
         const Components<D>& normal = touch.normal;
-        Components<D> along;  // of the velocity relative to the body
+        Components<D> along;  // tangential part of the velocity relative to the body
         for (std::size_t a = 0; a < D; ++a) along[a] = particles_[settings_.motion.velocity[a]][p];
         along[1] -= body_.velocity;
         double inward = 0, square = 0;
@@ -119,7 +119,7 @@ class Pusher {
             square += along[a] * along[a];
         }
         const double speed = std::sqrt(square), overlap = touch.depth - ahead_;
-        // A gap may close in the contact time. Of an overlap half is taken back.
+        // A point may close a gap within the contact time. Of an overlap only half is removed.
         const double recovered = overlap < 0 ? overlap : 0.5 * overlap;
         const double mass_rate = particles_[settings_.motion.mass][p] / time_;
         const double push = mass_rate * std::max(0.0, inward + recovered / time_);
@@ -145,14 +145,14 @@ class Pusher {
     const Particles& particles_;
     const PointBlock<D>& block_;
     Penetrator<D> body_;
-    double time_ = 0;   ///< of contact, s
-    double ahead_ = 0;  ///< way of the body in it, m
+    double time_ = 0;   ///< contact time, s
+    double ahead_ = 0;  ///< distance that the body moves in it, m
 };
 
-/// Adds the kernels that push the points out of the body.
+/// Adds the kernels that push points out of the body.
 ///
-/// The volume of a point gives its width. Within a contact time a point loses its velocity into the
-/// body and half of its overlap. Nothing holds it at the body.
+/// The width of a point follows from its volume. Within a contact time a point loses its velocity
+/// into the body and half of its overlap. Contact never pulls a point towards the body.
 template <int D>
 void add_contact(const EffectBuilder<D>& builder, const std::shared_ptr<RigidContact<D>>& contact) {
     Stages<D>& stages = builder.stages;
@@ -187,7 +187,7 @@ void add_contact(const EffectBuilder<D>& builder, const std::shared_ptr<RigidCon
          }});
 }
 
-/// Loads on the body beside the soil.
+/// Loads on the body other than those of the soil.
 template <int D>
 struct Loads {
     Gravity<D> gravity;
@@ -195,8 +195,8 @@ struct Loads {
     double drag_factor = 0;  ///< drag by the square of the speed, kg/m
 };
 
-/// Adds up over the ranks, moves the body by its equation of motion and begins the next step.
-/// Collective: one reduction.
+/// Sums the contact forces over the ranks, moves the body by its equation of motion and begins the
+/// next step. Collective: one reduction.
 template <int D>
 void move_body(RigidContact<D>& contact, const Loads<D>& loads, const StepTime& step,
                double weight_of_step, MPI_Comm comm) {
@@ -211,7 +211,7 @@ void move_body(RigidContact<D>& contact, const Loads<D>& loads, const StepTime& 
     Penetrator<D>& body = contact.body;
     const double weight =
         loads.heavy_mass * loads.gravity.acceleration[1] * loads.gravity.share_at(step.time);
-    // Implicit in the speed, drag never turns the body back.
+    // Drag is implicit in the speed, so it cannot reverse the motion of the body.
     const double rate = loads.drag_factor * std::abs(body.velocity);
     const double drag = -rate * body.velocity / (1 + step.time_step * rate / body.mass);
     body.velocity += step.time_step * (weight + drag - contact.force) / body.mass;
@@ -233,8 +233,8 @@ Penetrator<D> read_body(const Values& values) {
     return body;
 }
 
-/// Throws std::invalid_argument for a point that begins in the body by more than half its size, as
-/// contact would hurl it out. All ranks look at all points.
+/// Throws std::invalid_argument for a point that starts inside the body by more than half its size:
+/// contact would eject it at high speed. All ranks check all points.
 template <int D>
 void check_apart(const Penetrator<D>& body, const Scene& scene) {
     visit_points(scene, [&](const Body& soil, const Vector& at, std::int64_t) {
@@ -263,7 +263,7 @@ void build(const EffectBuilder<D>& builder) {
     check_apart(contact->body, builder.scene);
     add_contact<D>(builder, contact);
     const auto move = [contact, loads = read_loads<D>(builder, contact->body),
-                       // The means of friction are over the time of a wave through six cells.
+                       // Friction uses means over the time in which a wave crosses six cells.
                        rate = builder.wave_speed / (6 * builder.scene.grid.spacing)](
                           const StepTime& step, MPI_Comm comm) {
         move_body(*contact, loads, step, -std::expm1(-step.time_step * rate), comm);
@@ -280,12 +280,12 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// A rigid upright cylinder with a conical tip, in two dimensions a wall with a wedge, that moves
-/// along y by its weight and the forces of soil and of still fluid. A side of the domain may cut
-/// it.
+/// Adds a rigid upright cylinder with a conical tip; in two dimensions it is a wall with a wedge.
+/// It moves along y by its weight, the contact forces of the soil and those of still fluid. A side
+/// of the domain may be a plane of symmetry of the body.
 ///
-/// Friction is at most friction * normal force and, if it is given, adhesion_factor * undrained
-/// strength * area.
+/// Friction is at most friction * normal force and, if adhesion_factor is given, at most
+/// adhesion_factor * undrained strength * area.
 EffectKind penetrator_effect() {
     return {
         "penetrator",

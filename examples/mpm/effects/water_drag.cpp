@@ -7,23 +7,23 @@ namespace mpm {
 
 namespace {
 
-/// Share of a full node's volume below which the surface runs through the cells around it.
+/// A node is at the surface if less than this share of its volume is filled.
 constexpr double surface_share = 0.75;
 
 struct Drag {
     double factor;                         ///< water density * coefficient / 2, kg/m^3
     std::size_t volume_field, mark_field;  ///< of the nodes
-    std::size_t area_field;                ///< first component of the outward area vector
-    Column mark;                           ///< 1 for a point in a cell with a node of the surface
+    std::size_t area_field;  ///< field of the first component of the outward area vector
+    Column mark;             ///< 1 for a point in a cell with a node of the surface
 };
 
-/// Slows one node down by the area that faces its velocity, to rest at most.
+/// Slows a node down in proportion to the area that faces its velocity. At most it stops the node.
 template <int D>
 void slow_down(double factor, const Components<D>& area, double time_step, NodeSums<D>& node) {
     double facing = 0;
     for (std::size_t a = 0; a < D; ++a) facing += node.momentum[a] / node.mass * area[a];
     if (!(facing > 0)) return;
-    // The force by the velocity: factor * (area that faces the motion) * speed.
+    // Force divided by velocity: factor * (area that faces the motion) * speed.
     const double rate = std::min(factor * facing, node.mass / time_step);
     for (std::size_t a = 0; a < D; ++a) node.force[a] -= rate * node.momentum[a] / node.mass;
 }
@@ -34,8 +34,8 @@ NodeKernel<D> force_kernel(const Drag& drag) {
         for (std::size_t n = 0; n < patch.sums.size(); ++n) {
             NodeSums<D>& node = patch.sums[n];
             if (!(node.mass > 0) || !(patch.fields[drag.mark_field][n] > 0)) continue;
-            // The volume integral of a shape function's gradient is the integral of the function
-            // times the outward normal over the surface.
+            // By Gauss' theorem the integral of a shape function's gradient over the volume equals
+            // the integral of the function times the outward normal over the surface.
             Components<D> area;
             for (std::size_t a = 0; a < D; ++a) area[a] = patch.fields[drag.area_field + a][n];
             slow_down<D>(drag.factor, area, step.time_step, node);
@@ -43,7 +43,7 @@ NodeKernel<D> force_kernel(const Drag& drag) {
     };
 }
 
-/// Marks the points one of whose nodes is less than full.
+/// Marks the points that have a node at the surface: one filled by less than surface_share.
 template <int D>
 GradientKernel<D> mark_kernel(const Drag& drag, double full_volume) {
     const double least = surface_share * full_volume;
@@ -82,11 +82,11 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// Quadratic drag of still water, density * coefficient * area * speed^2 / 2, on the surface that
-/// faces the motion.
+/// Applies the quadratic drag of still water, density * coefficient * area * speed^2 / 2, to the
+/// surface that faces the motion.
 ///
-/// It acts on the nodes of surface points. Those were, in the step before, in a cell with a node
-/// less than three quarters full.
+/// It acts on the nodes of surface points. These are the points that, in the previous step, were in
+/// a cell with a node less than three quarters full.
 EffectKind water_drag_effect() {
     return {"water_drag",
             {not_negative("water_density", "kg/m^3"), not_negative("drag_coefficient", "")},

@@ -43,7 +43,7 @@ void resize(GridPatch<D>& patch, const NodeRange<D>& nodes) {
 
 template <int D>
 double move_nodes(GridPatch<D>& patch, double time_step, double lightest_point) {
-    double fastest = 0;  // squared
+    double fastest = 0;  // square of the largest speed
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         const NodeSums<D>& node = patch.sums[n];
         NodeMotion<D>& motion = patch.motion[n];

@@ -11,7 +11,7 @@ namespace mpm {
 template <int D>
 using Components = std::array<double, D>;
 
-/// Sums of the points on a node.
+/// Sums over the points that reach a node.
 template <int D>
 struct NodeSums {
     double mass = 0;
@@ -28,14 +28,14 @@ inline void add(const NodeSums<D>& from, NodeSums<D>& to) {
     }
 }
 
-/// Motion of a node, as the points read it.
+/// The motion of a node that the points read.
 template <int D>
 struct NodeMotion {
     Components<D> velocity{};         ///< at the end of the step
     Components<D> velocity_change{};  ///< over the step
 };
 
-/// Box of nodes, numbered over the whole grid.
+/// A box of nodes. The numbers of the nodes are those of the complete grid.
 template <int D>
 struct NodeRange {
     std::array<int, D> begin{};
@@ -49,7 +49,7 @@ struct NodeRange {
     }
 };
 
-/// Cell of a coordinate inside the grid; the upper face belongs to the last cell.
+/// Returns the cell of a coordinate inside the grid. The upper face belongs to the last cell.
 inline int cell_of(const GridShape& shape, double coordinate, std::size_t axis) {
     const double cells_per_metre = 1 / shape.spacing;
     const int cell = static_cast<int>((coordinate - shape.lower[axis]) * cells_per_metre);
@@ -59,12 +59,12 @@ inline int cell_of(const GridShape& shape, double coordinate, std::size_t axis) 
 template <int D>
 NodeRange<D> intersection(const NodeRange<D>& a, const NodeRange<D>& b);
 
-/// Nodes of all cells that a closed box touches, and `margin` more on each side. None where the box
-/// lies outside the grid.
+/// Returns the nodes of all cells that a closed box touches, and `margin` more layers on each side.
+/// The range is empty if the box is outside the grid.
 template <int D>
 NodeRange<D> nodes_of(const GridShape& shape, const Box& box, int margin = 0);
 
-/// One rank's piece of the background grid; nodes are numbered along x first.
+/// One rank's part of the background grid. The numbers of the nodes increase along x first.
 template <int D>
 struct GridPatch {
     GridShape shape;
@@ -72,9 +72,9 @@ struct GridPatch {
     NodeRange<D> nodes;
     std::vector<NodeSums<D>> sums;
     std::vector<NodeMotion<D>> motion;
-    std::vector<std::vector<double>> fields;  ///< more sums of the points, for effects
+    std::vector<std::vector<double>> fields;  ///< more sums over the points, for effects
 
-    /// Number within the patch of a node of the whole grid.
+    /// Returns the number within the patch of a node of the complete grid.
     std::size_t index(const std::array<int, D>& node) const {
         std::size_t index = 0;
         for (std::size_t a = D; a-- > 0;)
@@ -91,7 +91,7 @@ void visit_nodes(const NodeRange<D>& range, Visit visit) {
     std::array<int, D> node = range.begin;
     for (;;) {
         visit(node);
-        // Counts up as an odometer.
+        // Increments the node's indices like an odometer.
         std::size_t axis = 0;
         while (axis < D && ++node[axis] == range.begin[axis] + range.count[axis]) {
             node[axis] = range.begin[axis];
@@ -101,14 +101,15 @@ void visit_nodes(const NodeRange<D>& range, Visit visit) {
     }
 }
 
-/// Makes the patch hold other nodes. Their values are undefined.
+/// Gives the patch other nodes. Their values are undefined afterwards.
 template <int D>
 void resize(GridPatch<D>& patch, const NodeRange<D>& nodes);
 
 /// Moves the nodes by the sums of a step.
 ///
-/// Returns the speed of the fastest node, m/s. Nodes lighter than the lightest point count as heavy
-/// as that: no point moves with more of their velocity.
+/// Returns the speed of the fastest node, m/s. The speed of a node lighter than the lightest point
+/// is computed with the mass of this point, because no point takes a larger share of the node's
+/// velocity.
 template <int D>
 double move_nodes(GridPatch<D>& patch, double time_step, double lightest_point);
 

@@ -20,7 +20,7 @@ MPM_VECTOR_CLONES void return_to(const DruckerPrager& cone, const StressPointers
         store<D>(returned<D>(admissible, load<D>(columns, p)), columns, p);
 }
 
-/// Columns that the return reads and changes.
+/// The columns that the return mapping reads and changes.
 template <int D>
 struct Columns {
     explicit Columns(Particles& particles)
@@ -29,10 +29,10 @@ struct Columns {
           volume(particles.add_column("volume")) {}
     StressColumns<D> stress;
     Column mass, volume;
-    std::optional<Column> plastic_strain = {};  ///< if the scene asks for it
+    std::optional<Column> plastic_strain = {};  ///< present if the scene requests it
 };
 
-/// Adds the shear strain that the return will take from the stress.
+/// Adds the plastic shear strain of the return mapping that follows.
 template <int D>
 void add_plastic_strain(const DruckerPrager& cone, double shear_modulus,
                         const StressPointers<D>& stresses, double* plastic,
@@ -46,10 +46,10 @@ void add_plastic_strain(const DruckerPrager& cone, double shear_modulus,
     }
 }
 
-/// Bounds the volume of points parted by tension.
+/// Bounds the volume of points that tension has separated.
 ///
-/// The force of a point is its stress times its volume. Points that meet again would be too stiff,
-/// had their volume grown without end.
+/// The force of a point is its stress times its volume. Without the bound the volume of separated
+/// points grows without limit, and they are too stiff when they meet again.
 void limit_volumes(double largest_by_mass, const double* masses, double* volumes, std::size_t begin,
                    std::size_t end) {
 #pragma GCC ivdep

@@ -43,7 +43,7 @@ MPM_VECTOR_CLONES void strain(const StepGradients<D>& gradients, double bulk, do
     }
 }
 
-/// Energy per volume, p^2 / 2 K + s : s / 4 G.
+/// Returns the elastic energy per volume, p^2 / 2 K + s : s / 4 G.
 template <int D>
 double stored(const Elastic& elastic, const Stress<D>& stress) {
     const double pressure = mean(stress);

@@ -15,23 +15,24 @@ struct Elastic {
 
     double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
     double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
-    /// Speed of pressure waves in m/s.
+    /// Returns the speed of pressure waves, m/s.
     double wave_speed(double density) const;
 };
 
-/// Rules of density, youngs_modulus and poissons_ratio, and more that a model adds.
+/// Returns the rules of density, youngs_modulus and poissons_ratio, followed by those of `more`.
 std::vector<Rule> elastic_rules(const std::vector<Rule>& more = {});
 Elastic elastic_of(const Values& values);
 double elastic_wave_speed(const Values& values);
 
-/// An elastic model without further kernels. Its kernel rotates and strains the stress of its
-/// points: hypoelastic, Jaumann rate.
+/// Returns a hypoelastic model with the Jaumann rate. Its only kernel rotates the stress of the
+/// points and adds that of their strain.
 template <int D>
 MaterialModel<D> elastic_model(const Values& values, Particles& particles);
 
-/// Stress turned with the material by the Jaumann rate.
+/// Returns the stress rotated with the material by the Jaumann rate.
 ///
-/// A rational rotation as Hughes and Winget's (1980) keeps its norm at any angle.
+/// The rotation is a rational function, like that of Hughes and Winget (1980), and preserves the
+/// norm of the stress for any angle.
 inline Stress<2> rotated(const Stress<2>& stress, const DisplacementGradient<2>& gradient) {
     const double angle = 0.5 * (gradient[0][1] - gradient[1][0]);
     const double mean = 0.5 * (stress.xx + stress.yy);
@@ -45,8 +46,8 @@ inline Stress<2> rotated(const Stress<2>& stress, const DisplacementGradient<2>&
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Cayley's rotation (1 - W/2)^-1 (1 + W/2), where W/2 is the skew matrix of the vector x, y, z,
-/// half the rotation vector of the step.
+/// Returns the Cayley rotation (1 - W/2)^-1 (1 + W/2). W/2 is the skew matrix of the vector (x, y,
+/// z), which is half the rotation vector of the step.
 inline Matrix turn(double x, double y, double z) {
     const double square = x * x + y * y + z * z, scale = 2 / (1 + square);
     Matrix r;
@@ -57,7 +58,7 @@ inline Matrix turn(double x, double y, double z) {
 }
 
 inline Stress<3> rotated(const Stress<3>& s, const DisplacementGradient<3>& gradient) {
-    // Half the rotation vector: a quarter of the curl.
+    // Half the rotation vector is a quarter of the curl.
     const Matrix r =
         turn(0.25 * (gradient[2][1] - gradient[1][2]), 0.25 * (gradient[0][2] - gradient[2][0]),
              0.25 * (gradient[1][0] - gradient[0][1]));
@@ -71,7 +72,7 @@ inline Stress<3> rotated(const Stress<3>& s, const DisplacementGradient<3>& grad
     return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)};
 }
 
-/// Adds the stress of a small strain: isotropic, linear.
+/// Adds the isotropic linear elastic stress of a small strain.
 template <int D>
 inline Stress<D> strained(Stress<D> stress, const DisplacementGradient<D>& gradient, double bulk,
                           double shear) {

@@ -9,45 +9,47 @@
 
 namespace mpm {
 
-/// Kernels and energy of a material.
+/// The kernels and the elastic energy of a material.
 template <int D>
 struct MaterialModel {
-    /// Where there are several, the first strains elastically, and those after it return what
-    /// stress is too much.
+    /// The first kernel computes the elastic trial stress. The others return it to an admissible
+    /// stress.
     std::vector<Named<PointKernel<D>>> kernels;
-    /// Elastic energy stored in a point, J; per metre of depth in two dimensions.
+    /// Returns the elastic energy stored in a point, J; per metre of depth in two dimensions.
     std::function<double(const Particles&, std::size_t point)> strain_energy;
 };
 
-/// A model of materials: one file in materials/, named in materials.inc.
+/// A material model. Each has one file in materials/ and one line in materials.inc.
 struct MaterialKind {
     std::string name;
-    std::vector<Rule> rules;              ///< of its parameters, `density` among them
+    std::vector<Rule> rules;              ///< rules of its parameters, including `density`
     double (*wave_speed)(const Values&);  ///< of pressure waves, m/s
-    /// Make the kernels and add the columns they need.
+    /// Create the kernels and add the columns that they need.
     MaterialModel<2> (*build_2)(const Values&, Particles&);
     MaterialModel<3> (*build_3)(const Values&, Particles&);
 };
 
-/// Models there are; see materials.inc.
+/// Returns all material models; see materials.inc.
 std::span<const MaterialKind> material_kinds();
 
-/// Model of a material. Throws std::invalid_argument that lists the models for an unknown one.
+/// Returns the model of a material. Throws std::invalid_argument with a list of all models if it is
+/// unknown.
 const MaterialKind& find_material_kind(const Material& material);
 
-/// Checked parameters of a material. Throws std::invalid_argument for wrong ones.
+/// Returns the checked parameters of a material. Throws std::invalid_argument if they are wrong.
 Values values_of(const Material& material, int dimension);
 
-/// Density of a material, kg/m^3.
+/// Returns the density of a material, kg/m^3.
 inline double density_of(const Material& material, int dimension) {
     return values_of(material, dimension).number("density");
 }
 
-/// Density that all materials have. Throws std::invalid_argument that names the effect if they
-/// differ.
+/// Returns the density that all materials have. If they differ, throws std::invalid_argument with
+/// the name of the effect.
 double only_density(const Scene& scene, const std::string& effect);
 
-/// Number of a body's material in the scene. Throws std::invalid_argument where it has no such one.
+/// Returns the index in the scene of a body's material. Throws std::invalid_argument if the scene
+/// does not contain it.
 std::size_t material_of(const Scene& scene, const Body& body);
 
 template <int D>

@@ -11,23 +11,25 @@
 
 namespace mpm {
 
-/// Column of the level of each point at the start, m, from which its strength follows.
+/// Name of the column with the level of each point at the start, m, which determines its strength.
 inline constexpr const char* start_level_column = "start_y";
 
-/// Undrained shear strength of a clay. The defaults stand for a constant strength.
+/// The undrained shear strength of a clay. With the defaults the strength is constant.
 struct UndrainedStrength {
-    double at_surface = 0;        ///< Pa
-    double gradient = 0;          ///< Pa per metre below the surface
-    double surface = 0;           ///< level of the surface at the start, m
-    double residual_ratio = 1;    ///< of the strength after large strains
-    double softening_strain = 1;  ///< plastic shear strain at which 95 % of the loss is there
-    double rate_factor = 0;       ///< gain per tenfold rate
-    double reference_rate = 1;    ///< shear strain rate below which there is no gain, 1/s
+    double at_surface = 0;      ///< strength at the surface, Pa
+    double gradient = 0;        ///< increase per metre below the surface, Pa
+    double surface = 0;         ///< level of the surface at the start, m
+    double residual_ratio = 1;  ///< share of the strength that is left after large strains
+    double softening_strain =
+        1;                      ///< plastic shear strain after which 95 % of the loss has occurred
+    double rate_factor = 0;     ///< relative gain for each tenfold increase of the strain rate
+    double reference_rate = 1;  ///< shear strain rate below which there is no gain, 1/s
 
     double intact(double level) const {
         return at_surface + gradient * std::max(surface - level, 0.0);
     }
-    /// Share left after a plastic shear strain (Einav and Randolph 2005).
+    /// Returns the share of the strength left after a plastic shear strain (Einav and Randolph
+    /// 2005).
     double softened(double plastic_strain) const {
         return residual_ratio +
                (1 - residual_ratio) * std::exp(-3 * plastic_strain / softening_strain);
@@ -37,7 +39,7 @@ struct UndrainedStrength {
     }
 };
 
-/// The strength that the parameters of a von_mises material give.
+/// Returns the strength described by the parameters of a von_mises material.
 inline UndrainedStrength undrained_of(const Values& values) {
     UndrainedStrength clay{.at_surface = values.number("strength"),
                            .gradient = values.number("strength_gradient"),
@@ -53,8 +55,8 @@ inline UndrainedStrength undrained_of(const Values& values) {
     return clay;
 }
 
-/// Rate of engineering shear strain of the point k of a block, 1/s: 2 sqrt(J2) of the deviator of
-/// the rate of deformation.
+/// Returns the rate of engineering shear strain of point `k` of a block, 1/s. It is 2 sqrt(J2) of
+/// the deviator of the rate of deformation.
 template <int D>
 double shear_rate(const PointBlock<D>& block, std::size_t k) {
     double volumetric = 0, square = 0;
@@ -71,8 +73,8 @@ double shear_rate(const PointBlock<D>& block, std::size_t k) {
     return 2 * std::sqrt(square);
 }
 
-/// Return of a trial stress to von Mises' sqrt(J2) <= strength. Where clay flows in plane strain,
-/// it ends on Tresca's hexagon as well.
+/// Returns a trial stress to von Mises' condition sqrt(J2) <= strength. Clay that flows in plane
+/// strain then satisfies Tresca's condition as well.
 template <int D>
 inline Stress<D> returned(double strength, const Stress<D>& trial) {
     const double pressure = mean(trial);

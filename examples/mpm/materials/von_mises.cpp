@@ -7,16 +7,17 @@ namespace mpm {
 
 namespace {
 
-/// Columns that the return reads and changes.
+/// The columns that the return mapping reads and changes.
 template <int D>
 struct Columns {
     StressColumns<D> stress;
     Column start_level;
-    std::optional<Column> plastic_strain;  ///< where the clay softens, or the scene asks for it
+    std::optional<Column> plastic_strain;  ///< present if the clay softens, or if the scene
+                                           ///< requests it
 };
 
-/// Kernel of the return, one for each choice of softening and rate: neither costs a clay without
-/// it.
+/// Returns the kernel of the return mapping. There is one for each combination of softening and
+/// rate, so that a clay without them does not pay for them.
 template <int D, bool softens, bool has_rate>
 PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus,
                              const Columns<D>& columns) {

@@ -16,7 +16,8 @@ struct Extremes {
     double front_x, top_y, num_points;
 };
 
-/// Extremes over the points of all ranks, and the largest number of points of a rank. Collective.
+/// Computes the extremes over the points of all ranks, and the largest number of points on a rank.
+/// Collective.
 Extremes extremes_of(const Simulation& simulation, double cell_size, double lower_x,
                      MPI_Comm comm) {
     const Positions at = simulation.positions();
@@ -27,14 +28,14 @@ Extremes extremes_of(const Simulation& simulation, double cell_size, double lowe
     return extremes;
 }
 
-/// Position along x behind which a share of the mass lies, to a millionth of the domain, m.
-/// Collective.
+/// Returns the position along x beyond which the given share of the mass is, m. Its error is at
+/// most a millionth of the domain. Collective.
 double front_of_mass(const Particles& particles, double share, double lower, double upper,
                      MPI_Comm comm) {
     constexpr std::size_t num_bins = 1024;
     const auto x = particles["x"], mass = particles["mass"];
     double width = (upper - lower) / num_bins, missing = 0;
-    // The second histogram is that of the bin of the first in which the position lies.
+    // The first histogram covers the domain. The second covers the bin that contains the position.
     for (const bool is_first : {true, false}) {
         std::array<double, num_bins> bins{};
         for (std::size_t p = 0; p < x.size(); ++p) {

@@ -10,14 +10,14 @@
 
 namespace mpm {
 
-/// The history of a simulation as a table: sums, energies and load, one row per call.
+/// Writes the history of a simulation as a table of sums, energies and load, one row per call.
 class History {
   public:
-    /// Rank 0 opens the file. Collective; throws std::runtime_error on all ranks when it cannot.
+    /// Opens the file on rank 0. Collective; throws std::runtime_error on all ranks if that fails.
     History(const std::string& path, const Scene& scene, MPI_Comm comm);
 
-    /// Appends the present state, with the columns that README.md lists. Collective. While no point
-    /// has moved by a cell, `front_x` is the lower side of the domain.
+    /// Appends the current state. README.md describes the columns. Collective. `front_x` is the
+    /// lower side of the domain until a point has moved by a cell.
     void write(const Simulation& simulation);
 
   private:
@@ -26,7 +26,7 @@ class History {
     double cell_size_;
     double lower_x_, upper_x_;
     MPI_Comm comm_;
-    std::ofstream file_;  ///< on rank 0
+    std::ofstream file_;  ///< open on rank 0 only
     bool has_head_ = false;
     std::int64_t num_migrated_ = 0;
 };

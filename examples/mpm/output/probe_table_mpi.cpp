@@ -9,11 +9,11 @@ namespace mpm {
 
 namespace {
 
-/// Columns of the points in the table, in its order.
+/// Columns of the points, in the order in which the table has them.
 constexpr std::array<const char*, 9> columns{
     "x", "y", "z", "stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
 
-/// The columns, and 1 for a point that is still in the domain.
+/// The values of the columns, and 1 if the point is still in the domain.
 using Row = std::array<double, columns.size() + 1>;
 
 }  // namespace
@@ -43,7 +43,7 @@ void ProbeTable::write(const Simulation& simulation) {
                 if (particles.has_column(columns[c])) local[k][c] = particles[columns[c]][p];
             local[k].back() = 1;
         }
-    // A point has one owner, so a sum is exact.
+    // Only the owner of a point adds non-zero values, so the sum is exact.
     MPI_Reduce(local.data(), rows.data(), static_cast<int>(local.size() * std::tuple_size_v<Row>),
                MPI_DOUBLE, MPI_SUM, 0, comm_);
     if (!file_.is_open()) return;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// Appends the four digits of up to three bytes.
+/// Appends the four base-64 digits of up to three bytes.
 void append_group(const std::byte* bytes, std::size_t count, std::string& text) {
     std::uint32_t group = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -28,7 +28,7 @@ void append_group(const std::byte* bytes, std::size_t count, std::string& text) 
         text += i <= count ? digits[group >> (18 - 6 * i) & 63] : '=';
 }
 
-/// Bytes in the form of VTK's XML: in base 64, after their length in 64 bits.
+/// Encodes bytes for VTK's XML: in base 64, preceded by their number as 64 bits.
 std::string base64(std::span<const std::byte> bytes) {
     const std::uint64_t length = bytes.size();
     std::vector<std::byte> all(sizeof length + bytes.size());
@@ -50,7 +50,7 @@ void write_array(std::ofstream& file, std::string_view type, std::string_view na
          << base64(std::as_bytes(values)) << "\n</DataArray>\n";
 }
 
-/// Writes the start of a VTK file of a type, up to its contents.
+/// Writes the beginning of a VTK file of this type, up to its data.
 void write_head(std::ofstream& file, std::string_view type) {
     constexpr bool is_little = std::endian::native == std::endian::little;
     file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type
@@ -58,7 +58,7 @@ void write_head(std::ofstream& file, std::string_view type) {
          << "\" header_type=\"UInt64\">\n";
 }
 
-/// Columns that are written as they are; position and velocity are vectors.
+/// Returns the columns that are written as scalars. Position and velocity are written as vectors.
 std::vector<std::string> scalars_of(const Particles& particles) {
     std::vector<std::string> names = particles.column_names();
     std::erase_if(names, [](const std::string& name) {
@@ -67,7 +67,7 @@ std::vector<std::string> scalars_of(const Particles& particles) {
     return names;
 }
 
-/// Columns x, y and z of a vector as rows of three; 0 for a missing one.
+/// Returns the columns x, y and z of a vector as rows of three numbers; 0 for a missing column.
 std::vector<double> triples(const Particles& particles, const std::string& prefix) {
     std::vector<double> rows(3 * particles.size());
     for (std::size_t a = 0; a < 3; ++a) {
@@ -87,7 +87,7 @@ void write_cells(std::ofstream& file, const std::string& tag,
     write_array<std::int64_t>(file, "Int64", "offsets", 1, offsets);
 }
 
-/// Displacements as rows of three.
+/// Returns the displacements as rows of three numbers.
 std::vector<double> displacement_rows(const Simulation& simulation) {
     std::vector<double> rows;
     for (const Vector& displacement : simulation.displacements())
@@ -95,7 +95,7 @@ std::vector<double> displacement_rows(const Simulation& simulation) {
     return rows;
 }
 
-/// Pressure, Pa.
+/// Returns the pressure of each point, Pa.
 std::vector<double> pressures(const Particles& particles) {
     const auto xx = particles["stress_xx"], yy = particles["stress_yy"],
                zz = particles["stress_zz"];
@@ -128,7 +128,7 @@ bool write_points(const std::string& path, const Simulation& simulation, int ran
     return file.good();
 }
 
-/// Corners of a box clipped to the grid, in VTK's order of a pixel or voxel.
+/// Appends the corners of a box clipped to the grid, in the order of a pixel or voxel of VTK.
 void append_corners(const Box& box, const GridShape& grid, int dimension,
                     std::vector<double>& corners) {
     const Vector end = grid.upper();

@@ -9,16 +9,16 @@
 
 namespace mpm {
 
-/// Series of files that ParaView opens: points.pvd has the material points with all their columns,
-/// displacement and rank, boxes.pvd the boxes of the ranks.
+/// Writes a series of files for ParaView. points.pvd refers to the material points with all their
+/// columns, displacements and ranks, boxes.pvd to the boxes of the ranks.
 ///
-/// Every rank writes its points (VTP), rank 0 all else (VTU, PVD).
+/// Every rank writes its points (VTP). Rank 0 writes the other files (VTU, PVD).
 class VtkSeries {
   public:
     VtkSeries(std::string folder, const Scene& scene, MPI_Comm comm);
 
-    /// Adds the present state. Collective; throws std::runtime_error on all ranks when a file
-    /// cannot be written.
+    /// Adds the current state. Collective; throws std::runtime_error on all ranks if a file cannot
+    /// be written.
     void write(const Simulation& simulation);
 
   private:
@@ -29,7 +29,8 @@ class VtkSeries {
     int dimension_;
     MPI_Comm comm_;
     int rank_, num_ranks_;
-    std::vector<std::pair<double, std::string>> frames_;  ///< time and number of each
+    /// time and number of each output
+    std::vector<std::pair<double, std::string>> frames_;
 };
 
 }  // namespace mpm

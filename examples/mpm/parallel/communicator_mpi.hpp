@@ -7,14 +7,14 @@
 
 namespace mpm {
 
-/// Number of this rank in a communicator. Not collective.
+/// Returns the number of this rank in a communicator. Not collective.
 inline int rank_of(MPI_Comm comm) {
     int rank = 0;
     MPI_Comm_rank(comm, &rank);
     return rank;
 }
 
-/// Number of ranks of a communicator. Not collective.
+/// Returns the number of ranks of a communicator. Not collective.
 inline int size_of(MPI_Comm comm) {
     int size = 1;
     MPI_Comm_size(comm, &size);
@@ -24,11 +24,12 @@ inline int size_of(MPI_Comm comm) {
 /// Returns the text of one rank on every rank. Collective.
 std::string broadcast(std::string text, MPI_Comm comm, int from = 0);
 
-/// Throws std::runtime_error on all ranks if any has a text, with that of the lowest. Collective.
+/// Throws std::runtime_error on all ranks if any passes a text. The message is the text of the
+/// lowest such rank. Collective.
 void fail_together(const std::string& text, MPI_Comm comm);
 
-/// Runs work of this rank. Collective; throws std::runtime_error with the place on all ranks if any
-/// lacks the memory.
+/// Calls `work`, which is not collective. If any rank runs out of memory, throws std::runtime_error
+/// that names `place` on all ranks. Collective.
 void in_memory(const std::function<void()>& work, const std::string& place, MPI_Comm comm);
 
 }  // namespace mpm

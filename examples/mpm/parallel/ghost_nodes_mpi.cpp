@@ -17,7 +17,7 @@ std::size_t width(const GridPatch<D>& patch) {
     return 1 + 2 * D + patch.fields.size();
 }
 
-/// Whether points reach a node. Fields can have values where weights are 0.
+/// Returns whether any point reaches a node. A node can have fields even if all its weights are 0.
 template <int D>
 bool is_reached(const GridPatch<D>& patch, std::size_t n) {
     if (patch.sums[n].mass > 0) return true;
@@ -104,7 +104,7 @@ void GhostNodes<D>::sum(GridPatch<D>& patch) {
         for (std::vector<double>& field : patch.fields) field[n] = 0;
     }
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
-    // All ranks add from 0 on in the order of the ranks, so they get the same bits.
+    // All ranks start from 0 and add in the order of the ranks, so their sums are bit-identical.
     std::size_t k = 0;
     for (; k < ranks_.size() && ranks_[k] < rank_; ++k) unpack(k, patch);
     for (std::size_t i = 0; i < reached_.size(); ++i)
@@ -112,8 +112,8 @@ void GhostNodes<D>::sum(GridPatch<D>& patch) {
     for (; k < ranks_.size(); ++k) unpack(k, patch);
 }
 
-/// Awaits messages of at most all common nodes. Each begins with the number of its runs, and for
-/// each run its first node and the number of nodes.
+/// Starts to receive messages, each with room for all common nodes. A message begins with the
+/// number of its runs, followed by the first node and the number of nodes of each run.
 template <int D>
 void GhostNodes<D>::receive_any(std::size_t width) {
     for (std::size_t k = 0; k < ranks_.size(); ++k) {
@@ -150,7 +150,7 @@ void GhostNodes<D>::send_all(const GridPatch<D>& patch) {
     }
 }
 
-/// Adds a message to the nodes of the patch. Others are of no use to this rank.
+/// Adds a message to the nodes of the patch. Nodes outside the patch are skipped.
 template <int D>
 void GhostNodes<D>::unpack(std::size_t neighbour, GridPatch<D>& patch) const {
     const auto& [range, nodes, outgoing, message] = neighbours_[neighbour];

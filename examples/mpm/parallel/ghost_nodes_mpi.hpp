@@ -10,38 +10,39 @@
 
 namespace mpm {
 
-/// Nodes that the points of this rank and of others may reach, and their sums.
+/// Sums the nodes that the points of several ranks may reach.
 ///
-/// Ranks whose boxes touch the same cells are neighbours. A message has only the nodes that points
-/// of its sender reach, as runs of consecutive nodes of the two boxes' common range: next to water
-/// in a tank most of that range is air.
+/// Ranks whose boxes touch the same cells are neighbours. A message contains only the nodes that
+/// the sender's points reach, as runs of consecutive nodes in the range common to both boxes. This
+/// matters because, above the water in a tank, for example, most of the range contains no points.
 template <int D>
 class GhostNodes {
   public:
     /// Finds the neighbours from the ranges of nodes of all ranks' boxes. Not collective.
     GhostNodes(std::span<const NodeRange<D>> ranges, MPI_Comm comm);
 
-    /// Numbers the nodes of this rank's patch, a part of its range. Not collective. Call it
-    /// whenever the patch has other nodes.
+    /// Assigns numbers to the nodes of this rank's patch, which is a part of its range. Not
+    /// collective. Call it whenever the nodes of the patch have changed.
     void number(const GridPatch<D>& patch);
 
-    /// Sums the nodes over the ranks, sums and fields, to the same bits on all that reach them. One
-    /// message goes to each neighbour. Collective over the neighbours.
+    /// Sums the sums and fields of the nodes over the ranks. All ranks that reach a node get
+    /// bit-identical results. One message is sent to each neighbour. Collective over the
+    /// neighbours.
     void sum(GridPatch<D>& patch);
 
-    /// Nodes of the patch that a neighbour may reach, ascending.
+    /// Returns the nodes of the patch that a neighbour may reach, ascending.
     const std::vector<std::size_t>& common() const { return common_; }
-    /// Nodes that this rank has sent to any other in the last sum.
+    /// Returns the number of nodes that this rank has sent to other ranks in the last sum.
     std::size_t num_shared() const { return reached_.size(); }
 
-    /// Ranks that may reach a node of this one, ascending.
+    /// Returns the ranks that may reach a node of this one, ascending.
     const std::vector<int>& neighbours() const { return ranks_; }
 
   private:
-    /// One neighbour, the nodes common with it, and the messages.
+    /// A neighbour, the nodes shared with it, and the messages.
     struct Neighbour {
         NodeRange<D> range;
-        std::vector<std::size_t> nodes;  ///< numbers in the patch, `nowhere` outside it
+        std::vector<std::size_t> nodes;  ///< numbers in the patch; `nowhere` for nodes outside it
         std::vector<double> outgoing, incoming;
     };
 
@@ -55,8 +56,8 @@ class GhostNodes {
     std::vector<Neighbour> neighbours_;
     std::vector<MPI_Request> requests_;
     std::vector<std::size_t> common_;
-    std::vector<std::size_t> reached_;  ///< of common_, by the points of this rank
-    std::vector<double> own_;           ///< this rank's contributions to them
+    std::vector<std::size_t> reached_;  ///< the nodes of common_ that this rank's points reach
+    std::vector<double> own_;           ///< this rank's contributions to those nodes
 };
 
 }  // namespace mpm

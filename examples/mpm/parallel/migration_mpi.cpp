@@ -10,7 +10,7 @@ namespace {
 
 constexpr int migration_tag = 2;
 
-/// Rows of the points that go to one rank.
+/// Rows of the points sent to one rank.
 struct Message {
     int rank;
     std::vector<double> rows;
@@ -32,7 +32,7 @@ std::vector<Message> pack(const Particles& particles, const Leavers& leavers,
     return messages;
 }
 
-/// Ranks whose entry is not zero.
+/// Returns the ranks whose entry is not zero.
 std::vector<int> ranks_with(std::span<const int> counts) {
     std::vector<int> ranks;
     for (std::size_t rank = 0; rank < counts.size(); ++rank)
@@ -64,9 +64,9 @@ std::vector<double> receive(int sender, MPI_Comm comm) {
 
 }  // namespace
 
-// rrcb::transfer would bring the same points in the same order, but behind a plan: it takes three
-// collective calls more and, with the rows as its column, 1.4 to 1.9 times the instructions. What
-// steps exchange are sums at nodes, which rrcb::ghosts, of points, has none of.
+// rrcb::transfer would move the same points in the same order, but it needs a plan. The plan takes
+// three more collective calls and, with the rows as its column, 1.4 to 1.9 times the instructions.
+// rrcb::ghosts would not help in the steps either, because they exchange sums at nodes, not points.
 std::size_t migrate(Particles& particles, const Leavers& leavers, Reach reach,
                     std::span<const int> neighbours, MPI_Comm comm) {
     if (reach == Reach::nowhere) {

@@ -14,7 +14,7 @@ namespace mpm {
 
 namespace {
 
-/// Text about a point whose position is not finite.
+/// Returns an error message about a point whose position is not finite.
 std::string text_of(double id, Positions positions, std::size_t p, double now) {
     std::ostringstream text;
     text << "point " << std::setprecision(15) << id << std::setprecision(6)
@@ -40,7 +40,7 @@ Ownership::Ownership(const GridShape& grid, const Walls& walls, MPI_Comm comm)
                 {is_open(walls.bottom), is_open(walls.top)},
                 {is_open(walls.back), is_open(walls.front)}}} {}
 
-/// Whether a point lies in the box along all axes.
+/// Returns whether a point is in the box along all axes.
 template <int D>
 bool is_inside(const Box& box, const std::array<const double*, 3>& at, std::size_t p) {
     for (std::size_t a = 0; a < D; ++a)
@@ -48,7 +48,7 @@ bool is_inside(const Box& box, const std::array<const double*, 3>& at, std::size
     return true;
 }
 
-/// Whether all points of a block lie in the box, two at a time.
+/// Returns whether all points of a block are in the box. Checks two points at a time.
 template <int D>
 bool are_inside(const Box& box, const std::array<const double*, 3>& at, std::size_t begin,
                 std::size_t end) {
@@ -67,7 +67,7 @@ bool are_inside(const Box& box, const std::array<const double*, 3>& at, std::siz
     return inside[0] && inside[1] && (p == end || is_inside<D>(box, at, p));
 }
 
-/// Whether a point beyond the grid stays in it, turned back by a wall.
+/// Returns whether a point beyond the side of the grid is kept, because a wall reflects it.
 template <int D>
 bool Ownership::stays(Particles& particles, const MotionColumns& motion, std::size_t p) const {
     bool stays = true;
@@ -147,8 +147,8 @@ void Ownership::find_reassigned(const Decomposition& next, Positions positions,
     measure_reach(neighbours);
 }
 
-/// Takes the points of other owners as leavers. Blocks of points that stay are checked two points
-/// at a time.
+/// Collects the points of other owners as leavers. Blocks without leavers are checked two points at
+/// a time.
 template <int D>
 void Ownership::take_owners(const Decomposition& decomposition, std::span<const int> owners,
                             Positions positions) {
@@ -170,7 +170,7 @@ void Ownership::take_owners(const Decomposition& decomposition, std::span<const 
     }
 }
 
-/// Reports an owner that does not exist or whose box does not hold the point.
+/// Reports an owner that does not exist, or whose box does not contain the point.
 void Ownership::check_owner(const Decomposition& decomposition, int owner, Positions positions,
                             std::size_t point) {
     if (static_cast<std::size_t>(owner) >= num_ranks_)

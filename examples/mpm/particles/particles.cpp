@@ -42,7 +42,7 @@ void Particles::copy_row(std::size_t point, std::span<double> row) const {
 
 void Particles::remove(std::span<const std::size_t> points) {
     std::size_t last = size_;
-    // From the last point on, so that all points behind `last` are removed already.
+    // Starts with the last point, so that all points behind `last` have been removed already.
     for (std::size_t k = points.size(); k-- > 0;) {
         --last;
         for (std::vector<double>& column : columns_) column[points[k]] = column[last];

@@ -8,7 +8,7 @@
 
 namespace mpm {
 
-/// Cauchy stress, Pa, tension positive.
+/// Cauchy stress, Pa; tension is positive.
 template <int D>
 struct Stress;
 
@@ -23,7 +23,8 @@ struct Stress<3> {
     double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
 };
 
-/// Gradient of the displacement over a step: entry [i][j] is component i along axis j.
+/// Gradient of the displacement in a step. Entry [i][j] is the derivative of component i along axis
+/// j.
 template <int D>
 using DisplacementGradient = std::array<std::array<double, D>, D>;
 
@@ -34,8 +35,8 @@ inline constexpr std::size_t num_stresses = D == 2 ? 4 : 6;
 template <int D>
 using StressColumns = std::array<Column, num_stresses<D>>;
 
-/// Adds the columns stress_xx, stress_yy, stress_zz, stress_xy, and in three dimensions stress_yz,
-/// stress_zx.
+/// Adds the columns stress_xx, stress_yy, stress_zz and stress_xy, and in three dimensions
+/// stress_yz and stress_zx.
 template <int D>
 StressColumns<D> add_stress_columns(Particles& particles) {
     constexpr std::array<const char*, 6> names{"xx", "yy", "zz", "xy", "yz", "zx"};
@@ -81,7 +82,7 @@ inline double mean(const Stress<D>& stress) {
     return (stress.xx + stress.yy + stress.zz) / 3;
 }
 
-/// Half the sum of the squares of a deviator, J2.
+/// Returns J2, half the sum of the squares of a deviator.
 template <int D>
 inline double second_invariant(const Stress<D>& deviator) {
     const double diagonal =
@@ -101,7 +102,7 @@ inline Stress<D> deviator(Stress<D> stress, double mean) {
     return stress;
 }
 
-/// Stress mean + scale * deviator.
+/// Returns the stress mean + scale * deviator.
 template <int D>
 inline Stress<D> composed(double mean, double scale, const Stress<D>& deviator) {
     Stress<D> stress;

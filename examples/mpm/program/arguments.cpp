@@ -11,7 +11,8 @@
 
 namespace {
 
-/// Number of an option, or `none` if it is not given. Throws std::invalid_argument for no number.
+/// Returns the number of an option, or `none` if the option is not given. Throws
+/// std::invalid_argument if the text is not a number.
 template <typename Number>
 Number number(const std::string& option, const std::string& text, Number none, Number least) {
     if (text.empty()) return none;
@@ -25,7 +26,7 @@ Number number(const std::string& option, const std::string& text, Number none, N
     return value;
 }
 
-/// Numbers are read as texts: Teuchos would report a wrong one on rank 0 alone.
+/// Numbers are read as texts, because Teuchos would report a wrong number on rank 0 only.
 const std::map<std::string, std::string> helps{
     {"scene", "scene file in YAML"},
     {"balancer", balancer_names()},

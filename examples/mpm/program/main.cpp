@@ -26,7 +26,7 @@
 
 namespace {
 
-/// Prints the kernels of a step, and the bytes of points and messages.
+/// Prints the kernels of a step, and the sizes of points and messages in bytes.
 void list_kernels(const mpm::Simulation& simulation) {
     const auto& columns = simulation.particles().column_names();
     std::printf("kernels: %s\n", mpm::joined(simulation.kernels()).c_str());
@@ -36,7 +36,7 @@ void list_kernels(const mpm::Simulation& simulation) {
                 simulation.doubles_per_ghost_node());
 }
 
-/// Files that the output plan asks for, in a folder that rank 0 makes.
+/// Writes the files that the output plan requests into a folder that rank 0 creates.
 class Recorder {
   public:
     /// Collective over `comm`. `state_every` is as in Arguments.
@@ -80,10 +80,11 @@ class Recorder {
         return every > 0 && (is_last || is_time);
     }
 
-    /// Whether this is the first step at or after a multiple of the time between outputs.
+    /// Returns true for the first step at or after a multiple of the time between outputs.
     bool passes(double time) {
         if (!(plan_.every_time > 0) || time < next_time_) return false;
-        // A hair more, so that round-off does not find the multiple that has just been passed.
+        // The factor is slightly above 1, so that round-off does not return the multiple just
+        // passed.
         const double multiple = std::floor(time / plan_.every_time * (1 + 1e-12)) + 1;
         next_time_ = multiple * plan_.every_time;
         return true;
@@ -98,8 +99,8 @@ class Recorder {
     std::optional<mpm::ProbeTable> probes_;
 };
 
-/// When to rebalance: before the first step, and then each so many steps or when it pays. A restart
-/// keeps the division that it finds.
+/// Decides when to rebalance: before the first step, and then either every `every` steps or when it
+/// pays. A restart keeps the division in its file.
 class Schedule {
   public:
     /// Collective over `comm`. `every` and `learns_cost` are as in Arguments.
@@ -114,7 +115,7 @@ class Schedule {
             model_.emplace(comm, num_columns);
     }
 
-    /// Weights of the points, to divide them at once.
+    /// Returns the weights of the points for the balance that follows.
     std::vector<double> weights(const mpm::Simulation& simulation) {
         return model_->weights(model_->uses_costs() ? simulation.point_columns()
                                                     : std::vector<double>());
@@ -122,13 +123,14 @@ class Schedule {
 
     std::string report() const { return model_ ? model_->report() : ""; }
 
-    /// Collective; once before each step.
+    /// Collective; call it once before each step.
     void rebalance_if_due(mpm::Simulation& simulation, const mpm::Balancer& balancer) {
         const std::int64_t step = simulation.step_count();
         if (step == first_step_ && step > 0) return;
         if (step > 0) record(simulation);
         if (step > 0 && !(controller_ ? controller_->due() : step % every_ == 0)) return;
-        // The step before has brought the ranks together: none waits for another's load here.
+        // The ranks have synchronized in the previous step, so this time does not include waiting
+        // for others.
         const double start = MPI_Wtime();
         simulation.rebalance(balancer);
         if (controller_) controller_->rebalanced(MPI_Wtime() - start);
@@ -149,8 +151,8 @@ class Schedule {
     std::optional<rrcb::experimental::CostModel> model_;
 };
 
-/// Shows the share that is done and the time that is left: about once a second on a terminal, else
-/// in a line for each tenth.
+/// Prints the share that is done and the time left: about once a second on a terminal, otherwise
+/// one line for each tenth.
 class Progress {
   public:
     Progress(double start_time, double end_time) : from_(start_time), to_(end_time) {}
@@ -173,7 +175,7 @@ class Progress {
   private:
     double from_, to_;
     bool is_terminal_ = isatty(STDERR_FILENO) != 0;
-    int num_tenths_ = 0;  ///< that are shown
+    int num_tenths_ = 0;  ///< tenths that have been printed
     double begin_ = MPI_Wtime(), shown_ = begin_ - 1;
 };
 
@@ -190,7 +192,8 @@ void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Argume
     for (bool is_last = false; !is_last;) {
         is_last = !(simulation.time() < arguments.end_time);
         if (balancer && !is_last) schedule.rebalance_if_due(simulation, *balancer);
-        // A restart knows no cuts of before, so from a written state on this run knows none either.
+        // A restart does not know the earlier cuts. For the same results this run forgets them when
+        // it writes a state.
         if (recorder.record(simulation, is_last)) balancer = new_balancer();
         if (mpm::rank_of(comm) == 0) progress.show(simulation, is_last);
         if (is_last) break;
@@ -209,7 +212,7 @@ void print_end(const mpm::Simulation& simulation, const Arguments& arguments, do
     std::printf("history: %s/history.csv\n", arguments.out.c_str());
 }
 
-/// A simulation whose errors name the file.
+/// Creates a simulation. Messages of its errors contain the name of the file.
 mpm::Simulation start(const Arguments& arguments, const mpm::Scene& scene, MPI_Comm comm) {
     try {
         if (!arguments.restart.empty()) return {scene, arguments.restart, comm};

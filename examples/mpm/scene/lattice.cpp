@@ -42,7 +42,7 @@ void StartPlaces::visit(const Body& body, const Lattice& lattice, const PointVis
     constexpr double most_places = 1e10;
     double num_places = 1;
     std::array<std::int64_t, 3> first{}, end = lattice.count;
-    // Only the part of the lattice that the bounds of the body touch.
+    // Only the part of the lattice that the bounds of the body touch is visited.
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension_); ++a) {
         const auto most = static_cast<double>(lattice.count[a]);
         const auto node = [&](double bound, double shift) {
@@ -96,7 +96,7 @@ std::vector<Vector> StartPlaces::displacements(Positions at,
 
 double StartPlaces::front_x(Positions at, std::span<const double> numbers, double way) const {
     double front = -std::numeric_limits<double>::infinity();
-    // From the last on: sorted, they are the highest, which move first.
+    // Starts at the last point: if points are sorted, the last have the largest x and move first.
     for (std::size_t p = numbers.size(); p-- > 0;) {
         if (!(at.x[p] > front)) continue;
         double square = 0;
@@ -120,9 +120,9 @@ void refuse_point(const std::string& place, const Vector& at, const std::string&
 
 namespace {
 
-/// Refuses a point whose velocity is not finite, that lies in a second body, where its mass would
-/// count twice, or behind a plane by more than half its size. All ranks check all points, so that
-/// they fail together.
+/// Throws for a point whose velocity is not finite, that is also in a second body (its mass would
+/// count twice), or that is behind a plane by more than half its size. All ranks check all points,
+/// so that all of them throw.
 void check_point(const Scene& scene, const Body& body, const Vector& at) {
     const std::string place = "bodies / " + body.name;
     if (body.velocity)
@@ -156,7 +156,7 @@ std::optional<Column> found(const Particles& particles, const char* name) {
 ScenePoints scene_points(const Scene& scene) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     ScenePoints points{0, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
-    std::uint64_t hash = 14695981039346656037U;  // FNV-1a, by words in place of bytes
+    std::uint64_t hash = 14695981039346656037U;  // FNV-1a hash, of words instead of bytes
     std::vector<std::int64_t> of_body(scene.bodies.size());
     visit_points(scene, [&](const Body& body, const Vector& at, std::int64_t number) {
         check_point(scene, body, at);

@@ -11,22 +11,24 @@
 
 namespace mpm {
 
-/// Called with a body, the place and the number of a point.
+/// Function called with a body, and the position and number of a point.
 using PointVisit = std::function<void(const Body&, const Vector&, std::int64_t)>;
 
-/// The lattices of a scene's bodies. A point's number is its place on them, so that it tells where
-/// the point was at the start.
+/// Computes the start positions of points from their numbers. A point's number is its index on the
+/// lattices of the scene's bodies.
 class StartPlaces {
   public:
     explicit StartPlaces(const Scene& scene);
 
-    /// Number of the body of the point with a number.
+    /// Returns the index of the body that contains the point with this number.
     std::size_t body_of(double number) const;
 
-    /// How far the points with these numbers, now at these positions, have moved, m.
+    /// Returns the displacements of the points with these numbers, which are now at these
+    /// positions, m.
     std::vector<Vector> displacements(Positions at, std::span<const double> numbers) const;
 
-    /// Largest x of those that have moved by more than `way` m; -infinity if there is none.
+    /// Returns the largest x of the points that have moved by more than `way` m, or -infinity if
+    /// none has.
     double front_x(Positions at, std::span<const double> numbers, double way) const;
 
     friend void visit_points(const Scene& scene, const PointVisit& visit);
@@ -47,35 +49,36 @@ class StartPlaces {
     std::vector<Lattice> lattices_;
 };
 
-/// Number and extent of the points of a scene.
+/// The number and the extent of the points of a scene.
 struct ScenePoints {
     std::int64_t num_points = 0;
-    Box box;                 ///< empty without points
-    double fingerprint = 0;  ///< of all numbers; other points rarely have the same
+    Box box;                 ///< empty if there are no points
+    double fingerprint = 0;  ///< hash of all numbers; two different scenes rarely have the same
 };
 
-/// Points of a scene. Throws std::invalid_argument that names a body without points, or a
-/// point whose velocity is not finite or that lies in two bodies or behind a plane.
+/// Counts the points of a scene. Throws std::invalid_argument that names the fault: a body without
+/// points, a point whose velocity is not finite, or one in two bodies or behind a plane.
 ScenePoints scene_points(const Scene& scene);
 
-/// Visits each point of a scene in ascending order of the numbers.
+/// Visits the points of a scene in ascending order of their numbers.
 void visit_points(const Scene& scene, const PointVisit& visit);
 
-/// Distance of a body's neighbouring points along the axes, m; in two dimensions 1 along z.
+/// Returns the distance between neighbouring points of a body along each axis, m; 1 along z in two
+/// dimensions.
 Vector lattice_spacing(const Scene& scene, const Body& body);
 
-/// The point of a scene that is nearest to a position at the start, the first of equals.
+/// The point of a scene that is nearest to a position at the start, or the first if several are.
 struct NearestPoint {
     Vector place{};
     std::int64_t number = 0;
 };
 NearestPoint nearest_point(const Scene& scene, const Vector& position);
 
-/// Throws std::invalid_argument: the place, a point of a body and the text of its fault.
+/// Throws std::invalid_argument with the place in the scene, the position of the point and `text`.
 [[noreturn]] void refuse_point(const std::string& place, const Vector& at, const std::string& text);
 
-/// Appends the scene's points that `rank` owns. Columns other than those of motion, `material`
-/// and the level at the start begin with 0.
+/// Appends the scene's points that `rank` owns. Sets the columns of motion, `material` and the
+/// level at the start. All other columns are 0.
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,
                   const MotionColumns& motion, Particles& particles);
 

@@ -11,11 +11,11 @@ namespace mpm {
 
 namespace {
 
-/// Largest moduli of the materials by that of the fastest pressure wave.
+/// The largest moduli of the materials, in units of the modulus of the fastest pressure wave.
 struct Stiffness {
     double wave_speed = 0;  ///< m/s
-    double volume = 0;      ///< D (lambda + 2 G / D): of equal strains along D axes
-    double shear = 0;       ///< 2 G: of strains that keep the volume
+    double volume = 0;      ///< D (lambda + 2 G / D), for equal strains along D axes
+    double shear = 0;       ///< 2 G, for strains that keep the volume
 };
 
 Stiffness stiffness_of(const Scene& scene) {
@@ -33,7 +33,8 @@ Stiffness stiffness_of(const Scene& scene) {
     return {most.wave_speed, most.volume / modulus, most.shear / modulus};
 }
 
-/// Sums over the nodes of a point along one axis; `centre` is that of the points that share them.
+/// Sums over the nodes of a point along one axis. "Centre" is that of the points that share the
+/// nodes.
 struct AxisSums {
     double slopes = 0;          ///< slope^2 / weight
     double centre_slopes = 0;   ///< slope at the centre^2 / weight
@@ -42,7 +43,7 @@ struct AxisSums {
 
 template <class Shape>
 std::vector<AxisSums> axis_sums(double least_weight) {
-    // To the last place beside a face, where a quadratic function's outer weight is still above 0.
+    // The last position is near a face, where a quadratic function's outer weight is still above 0.
     constexpr int num_places = 10;
     constexpr double half = 0.5 * (1 - 1e-9);
     constexpr double middle = 0.5 * (Shape::num_nodes - 1);
@@ -60,7 +61,8 @@ std::vector<AxisSums> axis_sums(double least_weight) {
     return all;
 }
 
-/// Largest mean over the axes of a slope sum along one and the weight sums along the others.
+/// Returns the largest mean over the axes of the slope sum along one axis times the weight sums
+/// along the others.
 double worst_of_centre(const std::vector<AxisSums>& sums, int dimension) {
     double worst = 0;
     for (const AxisSums& x : sums)
@@ -77,7 +79,7 @@ double worst_of_centre(const std::vector<AxisSums>& sums, int dimension) {
     return worst;
 }
 
-/// Square of the highest frequency of a point by itself, times (spacing / wave speed)^2.
+/// Returns the square of the highest frequency of a single point, times (spacing / wave speed)^2.
 template <class Shape>
 double point_frequency(const Scene& scene, const Stiffness& stiffness, double least_weight) {
     const std::vector<AxisSums> sums = axis_sums<Shape>(least_weight);

@@ -4,19 +4,19 @@
 
 namespace mpm {
 
-/// What keeps explicit steps stable, on heavy nodes and on light ones.
+/// The limits that keep explicit steps stable, for heavy and for light nodes.
 struct StepRule {
-    double wave_speed = 0;      ///< the largest of the materials, m/s
-    double courant_number = 0;  ///< of the scene, or the largest that is stable
-    double least_weight = 0;    ///< that a point has on any of its nodes, along each axis
+    double wave_speed = 0;      ///< largest wave speed of the materials, m/s
+    double courant_number = 0;  ///< that of the scene, or the largest that is stable
+    double least_weight = 0;    ///< least weight of a point on each of its nodes, along each axis
 };
 
-/// Returns the rule of a scene.
+/// Returns the limits for a scene.
 ///
-/// A node that only the rims of points reach is light, but as stiff as others. The least weight
-/// keeps the square of the highest frequency of a point by itself at 2 per step or less, and with
-/// it that of all points together: docs/method.md derives it. If even the largest weight of its
-/// shape functions is too small, the steps become shorter.
+/// A node that is reached only by the edges of points is light, but as stiff as the others. The
+/// least weight bounds the square of the highest frequency of a single point by 2 per step. This
+/// also bounds the frequency of all points together; docs/method.md derives it. If even the largest
+/// weight that the shape function allows is too small, the steps are shortened.
 StepRule rule_for(const Scene& scene);
 
 }  // namespace mpm

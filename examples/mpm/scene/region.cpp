@@ -19,7 +19,7 @@ double dot(const Vector& a, const Vector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Distance in the x-y plane from a point to the line between two others.
+/// Returns the distance in the x-y plane from a point to the line between two others.
 double distance_to_edge(const Vector& at, const Vector& a, const Vector& b) {
     const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
     const double along = (at[0] - a[0]) * dx + (at[1] - a[1]) * dy;
@@ -27,7 +27,7 @@ double distance_to_edge(const Vector& at, const Vector& a, const Vector& b) {
     return std::hypot(at[0] - a[0] - share * dx, at[1] - a[1] - share * dy);
 }
 
-/// Whether a ray along x from a point crosses an edge.
+/// Returns whether a ray along x from a point crosses an edge.
 bool crosses(const Vector& at, const Vector& a, const Vector& b) {
     if ((a[1] > at[1]) == (b[1] > at[1])) return false;
     return at[0] < a[0] + (at[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);

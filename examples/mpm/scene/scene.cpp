@@ -55,7 +55,7 @@ void check_plane(const Scene& scene, const Plane& plane) {
     check_friction(plane.friction, place);
 }
 
-/// A parameter that only another one makes use of is refused without that.
+/// Throws if a parameter is given without the other one that makes use of it.
 void check_partners(const Material& material) {
     for (const auto& [key, partner] : {std::pair("softening_strain", "residual_ratio"),
                                        std::pair("reference_rate", "rate_factor")})
@@ -64,7 +64,7 @@ void check_partners(const Material& material) {
                                         "' has no effect without '" + partner + "'");
 }
 
-/// All effects of water must be in the same.
+/// Throws unless all effects of water have the same density.
 void check_water(const std::vector<NamedEffect>& effects) {
     double density = 0;
     for (const NamedEffect& effect : effects)
@@ -77,7 +77,7 @@ void check_water(const std::vector<NamedEffect>& effects) {
         }
 }
 
-/// A probe's name stands in a table.
+/// Throws if the name of a probe contains a character that the table cannot contain.
 void check_probe(const Probe& probe) {
     const auto may_stand = [](unsigned char character) {
         return std::iscntrl(character) == 0 && character != ',' && character != '"';

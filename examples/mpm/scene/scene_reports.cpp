@@ -19,7 +19,7 @@ std::string written(double number) {
     return text.str();
 }
 
-/// Stress that the scene's own weight can cause, Pa; 0 without gravity.
+/// Returns the stress that the weight of the scene can cause, Pa; 0 without gravity.
 double weight_stress(const Scene& scene, double density) {
     const Effect* gravity = find_effect(scene, "gravity");
     if (gravity == nullptr) return 0;
@@ -31,7 +31,8 @@ double weight_stress(const Scene& scene, double density) {
 
 using Warnings = std::vector<std::string>;
 
-/// The cone is inside Mohr-Coulomb's pyramid where both lateral stresses are equal.
+/// Checks whether soil can be at rest. If both lateral stresses are equal, the cone is inside
+/// Mohr-Coulomb's pyramid.
 void check_rest(const Scene& scene, const Values& soil, const std::string& place, double weight,
                 Warnings& warnings) {
     const Effect* geostatic = find_effect(scene, "geostatic");

@@ -7,11 +7,12 @@
 
 namespace mpm {
 
-/// Largest Courant number at which elastic disks of 2 to 6 points along a cell, with and without
-/// the cure of locking, turn without gaining energy, by the shape function, in steps of 0.1.
+/// Returns the largest stable Courant number, in steps of 0.1. It depends on the shape function.
+/// Stable means that rotating elastic discs of 2 to 6 points along a cell gain no energy, with and
+/// without the cure of locking.
 double stable_courant_number(const Scene& scene);
 
-/// Values of a scene that may not be meant, each with a fix.
+/// Returns a warning, with a fix, for each value of a scene that is probably a mistake.
 std::vector<std::string> scene_warnings(const Scene& scene);
 
 }  // namespace mpm

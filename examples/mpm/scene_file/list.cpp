@@ -16,7 +16,7 @@ namespace {
 
 using Entry = Teuchos::ParameterEntry;
 
-/// Takes a row of numbers, or rows one after the other. Returns whether the entry is one.
+/// Reads a row of numbers, or several rows. Returns false if the entry is neither.
 template <typename Number>
 bool take_numbers(const Entry& entry, Value& value) {
     if (entry.isType<Number>()) value = static_cast<double>(Teuchos::getValue<Number>(entry));
@@ -53,7 +53,7 @@ List converted(const Teuchos::ParameterList& from, const std::string& name,
     return list;
 }
 
-/// A line of a text without the spaces around it; the first is number 1.
+/// Returns a line of a text without the spaces around it. The first line has the number 1.
 std::string line_of(const std::string& text, int number) {
     std::istringstream lines(text);
     std::string line;
@@ -62,7 +62,7 @@ std::string line_of(const std::string& text, int number) {
     return begin == std::string::npos ? "" : line.substr(begin, end + 1 - begin);
 }
 
-/// Returns the fault that Teuchos names in a text of YAML, in one line.
+/// Returns in one line the fault that Teuchos has found in a text of YAML.
 std::string fault_of(const std::string& text, const std::string& message) {
     constexpr const char* bad_character = "Unexpected character code";
     std::istringstream lines(message);
@@ -76,7 +76,7 @@ std::string fault_of(const std::string& text, const std::string& message) {
             return "line " + std::to_string(number) + ", '" + line_of(text, number) +
                    "', has a character that is not ASCII";
         }
-        // The parser points with a caret to the place in the line before.
+        // The parser marks a place in the previous line by a caret below it.
         if (!line.empty() && line.find_first_not_of(' ') == line.find('^') && !before.empty())
             fault = "near '" + line_of(before, 1) + "'";
     }

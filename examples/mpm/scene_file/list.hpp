@@ -11,17 +11,17 @@ namespace mpm {
 /// A list of a scene file.
 struct List {
     std::string name;
-    std::string place;  ///< names of the lists around it and its own, for errors
+    std::string place;  ///< its name after those of the lists around it, for messages of errors
     Parameters parameters;
-    std::vector<List> lists;  ///< in it, in the order of the file
+    std::vector<List> lists;  ///< the lists inside it, in the order of the file
 
-    /// Returns the list of this name, an empty one if there is none.
+    /// Returns the list of this name, or an empty one if there is none.
     List list(const std::string& wanted) const;
     /// Returns the lists in a list of lists. Throws if it contains anything else.
     std::vector<List> lists_in(const std::string& wanted) const;
-    /// Throws for a list that is none of these.
+    /// Throws if it contains a list whose name is not one of these.
     void check_lists(const std::vector<std::string>& possible) const;
-    /// Returns the parameters, checked by the rules. Throws for lists that are none of the
+    /// Returns the parameters, checked by the rules. Throws if it contains a list that is not
     /// possible.
     Values values(const std::vector<Rule>& rules, int dimension,
                   const std::vector<std::string>& possible = {}) const;
@@ -29,10 +29,10 @@ struct List {
     [[noreturn]] void refuse(const std::string& key, const std::string& text) const;
 };
 
-/// Reads a text in YAML, which must be one list named scene. Throws std::invalid_argument.
+/// Parses a text of YAML, which must contain one list named scene. Throws std::invalid_argument.
 List parse_list(const std::string& text);
 
-/// Numbers along the axes as a vector.
+/// Returns numbers along the axes as a vector.
 Vector vector_of(const std::vector<double>& numbers);
 
 }  // namespace mpm

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double most_steps = 1e9;
 
-/// Whole numbers of a list along the axes, each at least 1; 1 beyond the dimension.
+/// Returns the whole numbers of a list along the axes, each at least 1, and 1 for missing axes.
 std::array<int, 3> whole_numbers(const List& list, const std::string& name,
                                  const std::vector<double>& numbers) {
     constexpr double most = 1e6;
@@ -36,7 +36,7 @@ std::array<int, 3> whole_numbers(const List& list, const std::string& name,
 const Rule shape_rule{
     .name = "shape", .kind = Rule::Kind::word, .choices = {"box", "polygon", "ball", "half_space"}};
 
-/// Rules of a shape, `shape` and `operation` among them.
+/// Returns the rules of a shape's parameters, including `shape` and `operation`.
 std::vector<Rule> shape_rules(const std::string& shape) {
     std::vector<Rule> rules{shape_rule, choice("operation", {"add", "subtract", "intersect"})};
     const auto add = [&](std::vector<Rule> more) {
@@ -75,7 +75,7 @@ Shape ball_shape(const Values& values) {
     return ball;
 }
 
-/// Twice the area of a polygon, by the shoelace formula.
+/// Returns twice the area of a polygon, by the shoelace formula.
 double twice_area(const std::vector<Vector>& corners) {
     double sum = 0;
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -86,7 +86,7 @@ double twice_area(const std::vector<Vector>& corners) {
     return std::abs(sum);
 }
 
-/// Corners are rows of x and y, in three dimensions too.
+/// Returns a polygon. Its corners are rows of x and y, in three dimensions too.
 Shape polygon_shape(const List& list, const std::vector<double>& rows) {
     if (rows.size() < 6 || rows.size() % 2 != 0)
         list.refuse("corners", "must be 3 or more rows (x, y)");
@@ -121,9 +121,9 @@ Shape combined(Shape whole, const std::string& operation, Shape part) {
     return whole;
 }
 
-/// Combines a shape of a list with those before it.
+/// Combines a shape of a list with the previous shapes.
 Shape with_shape(Shape whole, const List& list, int dimension) {
-    // The word for the shape is checked first: the other keys depend on it.
+    // Checks the name of the shape first, because the allowed parameters depend on it.
     List kind = list;
     std::erase_if(kind.parameters, [](const auto& entry) { return entry.first != "shape"; });
     const std::string shape = kind.values({shape_rule}, dimension).word("shape");
@@ -158,7 +158,7 @@ VelocityField read_velocity(const List& list, int dimension) {
                            .sine_phase = values.number("sine_phase")});
 }
 
-/// Body of a list.
+/// Returns the body that a list describes.
 Body read_body(const List& list, int dimension) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Shape shape{[](const Vector&) { return false; },
@@ -240,7 +240,7 @@ OutputPlan read_output(const List& list, int dimension) {
             static_cast<int>(values.number("vtk_every")), values.number("every_time")};
 }
 
-/// Takes a word out of the parameters of a list; empty if there is none.
+/// Removes a word from the parameters of a list and returns it; empty if there is none.
 std::string take_word(const std::string& name, List& list) {
     list.check_lists({});
     const auto word = list.parameters.extract(name);
@@ -282,7 +282,7 @@ SceneFile read_list(const List& list, const std::string& name) {
     return file;
 }
 
-/// The text of a file, or nothing when it cannot be read.
+/// Returns the text of a file, or an empty text if it cannot be read.
 std::string text_of(const std::string& path) {
     std::ifstream file(path);
     std::ostringstream text;

@@ -6,7 +6,7 @@ namespace mpm {
 
 namespace {
 
-/// Materials that no body uses would cost each point a column.
+/// Removes materials that no body uses: each would take a column of the points.
 Scene without_unused_materials(Scene scene) {
     std::erase_if(scene.materials, [&](const Material& material) {
         return std::ranges::none_of(

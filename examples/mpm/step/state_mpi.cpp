@@ -20,7 +20,8 @@ void write(std::ostream& file, const std::vector<double>& values) {
 }
 
 std::vector<double> read(std::istream& file) {
-    // No file with a wrong length makes this take more memory than the file has bytes.
+    // Reads in parts, so that a file with a wrong length does not make this allocate more memory
+    // than the file has bytes.
     std::int64_t count = 0;
     file.read(reinterpret_cast<char*>(&count), sizeof count);
     const auto here = file.tellg();
@@ -51,7 +52,7 @@ std::vector<Box> boxes_of(std::span<const double> numbers) {
 
 }  // namespace
 
-/// What a scene must have to go on from a state: columns, grid, points.
+/// Returns a text of the properties that a scene must share with a state: columns, grid and points.
 template <int D>
 std::string Stepper<D>::state_names() const {
     std::string names = first_line;
@@ -68,7 +69,7 @@ std::vector<double> Stepper<D>::state_scene() const {
     return scene;
 }
 
-/// Time and effects, the same on all ranks.
+/// Returns the time and the numbers of effects, which are the same on all ranks.
 template <int D>
 std::vector<double> Stepper<D>::state_numbers() const {
     std::vector<double> numbers{time, time_step, max_speed, static_cast<double>(num_steps)};
@@ -76,7 +77,7 @@ std::vector<double> Stepper<D>::state_numbers() const {
     return numbers;
 }
 
-/// Runs after the last sort, and points of this rank.
+/// Returns the number of runs after the last sort, and this rank's points.
 template <int D>
 std::vector<double> Stepper<D>::state_section() const {
     std::vector<double> section{static_cast<double>(num_sorted_runs_)};
@@ -95,7 +96,7 @@ void Stepper<D>::write_state(const std::string& path) const {
         append(box.upper, boxes);
     }
     bool is_good = true;
-    // The ranks write one after the other.
+    // The ranks write one after another.
     for (int rank = 0; rank < size_of(comm_); ++rank) {
         MPI_Barrier(comm_);
         if (rank != rank_of(comm_)) continue;
@@ -110,7 +111,7 @@ void Stepper<D>::write_state(const std::string& path) const {
     fail_together(is_good ? "" : path + ": cannot be written", comm_);
 }
 
-/// Appends those of the points of a section that this rank owns.
+/// Appends the points of a section that this rank owns.
 template <int D>
 void Stepper<D>::append_own(std::span<const double> rows) {
     const std::size_t width = particles.column_names().size();
@@ -125,7 +126,8 @@ void Stepper<D>::append_own(std::span<const double> rows) {
     }
 }
 
-/// Reads a state without communication. On as many ranks as wrote it, each takes its own section.
+/// Reads a state without communication. If the number of ranks is that of the file, each rank reads
+/// its own section.
 template <int D>
 void Stepper<D>::load_state(const std::string& path) {
     std::ifstream file(path, std::ios::binary);

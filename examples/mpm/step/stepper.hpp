@@ -17,7 +17,8 @@
 
 namespace mpm {
 
-/// A simulation of either dimension. Its virtual calls are per step, never per point.
+/// Interface of the implementations for two and three dimensions. It has virtual calls once per
+/// step, not once per point.
 class Simulation::Model {
   public:
     explicit Model(const Scene& scene) : start_places(scene) {}
@@ -38,13 +39,13 @@ class Simulation::Model {
     StartPlaces start_places;
     Decomposition decomposition;
     std::int64_t num_points = 0, num_steps = 0;
-    std::int64_t num_sent = 0;  ///< by this rank
+    std::int64_t num_sent = 0;  ///< points sent by this rank
     double time = 0, time_step = 0, max_speed = 0;
-    WorkClock work;            ///< of the last step
-    double worked_points = 0;  ///< of this rank in it
+    WorkClock work;            ///< time of the last step
+    double worked_points = 0;  ///< points of this rank in the last step
 };
 
-/// A scene of D dimensions in time. `step` is the list of its stages.
+/// Advances a scene of D dimensions. The function step() lists the stages.
 template <int D>
 class Stepper final : public Simulation::Model {
   public:
@@ -87,26 +88,28 @@ class Stepper final : public Simulation::Model {
     void sort_if_needed(std::size_t num_arrived);
 
     Scene scene_;
-    Scene ground_;  ///< the same with planes in place of walls with friction
+    Scene ground_;  ///< the scene, with planes in place of walls with friction
     MPI_Comm comm_;
     MotionColumns motion_ = add_motion_columns(particles, D);
     StepRule rule_;
     std::unique_ptr<Transfers<D>> transfers_;
     std::vector<MaterialModel<D>> materials_;
-    std::optional<Column> material_column_;  ///< where the scene has several materials
+    std::optional<Column> material_column_;  ///< present if the scene has several materials
     Stages<D> stages_;
-    double lightest_point_ = std::numeric_limits<double>::infinity();  ///< of all ranks, kg
-    double fastest_node_ = 0;  ///< of this rank in the last step, m/s; see move_nodes
-    double fingerprint_;       ///< of the points at the start
+    /// lightest point of all ranks, kg
+    double lightest_point_ = std::numeric_limits<double>::infinity();
+    double fastest_node_ = 0;  ///< speed of this rank's fastest node in the last step, m/s; see
+                               ///< move_nodes
+    double fingerprint_;       ///< identifies the points at the start
 
     Ownership ownership_;
     GridPatch<D> patch_;
-    std::vector<NodeRange<D>> ranges_;  ///< nodes of the boxes of all ranks
-    Box home_;                          ///< where this rank's points are: the patch's
+    std::vector<NodeRange<D>> ranges_;  ///< nodes of the box of each rank
+    Box home_;                          ///< the part of this rank's box that the patch covers
     std::optional<GhostNodes<D>> ghosts_;
     std::vector<CellRun<D>> runs_, field_runs_;
     std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();
-    std::size_t num_sorted_runs_ = 0;  ///< runs in the first step after a sort; 0: before it
+    std::size_t num_sorted_runs_ = 0;  ///< runs in the first step after a sort; 0 before it
 };
 
 }  // namespace mpm

@@ -11,10 +11,10 @@ namespace mpm {
 
 namespace {
 
-/// Runs of points by those right after a sort, above which points are sorted again. A run costs as
-/// much as four points.
+/// Points are sorted again when the number of runs has grown by this factor since the last sort. A
+/// run costs as much as four points.
 constexpr double tolerated_runs = 1.2;
-/// Cells that points may move before the patch is fitted to them again.
+/// The number of cells that points may move before the patch is fitted to them again.
 constexpr double slack = 1;
 
 MPI_Comm duplicate(MPI_Comm comm) {
@@ -23,7 +23,7 @@ MPI_Comm duplicate(MPI_Comm comm) {
     return own;
 }
 
-/// Least and largest of some numbers, two at a time.
+/// Returns the smallest and the largest of some numbers. Compares two at a time.
 std::array<double, 2> extent_of(std::span<const double> numbers) {
     Pair least{numbers.front(), numbers.back()}, most = least;
     for (std::size_t p = 0; p + 2 <= numbers.size(); p += 2) {
@@ -34,7 +34,8 @@ std::array<double, 2> extent_of(std::span<const double> numbers) {
     return {std::min(least[0], least[1]), std::max(most[0], most[1])};
 }
 
-/// Stages of a scene but for the mirror images in walls. Walls and planes enter before effects.
+/// Returns the stages of a scene without the mirror images in walls. Walls and planes come before
+/// effects.
 template <int D>
 Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_speed,
                        Particles& particles) {
@@ -92,8 +93,8 @@ void Stepper<D>::build_materials() {
         materials_.push_back(build_material<D>(material, particles));
 }
 
-/// Divides space by a decomposition. Neighbours are kept while no box begins or ends in another
-/// cell. Call fit_patch() once the points have moved.
+/// Adopts a decomposition. The neighbours are kept unless a box begins or ends in another cell.
+/// Call fit_patch() once the points have been moved.
 template <int D>
 void Stepper<D>::divide_by(Decomposition next) {
     decomposition = std::move(next);
@@ -108,7 +109,7 @@ void Stepper<D>::divide_by(Decomposition next) {
     ghosts_->number(patch_);
 }
 
-/// Fits the patch to the box of this rank's points and some cells of slack, within its own box.
+/// Fits the patch to the extent of this rank's points plus `slack`, clipped to the rank's box.
 template <int D>
 void Stepper<D>::fit_patch() {
     const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_of(comm_))];
@@ -126,7 +127,7 @@ void Stepper<D>::fit_patch() {
     ghosts_->number(patch_);
 }
 
-/// Whether the points from `first` on are where the patch has nodes.
+/// Returns whether the patch covers the points from number `first` on.
 template <int D>
 bool Stepper<D>::fits_patch(std::size_t first) const {
     const Positions at = positions();
@@ -135,10 +136,10 @@ bool Stepper<D>::fits_patch(std::size_t first) const {
     return true;
 }
 
-/// Sums the fields of effects. Those with the same `where` follow one another.
+/// Sums the fields of effects. Fields with the same `where` are consecutive.
 template <int D>
 void Stepper<D>::sum_fields() {
-    int found = -1;  // the field that field_runs_ are for
+    int found = -1;  // the field that determines field_runs_
     for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
         const NodeField& field = stages_.fields[f];
         if (field.where >= 0 && field.where != found)
@@ -193,7 +194,7 @@ void Stepper<D>::apply_materials(const PointBlock<D>& block) {
     }
     const std::span<const double> material = particles[*material_column_];
     PointBlock<D> part = block;
-    // A part of the block ends at the next change of material.
+    // A part of the block ends where the material changes.
     for (part.begin = block.begin; part.begin < block.end; part.begin = part.end) {
         const double number = material[part.begin];
         part.end = part.begin + 1;
@@ -227,12 +228,12 @@ double Stepper<D>::fastest_point() const {
 template <int D>
 void Stepper<D>::set_time_step() {
     time_step = rule_.courant_number * scene_.grid.spacing / (rule_.wave_speed + max_speed);
-    // The last step ends at the end.
+    // The last step is shortened so that it ends at end_time.
     if (time < scene_.end_time) time_step = std::min(time_step, scene_.end_time - time);
 }
 
-/// Agrees with all ranks on the largest speed and sends the leavers. Collective. Returns the number
-/// of points that have arrived, the last ones.
+/// Computes the largest speed of all ranks and sends the leavers. Collective. Returns the number of
+/// points that have arrived; they are the last ones.
 template <int D>
 std::size_t Stepper<D>::migrate_leavers(double speed) {
     const Agreement agreement = ownership_.agree(speed);
@@ -248,8 +249,8 @@ void Stepper<D>::sort() {
     num_sorted_runs_ = 0;
 }
 
-/// Sorts once the points have so many more runs than when they were sorted that these slow the
-/// transfers down. A point that has arrived makes a run.
+/// Sorts the points if they have so many more runs than after the last sort that these slow the
+/// transfers down. Each point that has arrived counts as a run.
 template <int D>
 void Stepper<D>::sort_if_needed(std::size_t num_arrived) {
     if (num_sorted_runs_ == 0 && num_arrived == 0) return;

@@ -4,7 +4,7 @@ namespace mpm {
 
 namespace {
 
-/// Sums of one rank, all of them doubles: one reduction adds them.
+/// The sums of one rank. All are doubles, so that one reduction adds them.
 struct Sums {
     double num_points = 0, mass = 0, kinetic_energy = 0, strain_energy = 0, num_sent = 0,
            num_ghost_nodes = 0;

@@ -8,7 +8,7 @@ namespace mpm {
 
 namespace {
 
-/// Calls visit(number) for the neighbours of a node along the axes.
+/// Calls visit(number) for each neighbour of a node along the axes.
 template <int D, typename Visit>
 void visit_neighbours(const NodeRange<D>& nodes, std::size_t node, Visit visit) {
     std::size_t stride = 1;
@@ -22,8 +22,8 @@ void visit_neighbours(const NodeRange<D>& nodes, std::size_t node, Visit visit) 
     }
 }
 
-/// Gives each node that no point reaches to the nearest that one does; returns how many each has,
-/// itself among them.
+/// Assigns each node that no point reaches to the nearest node that a point reaches. Returns the
+/// number of nodes assigned to each node, which includes the node itself.
 template <int D>
 std::vector<double> nodes_given_to(const NodeRange<D>& nodes, std::span<const double> reaching) {
     constexpr std::size_t nobody = static_cast<std::size_t>(-1);

@@ -8,7 +8,7 @@
 
 namespace mpm {
 
-/// Processor time of this thread between calls.
+/// Measures the processor time of this thread.
 class WorkClock {
   public:
     void restart() {
@@ -17,7 +17,10 @@ class WorkClock {
     }
     void resume() { start_ = now(); }
     void pause() { seconds_ += now() - start_; }
-    double seconds() const { return seconds_; }  ///< from restart to the last pause, without pauses
+    double seconds() const {
+        return seconds_;
+    }  ///< time from restart to the last pause, without
+       ///< the pauses between
 
   private:
     static double now() {
@@ -30,10 +33,11 @@ class WorkClock {
     double start_ = 0;
 };
 
-/// Parts of each point in the columns of Simulation::work_columns(), row after row.
+/// Returns the share of each point in the columns of Simulation::work_columns(), one row per point.
 ///
-/// The points of a run share it, and those that reach a node share that. An empty node is given to
-/// the nearest one that is reached: behind a cut it goes with the points on the same side.
+/// The points of a run share the run, and the points that reach a node share the node. A node that
+/// no point reaches is assigned to the nearest node that a point reaches. If a cut divides the
+/// points, the empty node goes with the points on its side.
 template <int D>
 std::vector<double> point_columns(const GridPatch<D>& patch, std::span<const CellRun<D>> runs);
 

@@ -4,7 +4,7 @@
 
 namespace mpm {
 
-/// Sums a tensor of values, one per node of a run, along the axis of the given stride.
+/// Multiplies the values of a run's nodes by the weights along one axis, and sums over this axis.
 template <std::size_t N, std::size_t stride, std::size_t size>
 [[gnu::always_inline]] inline std::array<double, size / N> contracted(
     const std::array<double, size>& values, const std::array<double, N>& weights) {
@@ -20,7 +20,7 @@ template <std::size_t N, std::size_t stride, std::size_t size>
     return result;
 }
 
-/// A nodal value at a point; `factors` has the weights along each axis.
+/// Returns a nodal value interpolated at a point. `factors` contains the weights along each axis.
 template <int D, std::size_t N>
 [[gnu::always_inline]] inline double interpolated(
     const std::array<double, power(N, D)>& values,
@@ -41,11 +41,11 @@ template <int D, std::size_t N>
     return factors;
 }
 
-/// Derivative of a nodal value along an axis, per cell.
+/// Returns the derivative of a nodal value along an axis, per cell.
 ///
-/// Linear functions have one difference along each edge, the same for all points of a cell. So with
-/// two nodes the axis itself is summed first, and compilers take that sum out of the loop over
-/// points.
+/// Linear functions have one difference along each edge of the cell, which is the same for all
+/// points of the cell. With two nodes the axis itself is therefore summed first, and compilers move
+/// that sum out of the loop over points.
 template <int D, std::size_t N, std::size_t axis>
 [[gnu::always_inline]] inline double slope_at(const std::array<double, power(N, D)>& values,
                                               const std::array<Weights<N>, D>& weights) {
@@ -63,7 +63,7 @@ template <int D, std::size_t N, std::size_t axis>
     }
 }
 
-/// Nodal motion of one run, component by component.
+/// The motion of a run's nodes, one array per component.
 template <int D, std::size_t N>
 struct RunMotion {
     using Values = std::array<double, power(N, D)>;
@@ -78,7 +78,7 @@ struct RunMotion {
     }
 };
 
-/// Columns of the points that g2p changes.
+/// The columns of the points that g2p changes.
 template <int D>
 struct PointWriter {
     PointWriter(Particles& particles, const TransferColumns<D>& columns)
@@ -93,7 +93,7 @@ struct PointWriter {
     double* volume;
 };
 
-/// Rate of the change of volume at the centre of a run, times the spacing of the nodes.
+/// Returns the rate of the change of volume at the centre of a run, times the spacing of the nodes.
 template <int D, std::size_t N>
 [[gnu::always_inline]] inline double centre_expansion(
     const std::array<Components<D>, power(N, D)>& slopes, const RunMotion<D, N>& motion) {
@@ -103,10 +103,11 @@ template <int D, std::size_t N>
     return expansion;
 }
 
-/// Moves the points of a run with the nodes. They keep their velocity and add the change of the
-/// nodes' (FLIP), so that nothing damps them.
+/// Moves the points of a run with the nodes. Points keep their velocity and add the change of the
+/// nodes' velocity (FLIP), so that the transfer does not damp them.
 ///
-/// If they share their change of volume, they take that of their centre and keep their own shear.
+/// If the points share their change of volume, they use that of their centre and keep their own
+/// shear.
 template <int D, class Shape, VolumeChange change>
 [[gnu::always_inline]] inline void move_run(const PointWriter<D>& to, const Shape& shape,
                                             const CellRun<D>& run,

@@ -10,7 +10,7 @@
 
 namespace mpm {
 
-/// Calls visit(std::integral_constant<std::size_t, i>) for each i below N, without a loop.
+/// Calls visit(std::integral_constant<std::size_t, i>) for each i below N; the loop is unrolled.
 template <std::size_t N, typename Visit>
 [[gnu::always_inline]] inline void unrolled(Visit&& visit) {
     [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
@@ -23,12 +23,12 @@ constexpr std::size_t power(std::size_t base, std::size_t exponent) {
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
 
-/// Contribution of one point to its nodes.
+/// The contribution of one point to its nodes.
 template <int D>
 struct Contribution {
     double mass;
     Components<D> momentum;
-    Stress<D> stress;  ///< times volume and cells per metre
+    Stress<D> stress;  ///< stress times volume and cells per metre
 };
 
 template <int D>
@@ -44,7 +44,7 @@ template <int D>
     }
 }
 
-/// Offset in the patch of each node of a run from its lowest.
+/// Returns the offset in the patch of each node of a run from the lowest node.
 template <int D, std::size_t N>
 std::array<std::size_t, power(N, D)> node_offsets(const GridPatch<D>& patch) {
     std::array<std::size_t, power(N, D)> offsets{};
@@ -59,7 +59,7 @@ std::array<std::size_t, power(N, D)> node_offsets(const GridPatch<D>& patch) {
     return offsets;
 }
 
-/// Place along an axis of node number `n` of a run.
+/// Returns the position along an axis of node `n` of a run, counted from the lowest node.
 template <std::size_t N>
 constexpr std::size_t digit(std::size_t n, std::size_t axis) {
     return n / power(N, axis) % N;
@@ -74,7 +74,7 @@ template <int D, std::size_t N, std::size_t n>
     return product;
 }
 
-/// Derivative of a shape function along an axis, per cell.
+/// Returns the derivative of a shape function along an axis, per cell.
 template <int D, std::size_t N, std::size_t n, std::size_t axis>
 [[gnu::always_inline]] inline double slope_of(const std::array<Weights<N>, D>& weights) {
     double product = weights[axis].slope[digit<N>(n, axis)];
@@ -84,8 +84,8 @@ template <int D, std::size_t N, std::size_t n, std::size_t axis>
     return product;
 }
 
-/// Slopes of the nodes' shape functions at the centre of the points that share them, per cell: of a
-/// cell, or of the square around a node.
+/// Returns the slopes of the nodes' shape functions at the centre of the points that share these
+/// nodes, per cell. The points share a cell or the square around a node.
 template <int D, class Shape>
 std::array<Components<D>, power(Shape::num_nodes, D)> centre_slopes(const Shape& shape) {
     constexpr std::size_t N = Shape::num_nodes;
@@ -98,7 +98,7 @@ std::array<Components<D>, power(Shape::num_nodes, D)> centre_slopes(const Shape&
     return slopes;
 }
 
-/// Subtracts the mean of the stresses along the axes from them, and returns it.
+/// Subtracts the mean of the normal stresses from each of them, and returns it.
 template <int D>
 [[gnu::always_inline]] inline double take_axial_mean(Stress<D>& stress) {
     double sum = stress.xx + stress.yy;
@@ -110,7 +110,7 @@ template <int D>
     return mean;
 }
 
-/// Columns of the points that p2g reads.
+/// The columns of the points that p2g reads.
 template <int D>
 struct PointReader {
     PointReader(Particles& particles, const TransferColumns<D>& columns)
@@ -145,7 +145,7 @@ struct PointReader {
     StressPointers<D> stress;
 };
 
-/// Sums of the points of a run on its nodes. Unrolled over axes and nodes, it is
+/// Sums the points of a run on its nodes. The loops over axes and nodes are unrolled. It computes
 ///
 ///     for each point p of the run
 ///         for each node n of the run
@@ -153,8 +153,8 @@ struct PointReader {
 ///             momentum[n] += weight(n, p) * mass[p] * velocity[p]
 ///             force[n] -= volume[p] * stress[p] * slope(n, p)
 ///
-/// If the points share their change of volume, the mean of the stresses along the axes works in it:
-/// it acts with the slopes of the centre.
+/// If the points share their change of volume, the mean of the normal stresses acts with the slopes
+/// at the centre of the points instead of slope(n, p).
 template <int D, class Shape, VolumeChange change>
 [[gnu::always_inline]] inline std::array<NodeSums<D>, power(Shape::num_nodes, D)> sum_run(
     const PointReader<D>& from, const Shape& shape,

@@ -8,8 +8,8 @@
 
 namespace mpm {
 
-/// Finds the runs that reach a node with a field above 0, or a shared node: before the sum over the
-/// ranks it may have the field from another rank.
+/// Finds the runs that reach a node at which the field is above 0, or a shared node. The field at a
+/// shared node may become positive when it is summed over the ranks.
 template <int D>
 void find_runs_at(const std::vector<double>& field, std::span<const std::size_t> shared,
                   const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
@@ -25,11 +25,11 @@ void find_runs_at(const std::vector<double>& field, std::span<const std::size_t>
     }
 }
 
-/// Consecutive points that are skipped together if a column is 0 on all of them.
+/// The number of consecutive points that are skipped together if a column is 0 for all of them.
 inline constexpr std::size_t skipped_together = 32;
 
-/// First of the next `skipped_together` points, from `begin` on, on one of which a column is not 0;
-/// `size` if there are none.
+/// Returns the first index of the next group of `skipped_together` points, from `begin` on, in
+/// which a column is not 0 everywhere, or `size` if there is none.
 [[gnu::always_inline]] inline std::size_t next_filled(const double* values, std::size_t begin,
                                                       std::size_t size) {
     for (; begin < size; begin += skipped_together) {

@@ -7,7 +7,7 @@ namespace mpm {
 
 namespace {
 
-/// The transfers of one dimension and shape function.
+/// The transfers for one dimension and one shape function.
 template <int D, class Shape>
 class TransfersOf final : public Transfers<D> {
   public:
@@ -29,7 +29,7 @@ class TransfersOf final : public Transfers<D> {
                 if (p == begin || starts_run(first, p - begin))
                     runs.push_back(run_from(patch, first, p, p - begin));
         }
-        // A run ends where the next begins. Blocks cut runs, so none spans two blocks.
+        // A run ends where the next one begins. Runs are split at the ends of blocks.
         for (std::size_t r = 0; r + 1 < runs.size(); ++r) runs[r].end = runs[r + 1].begin;
         if (!runs.empty()) runs.back().end = particles.size();
     }
@@ -42,7 +42,7 @@ class TransfersOf final : public Transfers<D> {
             cells[p] = patch.index(first_node(patch, at, p));
             ++places[cells[p] + 1];
         }
-        // A counting sort: places[c] is the next free place of cell c.
+        // This is a counting sort: places[c] is the next free index of cell c.
         for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
         std::vector<std::size_t> order(cells.size());
         for (std::size_t p = 0; p < cells.size(); ++p) order[places[cells[p]]++] = p;
@@ -88,7 +88,7 @@ class TransfersOf final : public Transfers<D> {
         return at;
     }
 
-    /// The lowest nodes of the points of a block, axis by axis.
+    /// The lowest nodes of the points of a block, one array per axis.
     using FirstNodes = std::array<std::array<int, block_size>, D>;
 
     FirstNodes first_nodes(const GridPatch<D>& patch, const std::array<const double*, D>& at,

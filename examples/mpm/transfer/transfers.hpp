@@ -16,21 +16,21 @@
 
 namespace mpm {
 
-/// Points of a block: so few that their columns stay in cache from one kernel to the next.
+/// The number of points in a block. Their columns stay in the cache from one kernel to the next.
 inline constexpr std::size_t block_size = 512;
 
-/// Consecutive points of one block that share their nodes.
+/// A run: consecutive points of one block that reach the same nodes.
 template <int D>
 struct CellRun {
     std::size_t begin, end;
-    std::size_t node;      ///< the lowest of their nodes, in the patch
-    Components<D> corner;  ///< its position, m
+    std::size_t node;      ///< index in the patch of the lowest of their nodes
+    Components<D> corner;  ///< position of this node, m
 };
 
 /// Calls visit(number of a node in the patch) for each node of a run, along x first.
 template <int D, typename Visit>
 void visit_run_nodes(const GridPatch<D>& patch, const CellRun<D>& run, Visit visit) {
-    // A shape function with a margin has one node more along each axis.
+    // Shape functions with a margin have one more node along each axis.
     const auto width = static_cast<std::size_t>(2 + patch.margin);
     const auto row = static_cast<std::size_t>(patch.nodes.count[0]);
     const std::size_t layer = D == 3 ? row * static_cast<std::size_t>(patch.nodes.count[1]) : 0;
@@ -39,27 +39,28 @@ void visit_run_nodes(const GridPatch<D>& patch, const CellRun<D>& run, Visit vis
             for (std::size_t i = 0; i < width; ++i) visit(run.node + k * layer + j * row + i);
 }
 
-/// Velocity gradients of one block of points, 1/s; [i][j] is component i along axis j.
+/// Velocity gradients of one block of points, 1/s. [i][j] is the derivative of component i along j.
 template <int D>
 using VelocityGradients = std::array<std::array<std::array<double, block_size>, D>, D>;
 
-/// Points of one call of the point kernels: a block, or its part of one material.
+/// The points of one call of a point kernel: a block, or those of its points that have one
+/// material.
 template <int D>
 struct PointBlock {
     std::size_t begin, end;
-    std::size_t block_begin;  ///< where the block begins whose gradients these are
+    std::size_t block_begin;  ///< first point of the block, to which the gradients belong
     double time;              ///< at the start of the step, s
     double time_step;         ///< s
     VelocityGradients<D>* gradients;
 
     std::size_t size() const { return end - begin; }
-    /// Entry i, j of the gradients of the points, from the first one on.
+    /// Returns the entries i, j of the points' gradients, from the first point on.
     double* gradient(std::size_t i, std::size_t j) const {
         return (*gradients)[i][j].data() + (begin - block_begin);
     }
 };
 
-/// Gradient of the displacement over the step of the point k of a block.
+/// Returns the displacement gradient over the step of point k of a block.
 template <int D>
 struct StepGradients {
     explicit StepGradients(const PointBlock<D>& block) : time_step(block.time_step) {
@@ -88,16 +89,16 @@ struct StepTime {
     double time_step;
 };
 
-/// Changes the nodes of a patch. Shared nodes hold the same bits on all ranks before and after it.
+/// Changes the nodes of a patch. Before and after it, shared nodes are bit-identical on all ranks.
 template <int D>
 using NodeKernel = std::function<void(GridPatch<D>&, const StepTime&)>;
 
-/// Adds more contributions of the points to the sums of a patch, after those of p2g.
+/// Adds further contributions of the points to the sums of a patch. Called after p2g.
 template <int D>
 using ScatterKernel =
     std::function<void(const Particles&, std::span<const CellRun<D>>, GridPatch<D>&)>;
 
-/// Changes the velocity gradients or columns of a block of points by the nodes of its runs.
+/// Changes the velocity gradients or columns of a block of points, using the nodes of its runs.
 template <int D>
 using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
                                           std::span<const CellRun<D>>, const PointBlock<D>&)>;
@@ -106,7 +107,7 @@ using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
 template <int D>
 using PointKernel = std::function<void(Particles&, const PointBlock<D>&)>;
 
-/// Collective work at the end of a step.
+/// Does collective work at the end of a step.
 using StepKernel = std::function<void(const StepTime&, MPI_Comm)>;
 
 template <typename Kernel>
@@ -115,58 +116,58 @@ struct Named {
     Kernel kernel;
 };
 
-/// How points change their volume.
+/// The velocity gradient that determines a point's change of volume.
 enum class VolumeChange {
-    own,    ///< each by the velocity gradient at its place
-    shared  ///< those of a run alike, as their centre
+    own,    ///< that at the point
+    shared  ///< that at the centre of the run
 };
 
-/// Columns that the transfers read and change.
+/// The columns that the transfers read and change.
 template <int D>
 struct TransferColumns {
     MotionColumns motion;
     StressColumns<D> stress;
 };
 
-/// In place of an axis: a point counts fully on each of its nodes.
+/// Passed instead of an axis: a point has the weight 1 on each of its nodes.
 inline constexpr int on_each_node = -2;
 
-/// The transfers between points and nodes, made for a dimension and shape function.
+/// The transfers between points and nodes, for one dimension and one shape function.
 template <int D>
 class Transfers {
   public:
     virtual ~Transfers() = default;
 
-    /// Layers of nodes beyond their cells that points touch.
+    /// Returns the number of layers of nodes beyond their cells that points reach.
     virtual int margin() const = 0;
 
-    /// Groups the points by their nodes. Runs are long where the points are sorted.
+    /// Groups consecutive points that reach the same nodes. Runs are long if the points are sorted.
     virtual void find_runs(const Particles& particles, const GridPatch<D>& patch,
                            std::vector<CellRun<D>>& runs) const = 0;
 
-    /// Orders the points by their nodes, keeping the order among equals.
+    /// Sorts the points by their nodes. The sort is stable.
     virtual void sort(Particles& particles, const GridPatch<D>& patch) const = 0;
 
-    /// Particles to grid: overwrites the patch with the sums of mass, momentum, internal force.
+    /// Particles to grid: overwrites the patch with the sums of mass, momentum and internal force.
     virtual void p2g(Particles& particles, const std::vector<CellRun<D>>& runs, VolumeChange change,
                      GridPatch<D>& patch) const = 0;
 
-    /// Grid to particles: moves the points of one block and reads their velocity gradients.
+    /// Grid to particles: moves the points of one block and computes their velocity gradients.
     ///
-    /// Takes runs from `first_run` on; returns the first run of the next block.
+    /// The block begins with the run `first_run`. Returns the first run of the next block.
     virtual std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
                             const std::vector<CellRun<D>>& runs, std::size_t first_run,
                             VolumeChange change, const PointBlock<D>& block) const = 0;
 
-    /// Adds a column of the points to a field of the nodes, weighted by the shape functions, by
-    /// their derivatives along `axis` where that is not -1, or by on_each_node.
+    /// Adds a column of the points to a field of the nodes. The weights are the shape functions if
+    /// `axis` is -1, 1 if it is on_each_node, and otherwise the derivatives along `axis`.
     virtual void scatter(const Particles& particles, Column column, int axis,
                          std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
                          std::vector<double>& field) const = 0;
 };
 
-/// Transfers with a shape function; adds the columns they need. `least_weight` is the least that a
-/// point has on any of its nodes along an axis.
+/// Returns the transfers for a shape function and adds the columns they need. `least_weight` is the
+/// least weight of a point on any of its nodes along an axis.
 template <int D>
 std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, double least_weight,
                                              Particles& particles);

@@ -11,7 +11,7 @@
 
 namespace mpm {
 
-/// Depth in a surface, m, and the outward normal there.
+/// Depth of a ball inside a surface, m, and the outward normal of the surface there.
 template <int D>
 struct Touch {
     double depth;
@@ -25,16 +25,18 @@ struct Penetrator {
     double radius = 0;       ///< m; half the width in two dimensions
     double cone_height = 0;  ///< m; 0: flat
     double length = 0;       ///< m, from tip to top
-    double mass = 0;         ///< kg; of the part in the domain where that cuts it by symmetry
-    double velocity = 0;     ///< m/s, upwards
+    double mass = 0;  ///< mass, kg; only of the part inside the domain if a side of the domain cuts
+                      ///< the body
+    double velocity = 0;  ///< m/s, upwards
 
-    /// Area of the full section of the cylinder, m^2; in two dimensions its width, m.
+    /// Returns the cross-section of the cylinder, m^2; in two dimensions its width, m.
     double section() const { return D == 2 ? 2 * radius : std::numbers::pi * radius * radius; }
 
-    /// Volume of the full body, m^3; in two dimensions per metre of depth.
+    /// Returns the volume of the full body, m^3; in two dimensions per metre of depth.
     double volume() const { return section() * (cone_height / D + length - cone_height); }
 
-    /// Area of cone and side up to a height above the tip, m^2; in two dimensions the length, m.
+    /// Returns the surface area of cone and side up to a height above the tip, m^2; in two
+    /// dimensions the length, m.
     double area_below(double height) const {
         const double in_cone = std::min(height, cone_height);
         const double share = cone_height > 0 ? in_cone / cone_height : 0;
@@ -43,7 +45,8 @@ struct Penetrator {
         return std::numbers::pi * radius * (slant * share * share + 2 * (height - in_cone));
     }
 
-    /// The share of the body in a domain: one half for each side its axis lies on.
+    /// Returns the share of the body inside the domain: it halves for each side that contains the
+    /// axis.
     double share_in(const GridShape& grid) const {
         double share = 1;
         for (std::size_t a = 0; a < D; ++a)
@@ -51,7 +54,8 @@ struct Penetrator {
         return share;
     }
 
-    /// Contact of a ball with the nearest surface of cone, side and top; none where they are apart.
+    /// Returns the contact of a ball with the nearest surface of the body, or nullopt if they are
+    /// apart.
     std::optional<Touch<D>> touch(const Vector& at, double ball) const {
         const double height = at[1] - tip[1];
         if (height < -ball || height > length + ball) return std::nullopt;
@@ -76,15 +80,17 @@ struct Penetrator {
     }
 };
 
-/// Bounds of the friction along a penetrator where shear stress has a limit.
+/// Limits the friction on a penetrator if the shear stress has a limit.
 ///
-/// The points that touch a surface are too few, and stretched too far, to tell its area. The body
-/// tells it: bands of equal height divide its surface. The ratio of friction to normal force is at
-/// most (mean limit * area of the band) / mean normal force on it. Means are over the last steps.
+/// The area in contact cannot be computed from the points at the surface: they are too few and too
+/// distorted. It is computed from the body, whose surface is divided into bands of equal height.
+/// The ratio of friction to normal force is at most (mean limit of shear stress * area of the band)
+/// / (mean normal force on the band). The means are over the latest steps.
 template <int D>
 class FrictionBands {
   public:
-    /// `share`: part of the body in the domain. `height`: of a band, about, m.
+    /// `share` is the part of the body in the domain. `height` is the approximate height of a band,
+    /// m.
     FrictionBands(const Penetrator<D>& body, double height, double share)
         : length_(body.length), areas_(static_cast<std::size_t>(std::ceil(body.length / height))) {
         for (std::size_t k = 0; k < areas_.size(); ++k)
@@ -93,25 +99,26 @@ class FrictionBands {
         means_ = sums_;
     }
 
-    /// Adds the normal force on a point, N, at a height above the tip, m, with its limit of shear
-    /// stress, Pa.
+    /// Adds the normal force on a point, N, at a height above the tip, m, and the point's limit of
+    /// shear stress, Pa.
     void add(double height, double normal_force, double limit) {
         const std::size_t k = band_at(height);
         sums_[2 * k] += normal_force;
         sums_[2 * k + 1] += normal_force * limit;
     }
 
-    /// Largest ratio of friction to normal force at a height above the tip, at most `friction`.
+    /// Returns the largest ratio of friction to normal force at a height above the tip; at most
+    /// `friction`.
     double most_at(double height, double friction) const {
         const std::size_t k = band_at(height);
         const double normal = means_[2 * k], allowed = areas_[k] * means_[2 * k + 1];
         return allowed < friction * normal * normal ? allowed / (normal * normal) : friction;
     }
 
-    /// Sums of this rank in the step. The caller adds them up over the ranks.
+    /// Returns this rank's sums of the step. The caller sums them over the ranks.
     std::span<const double> sums() const { return sums_; }
 
-    /// Takes the sums over all ranks into the means with a weight and begins a step.
+    /// Adds the sums over all ranks to the moving means, with a weight, and begins a new step.
     void settle(std::span<const double> sums, double weight) {
         for (std::size_t i = 0; i < sums_.size(); ++i) {
             means_[i] += weight * (sums[i] - means_[i]);
@@ -119,7 +126,7 @@ class FrictionBands {
         }
     }
 
-    /// Means between steps.
+    /// Returns the moving means, which are kept between steps.
     std::span<double> means() { return means_; }
 
   private:
@@ -133,7 +140,8 @@ class FrictionBands {
 
     double length_;
     std::vector<double> areas_;         ///< m^2; in two dimensions m
-    std::vector<double> sums_, means_;  ///< by band: normal force, the same times the limit
+    std::vector<double> sums_, means_;  ///< by band: the normal force, and the product of normal
+                                        ///< force and limit
 };
 
 }  // namespace mpm

@@ -9,31 +9,34 @@
 
 namespace mpm {
 
-/// Division of space among the ranks.
+/// A division of space among the ranks.
 ///
-/// In two dimensions the boxes hold 0 along the third axis. The closed boxes cover the grid and
-/// share at most their faces. A point on a face may be with either side; it stays where it is until
-/// it has left its owner's closed box.
+/// In two dimensions the boxes have the bounds 0 along the third axis. The closed boxes cover the
+/// grid and overlap at most in their faces. A point on a face may belong to either side. It keeps
+/// its owner until it has left the owner's closed box.
 struct Decomposition {
     /// One box per rank, the same on every rank.
     std::vector<Box> boxes;
 
-    /// Owner rank of each position, whose closed box holds it. Not collective. The simulation asks
-    /// for points that have left their box, and for all after a rebalance without `local_owners`.
+    /// Writes the owner of each position, which is a rank whose closed box contains it. Not
+    /// collective. The simulation calls it for points that have left their box. After a rebalance
+    /// without `local_owners` it calls it for all points.
     std::function<void(Positions, std::span<int>)> owners;
 
-    /// Optional: owners of the positions that the balancer was called with, in their order. Some
-    /// balancers divide ties on a cut between both sides, which no look-up can repeat.
+    /// Optional: the owners of the positions passed to the balancer, in their order. Some balancers
+    /// assign points on a cut to both sides; a look-up by position cannot reproduce that.
     std::vector<int> local_owners;
 };
 
-/// A division of the points of all ranks. Collective over the communicator.
+/// Divides the points of all ranks. Collective over the communicator.
 using Balancer = std::function<Decomposition(Positions, MPI_Comm)>;
 
-/// Owners by closed boxes; a position on a face is with the first of them.
+/// Returns a decomposition that looks up owners by closed boxes. A position on a face belongs to
+/// the first box that contains it.
 Decomposition within(const std::vector<Box>& boxes);
 
-/// Slabs of equal width across the longest extent, one per rank, whatever they hold.
+/// Returns slabs of equal width across the longest extent, one per rank, whatever points they
+/// contain.
 Decomposition slabs(const Box& extent, int num_ranks);
 
 }  // namespace mpm

@@ -11,55 +11,56 @@
 
 namespace mpm {
 
-/// Value of a parameter of a scene: a number, a word, or a list of numbers.
+/// The value of a scene's parameter: a number, a word, or a list of numbers.
 using Value = std::variant<double, std::string, std::vector<double>>;
 
 /// Parameters by name, as a scene gives them.
 using Parameters = std::map<std::string, Value>;
 
-/// Rule for a parameter.
+/// The rule that a parameter must satisfy.
 struct Rule {
     enum class Kind { number, word, list };
 
     std::string name;
     Kind kind = Kind::number;
     std::string unit = "";
-    std::optional<Value> fallback = {};  ///< value where the scene gives none
-    bool may_be_absent = false;          ///< its presence asks for something more
+    std::optional<Value> fallback = {};  ///< value if the scene gives none
+    bool may_be_absent = false;          ///< the parameter is optional and has no fallback
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
     bool is_whole = false;
-    bool without_ends = false;              ///< strictly between least and most
-    std::vector<std::string> choices = {};  ///< of a word; empty: any
-    bool has_any_length = false;  ///< of a list; otherwise it has one number for each axis
+    bool without_ends = false;              ///< the value is strictly between least and most
+    std::vector<std::string> choices = {};  ///< allowed words; empty: any word
+    bool has_any_length = false;  ///< a list of any length is allowed; otherwise it has one number
+                                  ///< per axis
 };
 
-/// A number above 0.
+/// Requires a number above 0.
 Rule positive(std::string name, std::string unit, std::optional<double> fallback = {});
-/// A number of at least 0.
+/// Requires a number of at least 0.
 Rule not_negative(std::string name, std::string unit, std::optional<double> fallback = {});
-/// Any finite number.
+/// Requires a finite number.
 Rule number(std::string name, std::string unit, std::optional<double> fallback = {});
-/// A number from `least` to `most`, both included.
+/// Requires a number from `least` to `most`, both included.
 Rule within(std::string name, std::string unit, double least, double most,
             std::optional<double> fallback = {});
-/// A whole number from `least` to `most`, both included.
+/// Requires a whole number from `least` to `most`, both included.
 Rule whole(std::string name, std::string unit, double least, double most,
            std::optional<double> fallback = {});
-/// Numbers along the axes, as many as the scene has dimensions.
+/// Requires one number for each axis of the scene.
 Rule vector(std::string name, std::string unit, std::optional<std::vector<double>> fallback = {});
-/// Any number of numbers.
+/// Allows a list of any length.
 Rule rows(std::string name, std::string unit);
-/// One of some words. The first is the fallback.
+/// Requires one of the words. The first is the default.
 Rule choice(std::string name, std::vector<std::string> choices);
-/// Rule for a parameter that may be left out altogether.
+/// Makes a parameter optional.
 Rule optional(Rule rule);
 
-/// Parameters that keep the rules, with the fallbacks filled in.
+/// Parameters that satisfy their rules, with the defaults filled in.
 class Values {
   public:
-    /// Throws std::invalid_argument whose text starts with `place`, names the key and tells what is
-    /// allowed.
+    /// Throws std::invalid_argument for a parameter that breaks its rule. The text starts with
+    /// `place` and contains the parameter's name and the allowed values.
     Values(const Parameters& given, std::span<const Rule> rules, const std::string& place,
            int dimension);
 
@@ -72,7 +73,7 @@ class Values {
     std::map<std::string, Value, std::less<>> values_;
 };
 
-/// Words in one line, with commas between them.
+/// Returns the words in one line, separated by commas.
 std::string joined(std::span<const std::string> words);
 
 }  // namespace mpm

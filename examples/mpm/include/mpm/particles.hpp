@@ -11,20 +11,20 @@
 
 namespace mpm {
 
-/// Number of a column of Particles.
+/// The index of a column of Particles.
 using Column = std::size_t;
 
-/// Material points of one rank: named columns of doubles, all of the same length.
+/// The material points of one rank: named columns of doubles, all of the same length.
 ///
-/// Each user of a property adds its column. All columns travel together. The order of the points
-/// changes whenever points are sorted or migrate.
+/// Code that needs a property of the points adds a column for it. All columns migrate with the
+/// points. The order of the points changes whenever they are sorted or migrate.
 class Particles {
   public:
-    /// Adds a column, or finds the one of this name. New points start with 0.
+    /// Adds a column, or returns the existing one of this name. New points start with the value 0.
     Column add_column(std::string_view name);
-    /// Whether there is a column of this name.
+    /// Returns whether there is a column of this name.
     bool has_column(std::string_view name) const;
-    /// Number of a column. Throws std::out_of_range where nobody has added it.
+    /// Returns the index of a column. Throws std::out_of_range if there is none of this name.
     Column find_column(std::string_view name) const;
     const std::vector<std::string>& column_names() const { return names_; }
 
@@ -33,18 +33,18 @@ class Particles {
     std::span<const double> operator[](Column column) const {
         return {columns_[column].data(), size_};
     }
-    /// Column by name, for readers outside the step.
+    /// Returns a column by its name. Kernels of a step use indices, which are faster.
     std::span<const double> operator[](std::string_view name) const {
         return (*this)[find_column(name)];
     }
 
-    /// Appends rows, each of one value per column in the order of the columns.
+    /// Appends points. Each row has one value per column, in the order of the columns.
     void append(std::span<const double> rows);
-    /// Copies one point into a row of one value per column.
+    /// Copies one point into a row that has one value per column.
     void copy_row(std::size_t point, std::span<double> row) const;
-    /// Removes points given in ascending order. The last points take their places.
+    /// Removes points, given in ascending order. The last points move to their places.
     void remove(std::span<const std::size_t> points);
-    /// Puts the point order[i] in place i.
+    /// Moves the point order[i] to position i.
     void reorder(std::span<const std::size_t> order);
 
   private:
@@ -54,18 +54,18 @@ class Particles {
     std::size_t size_ = 0;
 };
 
-/// The columns every scene has; of each triple the first two in two dimensions.
+/// The columns that every scene has. Two-dimensional scenes have the first two of each triple.
 struct MotionColumns {
     std::array<Column, 3> position{};  ///< x, y, z, m
     std::array<Column, 3> velocity{};  ///< velocity_x, ..., m/s
     Column mass = 0;                   ///< kg; per metre of depth in two dimensions
     Column volume = 0;                 ///< m^3; per metre of depth in two dimensions
-    Column id = 0;  ///< number of the point in the scene, which tells where it started
+    Column id = 0;  ///< number of the point in the scene, from which its start position follows
 };
 
 MotionColumns add_motion_columns(Particles& particles, int dimension);
 
-/// Borrowed positions of all points.
+/// Returns a view of the positions of all points.
 Positions positions_of(const Particles& particles, const MotionColumns& motion, int dimension);
 
 }  // namespace mpm

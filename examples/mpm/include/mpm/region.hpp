@@ -6,23 +6,24 @@
 
 namespace mpm {
 
-/// A box. Regions are closed: positions on the rim, or outside it by round-off, are inside.
+/// Returns the region of a box. All regions are closed: they contain positions on their boundary,
+/// and positions outside it by round-off.
 Region box_region(const Box& box);
-/// A ball; in two dimensions a disc.
+/// Returns the region of a ball; in two dimensions of a disc.
 Region ball_region(const Vector& centre, double radius);
-/// The side behind a plane through a point with an outward normal of any length.
+/// Returns the side of a plane that its normal points away from. The normal may have any length.
 Region half_space_region(const Vector& point, const Vector& normal);
-/// A polygon of the corners in their order, at least 3; in three dimensions at any z.
+/// Returns the region of a polygon with these corners, at least 3; in three dimensions at any z.
 Region polygon_region(std::vector<Vector> corners);
-/// Whether two edges of a polygon cross.
+/// Returns whether two edges of a polygon cross.
 bool crosses_itself(const std::vector<Vector>& corners);
 
 Region both_of(Region a, Region b);    ///< in a or in b
 Region without(Region a, Region b);    ///< in a but not in b
 Region common_to(Region a, Region b);  ///< in a and in b
 
-/// Velocity at the start: a constant, plus the rotation rate times a turn about the z axis through
-/// a centre, plus amplitude * sin(wave number . x + phase).
+/// The velocity at the start. It is the sum of a constant, a rotation about an axis along z through
+/// `rotation_centre`, and sine_amplitude * sin(sine_wave_number . x + sine_phase).
 struct VelocityForm {
     Vector constant{};          ///< m/s
     double rotation_rate = 0;   ///< rad/s, anticlockwise

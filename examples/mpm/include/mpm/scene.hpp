@@ -10,7 +10,7 @@
 
 namespace mpm {
 
-/// Background grid of square or cubic cells.
+/// A background grid of square or cubic cells.
 struct GridShape {
     Vector lower{};      ///< m
     double spacing = 1;  ///< m
@@ -22,23 +22,24 @@ struct GridShape {
     }
 };
 
-/// Whether a body fills a position.
+/// Returns whether a body contains a position.
 using Region = std::function<bool(const Vector&)>;
 
-/// Velocity in m/s at a position; none: at rest.
+/// Returns the velocity in m/s at a position. An empty function means that the body is at rest.
 using VelocityField = std::function<Vector(const Vector&)>;
 
-/// Material points on a lattice, at the centres of equal parts of the grid's cells.
+/// A body filled with material points. They form a lattice: each is at the centre of one of the
+/// equal parts of a cell.
 struct Body {
     Region contains;
     std::array<int, 3> points_per_cell{2, 2, 2};
     std::string material;
-    VelocityField velocity = {};  ///< at the start
-    std::string name = {};        ///< for errors
-    Box bounds = everywhere;      ///< around what it fills; open where that is not known
+    VelocityField velocity = {};  ///< velocity at the start
+    std::string name = {};        ///< name, for messages of errors
+    Box bounds = everywhere;      ///< box around the body; infinite if it is unknown
 };
 
-/// A model of a material by name, with its parameters; see material.hpp.
+/// A material: the name of its model and the parameters; see material.hpp.
 struct Material {
     std::string name;
     std::string model;
@@ -49,38 +50,40 @@ struct Material {
 struct Wall {
     enum Kind {
         open,       ///< free; a point that passes it leaves the scene
-        roller,     ///< no velocity across the wall
+        roller,     ///< no velocity normal to the wall
         fixed,      ///< no velocity
-        frictional  ///< none into the wall, and Coulomb friction along it
+        frictional  ///< no velocity into the wall, and Coulomb friction along it
     };
 
     Wall(Kind the_kind = open, double the_friction = 0) : kind(the_kind), friction(the_friction) {}
 
     Kind kind;
-    double friction;  ///< coefficient of a frictional wall
+    double friction;  ///< Coulomb's coefficient of a frictional wall
 };
 
 struct Walls {
-    Wall left = {}, right = {};  ///< across x
-    Wall bottom = {}, top = {};  ///< across y
-    Wall back = {}, front = {};  ///< across z
+    Wall left = {}, right = {};  ///< walls normal to x
+    Wall bottom = {}, top = {};  ///< walls normal to y
+    Wall back = {}, front = {};  ///< walls normal to z
 };
 
-/// A plane through the domain, with solid ground behind it, that pushes and rubs points.
+/// A plane through the domain with solid ground behind it. It repels points, with friction along
+/// it.
 struct Plane {
     std::string name;
     Vector point{};       ///< on the plane, m
-    Vector normal{};      ///< out of the ground, of any length
+    Vector normal{};      ///< points out of the ground, of any length
     double friction = 0;  ///< Coulomb's coefficient
 };
 
-/// An effect, with its parameters; see effect.hpp.
+/// An effect: its name and its parameters; see effect.hpp.
 struct Effect {
     std::string name;
     Parameters parameters;
 };
 
-/// The point nearest to a position at the start, whose motion and stress are recorded.
+/// A probe: the motion and stress of the point that is nearest to `position` at the start are
+/// recorded.
 struct Probe {
     std::string name;
     Vector position{};  ///< m
@@ -91,10 +94,10 @@ enum class ShapeFunction {
     quadratic  ///< B-spline, 3 nodes
 };
 
-/// A scene in SI units.
+/// A scene, in SI units.
 ///
-/// An effect that is not named is not built. Two dimensions are plane strain, per metre of depth; y
-/// points up.
+/// Only the effects that are named are built. Two-dimensional scenes are in plane strain, with
+/// masses and forces per metre of depth. The y axis points up.
 struct Scene {
     std::string name;
     int dimension = 2;
@@ -111,10 +114,10 @@ struct Scene {
     double end_time = 0;          ///< s
 };
 
-/// An effect of a scene by name; null if the scene does not name it.
+/// Returns the scene's effect of this name, or null if there is none.
 const Effect* find_effect(const Scene& scene, const std::string& name);
 
-/// Checks a scene. Throws std::invalid_argument that names its fault.
+/// Checks a scene. Throws std::invalid_argument with a text that describes the fault.
 void validate(const Scene& scene);
 
 }  // namespace mpm

@@ -7,16 +7,17 @@
 
 namespace mpm {
 
-/// Position, velocity or force; in two dimensions the third component is 0.
+/// A position, velocity or force. In two dimensions the third component is 0.
 using Vector = std::array<double, 3>;
 
-/// Closed axis-aligned box in metres. Open sides are +-infinity. Lower above upper is empty.
+/// A closed axis-aligned box in metres. Open sides are +-infinity. A box with a lower bound above
+/// the upper one is empty.
 struct Box {
     Vector lower{};
     Vector upper{};
 };
 
-/// The box with all sides open.
+/// A box with all sides open.
 inline constexpr Box everywhere{
     {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
      -std::numeric_limits<double>::infinity()},
@@ -28,13 +29,14 @@ inline bool contains(const Box& box, const Vector& at) {
            at[1] <= box.upper[1] && at[2] >= box.lower[2] && at[2] <= box.upper[2];
 }
 
-/// Borrowed positions of material points in metres, columns of the same length. In two dimensions
-/// `z` is empty.
+/// A view of the positions of material points in metres, as columns of the same length. In two
+/// dimensions `z` is empty.
 struct Positions {
     std::span<const double> x;
     std::span<const double> y;
     std::span<const double> z = {};
-    int dimension = z.empty() ? 2 : 3;  ///< to be given if there may be no points in three
+    int dimension = z.empty() ? 2 : 3;  ///< pass 3 explicitly if a three-dimensional rank may have
+                                        ///< no points
 
     std::size_t size() const { return x.size(); }
     Vector operator[](std::size_t point) const {

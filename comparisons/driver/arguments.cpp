@@ -17,7 +17,7 @@ namespace comparisons {
 
 namespace {
 
-/// Texts of the options that were given; read strictly here, because Teuchos takes 5x for 5.
+/// The texts of the given options. The numbers are parsed here, because Teuchos accepts 5x as 5.
 struct Texts {
     std::map<std::string, std::string> values;
     bool quick = false;
@@ -56,8 +56,8 @@ const std::map<std::string, std::string>& documentation() {
     return texts;
 }
 
-/// The help text if it was asked for. Teuchos writes it, and what is wrong, on rank 0 only: the
-/// code it returns is what all ranks go by.
+/// Returns the help text if it was requested. Teuchos prints the text and error messages on rank 0
+/// only, so all ranks must use the code that it returns.
 std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
     Teuchos::CommandLineProcessor processor(false);
     processor.setDocString("Compares RRCB with Zoltan's partitioners on the same points.\n");
@@ -79,7 +79,7 @@ std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
     return std::nullopt;
 }
 
-/// Teuchos takes an option without a value for one that was not given.
+/// Throws if an option has no value: Teuchos would treat it as not given.
 void check_values(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         const std::string_view argument = argv[i];
@@ -133,7 +133,7 @@ void check_combination(const Texts& texts) {
     needs("cost", is_scene, "--scene only; remove it");
 }
 
-/// 0 for auto.
+/// Returns the intervals of a list; "auto" becomes 0.
 std::vector<int> read_intervals(const std::string& text) {
     std::vector<int> intervals;
     for (const std::string_view piece : split(text, ',')) {
@@ -153,7 +153,7 @@ void use_default_sizes(Arguments& arguments) {
     if (arguments.quick) arguments.repeats = 2;
 }
 
-/// Without a method a scene runs without rebalancing alone.
+/// Returns the methods of a list. An empty list means that the scene runs without rebalancing only.
 std::vector<Method> choose_methods(const std::string& text) {
     if (text == "all") return all_methods();
     if (text == "none") return {};

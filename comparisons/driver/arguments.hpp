@@ -14,43 +14,44 @@
 
 namespace comparisons {
 
-/// What of a scene is run.
+/// The measurements of a scene that are run.
 enum class Only { all, calls, simulations };
 
-/// How methods are measured.
+/// The settings of a measurement.
 struct MeasurementPlan {
     Lists lists = Lists::parts;
     int repeats = 6;
-    std::uint64_t seed = 1;  ///< of a cloud, its layout and the order of turns
+    std::uint64_t seed = 1;  ///< for the points of a cloud, their layout and the order of turns
     GhostRule ghosts{};
 };
 
-/// What the user asks for; see README.md beside this folder for every option.
+/// The options of the command line; README.md in the parent folder describes each of them.
 struct Arguments : MeasurementPlan {
-    int ranks = 0;                ///< 0: whatever the program was started with
-    std::string scene = "slope";  ///< its name, or a file
-    std::string cloud;            ///< empty: not a cloud
-    std::string file;             ///< empty: not a file
-    std::string replay;  ///< folder of a dump; empty: none; with none of the three: a scene
+    int ranks = 0;                ///< 0: the number that the program was started with
+    std::string scene = "slope";  ///< the name of a scene, or a file
+    std::string cloud;            ///< name of a cloud; empty: none
+    std::string file;             ///< file of points; empty: none
+    std::string replay;  ///< folder of a dump; empty: none. The scene is used if cloud, file and
+                         ///< replay are empty
     rrcb::GlobalCount points = 1'000'000;
     int dimension = 2;
     Layout layout = Layout::sorted;
     std::vector<Method> methods;
-    int steps = 0;                 ///< of the simulation; 0: to the end of the scene
-    std::vector<int> every = {0};  ///< steps between rebalances; 0: a controller says when
-    Cost cost = Cost::count;  ///< learned: the simulations also compare learned costs with counting
+    int steps = 0;  ///< number of steps of the simulation; 0: until the end of the scene
+    std::vector<int> every = {0};  ///< steps between rebalances; 0: a controller decides
+    Cost cost = Cost::count;  ///< `learned` adds simulations that weigh points by learned costs
     std::string out = "comparisons/out";
     Only only = Only::all;
-    bool data = true;  ///< write the points and boxes of which pictures are drawn
+    bool data = true;  ///< write the points and boxes that pictures show
     bool quick = false;
     bool progress = false;
-    std::optional<std::string> help;  ///< print this and stop
+    std::optional<std::string> help;  ///< text to print instead of running
     bool version = false;
 };
 
 /// Reads the command line. Not collective.
 ///
-/// Throws Failure that names the option, what is wrong with it and what is possible.
+/// Throws Failure that contains the option, the mistake and the allowed values.
 Arguments read_arguments(int argc, char** argv);
 
 }  // namespace comparisons

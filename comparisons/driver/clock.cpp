@@ -1,9 +1,10 @@
-// One round of whole simulations under several balancers, in an order of its own, as CSV.
+// Runs one round of complete simulations with several balancers, in random order, and prints CSV.
 //
 //   mpirun -n 2 rrcb_clock splash|pile ROUND POINTS STEPS
 //
-// splash: SPH, a layer of water under drops; pile: DEM, a heap of grains with loose ones. Both are
-// up to half higher than wide, so the longest axis is the wrong one.
+// The scene splash is SPH: a layer of water under drops. The scene pile is DEM: a heap of grains
+// with loose grains above. Both are up to 1.5 times as high as wide, so that cutting the longest
+// axis is the worse choice.
 #include "clock_particles_mpi.hpp"
 #include "counter_random.hpp"
 #include "failure.hpp"
@@ -24,8 +25,8 @@ using namespace comparisons;
 struct Arm {
     const char* call;
     const char* cuts;
-    const char* weights;  ///< `ghosts`: learned, with a column of ghosts
-    bool again = false;   ///< the second of two equal runs
+    const char* weights;  ///< `ghosts`: learned weights, with a column of ghosts
+    bool again = false;   ///< the second of two runs with equal settings
 };
 
 constexpr Arm arms[] = {{"zoltan-rcb", "longest", "count"},   {"zoltan-rcb", "fewest", "count"},
@@ -49,12 +50,12 @@ ZoltanParameters parameters_of(const Arm& arm) {
     return parameters;
 }
 
-/// Seconds and counts of one simulation.
+/// The seconds and the counts of one simulation.
 struct Run {
     double wall = 0;
     double calls = 0;
-    double ghosts = 0;  ///< of all ranks, mean of the lists
-    double moved = 0;   ///< points, in all
+    double ghosts = 0;  ///< on all ranks, mean over the lists
+    double moved = 0;   ///< number of points moved in the simulation
 };
 
 class Loop {
@@ -113,7 +114,8 @@ class Loop {
     int columns_;
     rrcb::experimental::CostModel model_;
     Particles particles_;
-    /// RCB_SET_DIRECTIONS orders cuts, but their axes are the longest.
+    /// RCB_SET_DIRECTIONS fixes the order of the cuts, but each cut is across the longest axis.
+    /// Hiding y makes Zoltan cut across x.
     bool sees_x_only_;
     ZoltanPartitioner zoltan_;
     Run run_{};

@@ -18,11 +18,11 @@ namespace {
 
 constexpr double time_step = 2e-5;
 constexpr double gravity = 1;
-constexpr double sound = 15;       // of the fluid
-constexpr double stiffness = 2e6;  // of grains, over their mass
+constexpr double sound = 15;       // speed in the fluid
+constexpr double stiffness = 2e6;  // of grains, divided by their mass
 constexpr double depth = 0.1;      // of the water
-constexpr double height = 0.25;    // of the pile
-constexpr double top = 1.5;        // of drops and loose grains
+constexpr double height = 0.25;    // initial height of the pile
+constexpr double top = 1.5;        // highest position of drops and loose grains
 
 double skin(const Scene& scene) {
     return scene.spacing;
@@ -188,7 +188,7 @@ double Particles::step() {
     double work = 0;
     std::vector<double> densities;
     if (scene_.is_fluid) {
-        // The kernel without its factor, which makes an even lattice have the density 1.
+        // The kernel is scaled so that a regular lattice has the density 1.
         densities.assign(size(), 1);
         for (const auto& [i, j] : pairs_) {
             const double x = values_[4 * i] - values_[4 * j];
@@ -214,7 +214,7 @@ double Particles::step() {
 void Particles::push(std::vector<double>& forces, const std::vector<double>& densities) const {
     const double r = scene_.reach;
     const double slope = 24 * std::pow(scene_.spacing, 2) / (std::numbers::pi * std::pow(r, 4));
-    // Water under less pressure than the air does not pull.
+    // Negative pressures are cut off: the water does not pull.
     const auto pressure = [&](double rho) {
         return sound * sound * std::max(0.0, rho - 1) / (rho * rho);
     };
@@ -225,7 +225,7 @@ void Particles::push(std::vector<double>& forces, const std::vector<double>& den
         const double distance = std::sqrt(x[0] * x[0] + x[1] * x[1]);
         if (distance >= r || distance == 0) continue;
         const double apart = ((a[2] - b[2]) * x[0] + (a[3] - b[3]) * x[1]) / distance;
-        double force = 0;  // over the distance
+        double force = 0;  // force divided by the distance
         if (scene_.is_fluid) {
             const double rest = 1 - distance * distance / (r * r);
             const double viscous = apart < 0 ? -0.2 * sound * apart : 0;

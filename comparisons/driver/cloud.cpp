@@ -21,8 +21,8 @@ Vector uniform_point(const Cloud&, GlobalCount, CounterRandom& random) {
     return {random.uniform(0, side), random.uniform(0, side), random.uniform(0, side)};
 }
 
-// The outline is a base of 110 m x 15 m under a crest of 30 m x 20 m and a face of 20 m x 20 m;
-// axis 0 points to the toe, the last axis up.
+// The outline consists of a base of 110 m x 15 m, a crest of 30 m x 20 m on it, and a sloping face
+// of 20 m x 20 m. Axis 0 points to the toe, the last axis upwards.
 Vector slope_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
     constexpr double base_area = 110 * 15;
     constexpr double crest_area = 30 * 20;
@@ -44,7 +44,7 @@ Vector slope_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
 }
 
 struct Cluster {
-    double share;  ///< of the points
+    double share;  ///< share of the points
     double width;  ///< standard deviation
     Vector centre;
 };
@@ -54,7 +54,7 @@ constexpr Cluster clusters[] = {
     {0.10, 12, {25, 80, 65}}, {0.10, 3, {90, 30, 50}},
 };
 
-// Box, Muller: A note on the generation of random normal deviates (1958).
+// See Box and Muller: A note on the generation of random normal deviates (1958).
 double normal(CounterRandom& random) {
     const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
     return radius * std::cos(2 * std::numbers::pi * random.uniform());
@@ -72,7 +72,8 @@ Vector cluster_point(const Cloud&, GlobalCount, CounterRandom& random) {
     return x;
 }
 
-/// A heap that ran out to 100 m, evenly full below a face that grows flatter.
+/// Returns a point of a heap that has run out to 100 m. Density is uniform below a face that
+/// becomes less steep with distance.
 Vector run_out_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
     constexpr double length = 25;
     const double x = -length * std::log(1 - random.uniform() * (1 - std::exp(-side / length)));
@@ -94,7 +95,7 @@ bool is_in_polygon(double x, double y) {
     return inside;
 }
 
-/// Star-shaped; five times as dense to the right as to the left.
+/// Returns a point of a star-shaped polygon, five times as dense on the right as on the left.
 Vector polygon_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
     for (;;) {
         const double x = random.uniform(0, side);
@@ -104,7 +105,7 @@ Vector polygon_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
     }
 }
 
-/// Between two circles or spheres, of 40 and 50 m.
+/// Returns a point between two circles or spheres with radii of 40 and 50 m.
 Vector shell_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
     const double inner = std::pow(0.8, cloud.dimension);
     const double radius = 50 * std::pow(random.uniform(inner, 1), 1.0 / cloud.dimension);
@@ -114,7 +115,8 @@ Vector shell_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
     return {flat * std::cos(angle), flat * std::sin(angle), radius * height};
 }
 
-/// Two turns of an arm with a normal profile; in 3-D it rises by 100 m.
+/// Returns a point of a spiral arm with two turns and a normal profile. In 3-D the arm rises by 100
+/// m.
 Vector spiral_point(const Cloud&, GlobalCount, CounterRandom& random) {
     const double along = std::sqrt(random.uniform());
     const double angle = 4 * std::numbers::pi * along;
@@ -124,7 +126,7 @@ Vector spiral_point(const Cloud&, GlobalCount, CounterRandom& random) {
             100 * along + width * normal(random)};
 }
 
-/// Even in x and y, within a height; in 2-D a layer.
+/// Returns a point uniformly distributed in y and up to a height; in 2-D only up to a height.
 Vector below(const Cloud& cloud, double x, double height, CounterRandom& random) {
     const double z = random.uniform(0, height);
     return cloud.dimension == 2 ? Vector{x, z, 0} : Vector{x, random.uniform(0, side), z};
@@ -139,12 +141,12 @@ Vector wave_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
     return below(cloud, x, 6 + 4 * std::sin(4 * std::numbers::pi * x / side), random);
 }
 
-/// A layer of 3 m; one point in 200 is a drop above it.
+/// Returns a point of a layer of 3 m; one in 200 points is a drop above the layer.
 Vector drops_point(const Cloud& cloud, GlobalCount index, CounterRandom& random) {
     return below(cloud, random.uniform(0, side), index % 200 == 0 ? side : 3, random);
 }
 
-/// A triangle or cone of 100 m x 25 m; one point in 100 is a grain elsewhere.
+/// Returns a point of a triangle or cone of 100 m x 25 m; one in 100 points is a grain anywhere.
 Vector pile_point(const Cloud& cloud, GlobalCount index, CounterRandom& random) {
     if (index % 100 == 0) return below(cloud, random.uniform(0, side), side, random);
     const double rest = std::pow(1 - random.uniform(), 1.0 / cloud.dimension);
@@ -156,21 +158,22 @@ Vector pile_point(const Cloud& cloud, GlobalCount index, CounterRandom& random) 
     return {side / 2 + radius * std::cos(angle), side / 2 + radius * std::sin(angle), z};
 }
 
-/// A layer of 4 m across a diagonal of the square or cube.
+/// Returns a point of a layer of 4 m along a diagonal of the square or cube.
 Vector diagonal_point(const Cloud&, GlobalCount, CounterRandom& random) {
     const double along = random.uniform(0, side);
     const double across = random.uniform(-1.4, 1.4);
     return {along + across, along - across, random.uniform(0, side)};
 }
 
-/// Dense at the faces of a corner.
+/// Returns a point of a cloud that is dense at the faces of one corner.
 Vector cusps_point(const Cloud& cloud, GlobalCount index, CounterRandom& random) {
     Vector x = uniform_point(cloud, index, random);
     for (double& coordinate : x) coordinate = side * std::pow(coordinate / side, 4);
     return x;
 }
 
-/// Two jets, of 2 and 1 m, that meet at right angles, and the sheet that they feed.
+/// Returns a point of two jets, 2 m and 1 m wide, that meet at right angles, or of the sheet that
+/// they feed.
 Vector jets_point(const Cloud&, GlobalCount, CounterRandom& random) {
     const double where = random.uniform();
     const Vector across{normal(random), normal(random), normal(random)};
@@ -180,7 +183,7 @@ Vector jets_point(const Cloud&, GlobalCount, CounterRandom& random) {
     return {80 + across[0] / 2, random.uniform(0, 30), random.uniform(20, 60)};
 }
 
-/// Filaments of 1 m between six nodes, at which a third of the points is.
+/// Returns a point of filaments of 1 m between six nodes. A third of the points is at the nodes.
 Vector web_point(const Cloud&, GlobalCount, CounterRandom& random) {
     constexpr Vector nodes[] = {{10, 15, 60}, {55, 5, 20},  {90, 40, 85},
                                 {60, 60, 50}, {20, 85, 10}, {85, 95, 30}};
@@ -196,7 +199,8 @@ Vector web_point(const Cloud&, GlobalCount, CounterRandom& random) {
     return x;
 }
 
-/// Two discs of stars, one along axes 0 and 1, the smaller one across a diagonal.
+/// Returns a point of two discs of stars. One is in the plane of axes 0 and 1, the smaller one
+/// along a diagonal.
 Vector discs_point(const Cloud&, GlobalCount, CounterRandom& random) {
     const bool is_first = random.uniform() < 0.7;
     const double scale = is_first ? 12 : 7;

@@ -8,7 +8,7 @@
 
 namespace comparisons {
 
-/// A generated set of points; the same numbers give the same points whatever the number of ranks.
+/// A generated point set. It does not depend on the number of ranks.
 struct Cloud {
     std::string name;  ///< one of cloud_names()
     rrcb::GlobalCount num_points = 0;
@@ -16,13 +16,13 @@ struct Cloud {
     std::uint64_t seed = 1;
 };
 
-/// Points first ... last - 1 of the cloud, interleaved, in metres. Not collective.
+/// Returns the points first ... last - 1 of the cloud, interleaved, in metres. Not collective.
 ///
-/// Each point follows from the seed and its own number alone. Throws Failure for an unknown name.
+/// Each point depends only on the seed and on its number. Throws Failure for an unknown name.
 std::vector<double> cloud_points(const Cloud& cloud, rrcb::GlobalCount first,
                                  rrcb::GlobalCount last);
 
-/// Names of all clouds, as in "a, b, c".
+/// Returns the names of all clouds, separated by commas.
 std::string cloud_names();
 
 }  // namespace comparisons

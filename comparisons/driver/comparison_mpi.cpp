@@ -13,14 +13,14 @@ namespace comparisons {
 
 namespace {
 
-/// Times of zoltan-rcb; none when it was not measured or failed.
+/// Returns the times of zoltan-rcb; empty if it was not measured or failed.
 std::vector<double> reference_times(const Comparison& comparison) {
     const auto& all = comparison.measurements;
     const auto found = std::ranges::find(all, "zoltan-rcb", &Measurement::method);
     return found == all.end() || !found->error.empty() ? std::vector<double>() : found->times_ms;
 }
 
-/// A single value is that of all seeds.
+/// Returns the range of the values of the seeds. A single value is a range of its own.
 std::optional<Interval> interval_of_seeds(const std::vector<double>& values) {
     if (values.size() == 1) return Interval{values.front(), values.front()};
     return interval95(values);
@@ -71,7 +71,7 @@ Row table_row(const Comparison& comparison, const Measurement& measurement) {
         .add("off_machine_ghosts", ghosts.off_machine);
 }
 
-/// Beginning of a row about calls of a method.
+/// Returns the first columns of a row about a method's calls.
 Row call_key(const Comparison& comparison, const std::string& method) {
     return Row()
         .add("method", method)
@@ -94,7 +94,7 @@ Row time_row(const Comparison& comparison, const std::string& method, std::size_
     return call_key(comparison, method).add("turn", turn).add("time_ms", time_ms);
 }
 
-/// Of a failed method the reason follows its name.
+/// Returns the row of a method. If it failed, the reason follows its name.
 Row printed_row(const Measurement& measurement, double reference_ms) {
     Row row;
     row.add("method", measurement.method);
@@ -110,7 +110,7 @@ Row printed_row(const Measurement& measurement, double reference_ms) {
         .add("ghosts", grouped(measurement.ghosts.sum));
 }
 
-/// Without measurements yet. Collective over `comm`.
+/// Returns a description of the comparison, still without measurements. Collective over `comm`.
 Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_Comm comm) {
     Comparison comparison{
         workload.name, workload.layout, workload.dimension, 0, size_of(comm), plan, {}};

@@ -14,7 +14,7 @@
 
 namespace comparisons {
 
-/// All methods on one workload.
+/// The measurements of all methods on one workload.
 struct Comparison {
     std::string workload;
     std::string layout;
@@ -23,7 +23,8 @@ struct Comparison {
     int num_ranks = 1;
     MeasurementPlan plan;
     std::vector<Measurement> measurements;
-    std::vector<double> second_times_ms = {};  ///< of zoltan-rcb, measured once more in every turn
+    std::vector<double> second_times_ms = {};  ///< of zoltan-rcb, which is measured twice in each
+                                               ///< turn
 };
 
 /// Measures all methods on a workload, prints their table and writes the data of its pictures.
@@ -31,20 +32,21 @@ struct Comparison {
 Comparison compare_methods(const Workload& workload, const Arguments& arguments,
                            const ResultsFolder& folder, Progress& progress, MPI_Comm comm);
 
-/// True when some method of some comparison failed.
+/// Returns true if a method failed in any comparison.
 bool has_failures(std::span<const Comparison> comparisons);
 
-/// table.csv, columns as columns.md describes them.
+/// Returns the text of table.csv; columns.md describes its columns.
 std::string table_csv(std::span<const Comparison> comparisons);
 
-/// calls.csv: what each method's call moved by MPI function, summed over the ranks.
+/// Returns the text of calls.csv: the traffic of each method by MPI function, summed over the
+/// ranks.
 std::string calls_csv(std::span<const Comparison> comparisons);
 
-/// call_times.csv: every timed call; those of one turn may be compared in pairs. The second of
-/// zoltan-rcb in a turn is named "zoltan-rcb again".
+/// Returns the text of call_times.csv, with the time of every call. Calls of the same turn may be
+/// compared in pairs. The second call of zoltan-rcb in a turn is named "zoltan-rcb again".
 std::string call_times_csv(std::span<const Comparison> comparisons);
 
-/// table.csv for people, numbers they compare first.
+/// Prints table.csv for people, with the most important columns first.
 void print_table(std::ostream& out, const Comparison& comparison);
 
 }  // namespace comparisons

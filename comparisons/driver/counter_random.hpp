@@ -10,8 +10,8 @@
 
 namespace comparisons {
 
-/// One round of splitmix64: Steele, Lea, Flood, Fast splittable pseudorandom number generators
-/// (2014), with Stafford's mix 13.
+/// Computes one round of splitmix64 with Stafford's mix 13. See Steele, Lea, Flood: Fast splittable
+/// pseudorandom number generators (2014).
 constexpr std::uint64_t scramble(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15U;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -19,7 +19,7 @@ constexpr std::uint64_t scramble(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// Numbers that belong to one counter value: no state is shared between counters.
+/// Generates pseudo-random numbers that depend only on a counter's value. No state is shared.
 class CounterRandom {
   public:
     CounterRandom(std::uint64_t seed, std::uint64_t counter)
@@ -27,7 +27,7 @@ class CounterRandom {
 
     std::uint64_t next() { return scramble(state_++); }
 
-    /// Uniform in [0, 1).
+    /// Returns a number uniformly distributed in [0, 1).
     double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
     double uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }
@@ -36,16 +36,16 @@ class CounterRandom {
     std::uint64_t state_;
 };
 
-/// Seed of its own for a text, that other texts do not share.
+/// Returns a seed that depends on a text, so that different texts have different seeds.
 constexpr std::uint64_t seed_for(std::string_view text, std::uint64_t seed) {
     for (const char c : text) seed = scramble(seed ^ static_cast<unsigned char>(c));
     return seed;
 }
 
-/// Numbers 0 ... count - 1 in an order that follows from the seed and the turn, so that no method
-/// always comes after the same other one. An odd turn has the order of the turn before backwards: a
-/// call finds in the caches what the call before it left, and each of two methods is first as
-/// often.
+/// Returns the numbers 0 ... count - 1 in a random order that depends on the seed and the turn. In
+/// this way no method always follows the same other one, whose data it would find in the caches.
+/// Each odd turn has the reverse order of the previous turn, so that of two methods each is first
+/// equally often.
 inline std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed,
                                             std::uint64_t turn) {
     std::vector<std::size_t> order(count);

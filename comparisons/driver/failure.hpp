@@ -4,8 +4,8 @@
 
 namespace comparisons {
 
-/// A mistake of the user's or a step that cannot go on; collective functions throw it on every
-/// rank alike.
+/// A mistake of the user, or a step that cannot continue. Collective functions throw it on all
+/// ranks.
 class Failure : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

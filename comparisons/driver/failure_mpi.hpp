@@ -14,15 +14,17 @@ namespace comparisons {
 using mpm::rank_of;
 using mpm::size_of;
 
-/// The message of the lowest rank whose own message is not empty, on every rank.
+/// Returns the message of the lowest rank whose message is not empty. All ranks get the same text;
+/// it is empty if no rank has a message.
 ///
-/// Collective over `comm`; empty when no rank has one.
+/// Collective over `comm`.
 std::string first_message(const std::string& mine, MPI_Comm comm);
 
 /// Throws Failure with first_message on every rank unless it is empty. Collective over `comm`.
 void fail_together(const std::string& mine, MPI_Comm comm);
 
-/// Runs a step that is not collective on rank 0; what it throws becomes a Failure on every rank.
+/// Runs a step that is not collective on rank 0. An exception in it becomes a Failure on every
+/// rank.
 template <typename Step>
 void on_root(Step&& step, MPI_Comm comm) {
     const int rank = rank_of(comm);

@@ -1,11 +1,11 @@
-// Ghosts of the parts of several methods as CSV on standard output.
+// Counts the ghosts of the parts of several methods and prints CSV on standard output.
 //
 // On one process:
 //   rrcb_ghosts clouds [--quick]   clouds of 20,000 points, several seeds
 // On several:
 //   rrcb_ghosts loads [--quick]    loads of the ranks with corrected part sizes
 //
-// A point is a ghost within three times the radius of GhostCounter.
+// A point is a ghost of a part if it is within three times the radius of GhostCounter.
 #include "cloud.hpp"
 #include "failure.hpp"
 #include "ghost_study_mpi.hpp"
@@ -33,9 +33,10 @@ namespace {
 using namespace comparisons;
 using rrcb::Part;
 
-constexpr const char* lammps_axes = "LAMMPS' axes";  ///< here alone
+constexpr const char* lammps_axes = "LAMMPS' axes";  ///< a method of this study only
 
-/// A bisection of even halves across the axis whose smaller half is the widest, the rule of LAMMPS.
+/// Halves the points recursively across the axis for which the narrower half is widest, like
+/// LAMMPS.
 class WidestHalves {
   public:
     WidestHalves(const rrcb::Points& points, int num_parts)
@@ -50,7 +51,7 @@ class WidestHalves {
   private:
     double at(std::size_t point, std::size_t axis) const { return points_.position(point)[axis]; }
 
-    /// Puts the `below` points of least coordinate first; returns the cut.
+    /// Moves the `below` points with the smallest coordinates to the front. Returns the cut.
     double select(std::span<std::size_t> ids, std::size_t below, std::size_t axis) const {
         const auto middle = ids.begin() + static_cast<std::ptrdiff_t>(below);
         std::ranges::nth_element(ids, middle, {}, [&](std::size_t i) { return at(i, axis); });

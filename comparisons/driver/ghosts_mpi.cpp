@@ -26,7 +26,7 @@ void widen(rrcb::Box& box, const rrcb::Vector& x) {
     }
 }
 
-/// Positions of this rank's finite points and their indices.
+/// The positions of this rank's finite points, and their indices.
 struct FinitePoints {
     explicit FinitePoints(const rrcb::Points& points) {
         for (std::size_t i = 0; i < points.count; ++i) {
@@ -43,7 +43,7 @@ struct FinitePoints {
     rrcb::Box box;
 };
 
-/// Returns some positions of all ranks, evenly picked in the order of ranks and points.
+/// Returns some positions of all ranks, at equal distances in the order of ranks and points.
 std::vector<rrcb::Vector> sample_of(const std::vector<rrcb::Vector>& mine, MPI_Comm comm) {
     constexpr std::int64_t most = 128;
     const auto count = static_cast<std::int64_t>(mine.size());
@@ -62,8 +62,9 @@ std::vector<rrcb::Vector> sample_of(const std::vector<rrcb::Vector>& mine, MPI_C
     return sample;
 }
 
-/// Returns the median distance of some points to the nearest one elsewhere; 1 if all coincide, so
-/// that any distance does. Points far from all others do not matter.
+/// Returns the median distance of some points to their nearest neighbour. The median ignores the
+/// few points that are far from all others. Returns 1 if all points coincide, when any radius would
+/// do.
 double median_spacing(const std::vector<rrcb::Vector>& mine, MPI_Comm comm) {
     const std::vector<rrcb::Vector> sample = sample_of(mine, comm);
     std::vector<double> nearest(sample.size(), std::numeric_limits<double>::infinity());
@@ -81,14 +82,14 @@ double median_spacing(const std::vector<rrcb::Vector>& mine, MPI_Comm comm) {
     return std::isfinite(*middle) ? *middle : 1;
 }
 
-/// Cubes over a box, in layers across its longest axis.
+/// A grid of cubes over a box. Its layers are perpendicular to the longest axis of the box.
 struct CubeGrid {
     CubeGrid(const rrcb::Box& box, double radius) : lower(box.lower) {
         const auto extent = [&](std::size_t axis) { return box.upper[axis] - box.lower[axis]; };
         for (const std::size_t axis : {1, 2})
             if (extent(axis) > extent(across)) across = axis;
-        // Wider by more than an index is rounded by, so that points within the radius are
-        // neighbours.
+        // The cubes are a little wider than the radius. Points within the radius are therefore in
+        // neighbouring cubes in spite of round-off.
         side = std::max(radius, extent(across) / max_index) * (1 + 1e-6);
         num_layers = layer(box.upper) + 1;
     }
@@ -100,7 +101,8 @@ struct CubeGrid {
     }
     std::int64_t layer(const rrcb::Vector& x) const { return index(x, across); }
 
-    /// Open to steps of one in each direction.
+    /// Returns the number of the cube of a position. Neighbouring cubes of all directions have
+    /// numbers too.
     std::int64_t cube(const rrcb::Vector& x) const {
         const std::int64_t row = ((layer(x) + 1) << index_bits) + index(x, (across + 1) % 3) + 1;
         return (row << index_bits) + index(x, (across + 2) % 3) + 1;
@@ -121,14 +123,14 @@ int rank_of_layer(std::int64_t layer, std::int64_t num_layers, int num_ranks) {
                             num_layers);
 }
 
-/// Points of one part in one cube, and the box around them.
+/// The points of one part in one cube, and their bounding box.
 struct Group {
     std::int64_t cube;
     rrcb::Part part;
     std::span<const PointInCube> points;
     rrcb::Box box;
 
-    /// Whether one of them is within the radius of a position.
+    /// Returns whether one of the points is within the radius of a position.
     bool is_near(const rrcb::Vector& x, double squared_radius) const {
         const auto squared_distance = [&](const auto& nearest) {
             double squared = 0;
@@ -136,7 +138,7 @@ struct Group {
                 squared += (x[axis] - nearest(axis)) * (x[axis] - nearest(axis));
             return squared;
         };
-        // No more than to any point in the box as computed.
+        // The computed distance to the box is at most that to any point in it.
         const auto in_box = [&](std::size_t axis) {
             return std::clamp(x[axis], box.lower[axis], box.upper[axis]);
         };
@@ -148,7 +150,7 @@ struct Group {
     }
 };
 
-/// Sorts the points and groups them, by cubes and parts.
+/// Sorts the points by cube and part, and groups them.
 std::vector<Group> grouped(std::vector<PointInCube>& points, const std::vector<rrcb::Part>& parts) {
     const auto key = [&](const PointInCube& point) {
         return std::pair(point.cube, parts[point.number]);
@@ -167,26 +169,26 @@ std::vector<Group> grouped(std::vector<PointInCube>& points, const std::vector<r
     return groups;
 }
 
-/// What the parts need.
+/// The sums over the ghosts that the parts need.
 struct Sums {
     explicit Sums(int num_parts)
         : needed(static_cast<std::size_t>(num_parts)),
           are_touching(needed.size() * needed.size()) {}
 
-    /// A copy that `part` needs of a point of another one.
+    /// Counts a ghost: a point of the part `from` that `part` needs.
     void add(rrcb::Part part, rrcb::Part from, int ranks_per_node) {
         ++needed[part];
         are_touching[part * needed.size() + from] = 1;
         off_machine += part / ranks_per_node != from / ranks_per_node;
     }
 
-    /// Over all ranks. Collective.
+    /// Returns the sums over all ranks. Collective.
     Ghosts over_all(double radius, bool has_machines, MPI_Comm comm) {
         const int num_parts = static_cast<int>(needed.size());
         MPI_Allreduce(MPI_IN_PLACE, needed.data(), num_parts, MPI_INT64_T, MPI_SUM, comm);
         MPI_Allreduce(MPI_IN_PLACE, &off_machine, 1, MPI_INT64_T, MPI_SUM, comm);
         Ghosts ghosts{radius, std::reduce(needed.begin(), needed.end()), std::ranges::max(needed)};
-        // A row at a time, because its square may be more than an int counts.
+        // Reduces one row at a time, because the number of entries may exceed an int.
         for (auto row = are_touching.begin(); row != are_touching.end(); row += num_parts) {
             MPI_Allreduce(MPI_IN_PLACE, &*row, num_parts, MPI_UNSIGNED_CHAR, MPI_MAX, comm);
             const auto neighbours = static_cast<int>(std::count(row, row + num_parts, 1));
@@ -197,17 +199,20 @@ struct Sums {
         return ghosts;
     }
 
-    std::vector<std::int64_t> needed;         ///< by each part
-    std::int64_t off_machine = 0;             ///< those of them from parts on another machine
-    std::vector<unsigned char> are_touching;  ///< parts p and q at p * num_parts + q: 0 or 1
+    std::vector<std::int64_t> needed;         ///< ghosts of each part
+    std::int64_t off_machine = 0;             ///< ghosts from parts on another machine
+    std::vector<unsigned char> are_touching;  ///< entry p * num_parts + q is 1 if part p needs
+                                              ///< ghosts from part q
 };
 
-/// Walks through sorted groups and finds their neighbours: in three consecutive cubes of nine rows.
+/// Finds the neighbours of groups, visited in ascending order. They are in nine rows of cubes, in
+/// three consecutive cubes of each.
 class Neighbourhood {
   public:
     explicit Neighbourhood(const std::vector<Group>& groups) : groups_(groups) {}
 
-    /// Groups of other parts, by part, near one that is not before that of the previous call.
+    /// Returns the nearby groups of other parts, by part. `group` must not precede that of the last
+    /// call.
     const std::vector<const Group*>& of(const Group& group) {
         found_.clear();
         for (std::int64_t row = 0; row < 9; ++row) {

@@ -17,22 +17,22 @@ namespace {
 
 using Key = std::uint64_t;
 
-/// Largest weight of a cell that is not divided, as a share of the mean part.
+/// Cells that hold more than this share of the mean part are divided.
 constexpr double most_of_a_part = 0.01;
 
-/// Bits of each axis in a key.
+/// Returns the number of bits per axis in a key.
 constexpr int key_bits(int dimension) {
     return dimension == 2 ? 31 : 21;
 }
 
-/// Keys first ... first + size - 1 of the curve; all points whose keys these are.
+/// A section of the curve: the keys first ... first + size - 1.
 struct Cell {
     Key first = 0;
     Key size = 0;
     double weight = 0;
 };
 
-/// Keys of this rank in ascending order, and the weight of those before each.
+/// The keys of this rank in ascending order, and the weight of all keys before each.
 struct SortedKeys {
     std::vector<Key> keys;
     std::vector<double> before;
@@ -58,7 +58,7 @@ SortedKeys sorted(const std::vector<Key>& keys, const rrcb::Points& points) {
     return result;
 }
 
-/// Counts the cells on all ranks.
+/// Computes the weight of each cell on all ranks.
 void count(std::vector<Cell>& cells, const SortedKeys& keys, MPI_Comm comm) {
     std::vector<double> weights(cells.size());
     std::ranges::transform(cells, weights.begin(),
@@ -68,7 +68,7 @@ void count(std::vector<Cell>& cells, const SortedKeys& keys, MPI_Comm comm) {
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i].weight = weights[i];
 }
 
-/// Cells of the curve, none of which is both heavy and divisible, in its order.
+/// Returns the cells of the curve in its order. Heavy cells have been divided as far as possible.
 std::vector<Cell> counted_cells(const SortedKeys& keys, int dimension, MPI_Comm comm) {
     std::vector<Cell> fresh = {{0, Key{1} << (key_bits(dimension) * dimension), 0}};
     std::vector<Cell> done;
@@ -93,7 +93,8 @@ std::vector<Cell> counted_cells(const SortedKeys& keys, int dimension, MPI_Comm 
     return done;
 }
 
-/// First key of each part but the first: of the cell nearest to its even share.
+/// Returns the first key of each part except the first part. Each is the cell nearest to the even
+/// share.
 std::vector<Key> cut_keys(const std::vector<Cell>& cells, int num_parts) {
     double total = 0;
     for (const Cell& cell : cells) total += cell.weight;

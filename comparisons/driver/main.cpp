@@ -25,8 +25,8 @@ namespace {
 
 using namespace comparisons;
 
-/// Lets what one call frees serve the next, for all methods alike: how often a library gives memory
-/// back, and pays for its pages again, is not what is compared.
+/// Makes the allocator keep freed memory for later calls, for all methods. Otherwise the comparison
+/// would include how often a library returns memory and pays for new pages.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_MAX, 0);
@@ -34,7 +34,7 @@ void keep_freed_memory() {
 #endif
 }
 
-/// Versions of this program, the library, Zoltan and MPI, a line each.
+/// Returns the versions of this program, the library, Zoltan and MPI, one per line.
 std::string versions() {
     char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
     int length = 0;
@@ -46,14 +46,15 @@ std::string versions() {
     return text.str();
 }
 
-/// The words a program was started with.
+/// Returns the command line of the program.
 std::string command_line(int argc, char** argv) {
     std::string words;
     for (int i = 1; i < argc; ++i) words += std::string(i == 1 ? "" : " ") + argv[i];
     return words;
 }
 
-/// What is needed to repeat a run: versions, command, ranks, parameters of every method.
+/// Returns the information needed to repeat a run: versions, command, ranks, and the parameters of
+/// every method.
 std::string run_record(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
     std::ostringstream text;
     text << versions() << "arguments: " << command << "\nranks: " << size_of(comm)
@@ -71,7 +72,7 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
     return text.str();
 }
 
-/// What the columns of a table mean, in a few lines.
+/// Explains the columns of a table in a few lines.
 constexpr const char* definitions =
     "imbalance: heaviest part / mean part, of 10 seeds the median.\n"
     "time: slowest rank, median of the repeats, first call left out.\n"
@@ -107,8 +108,8 @@ Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
                           arguments.layout, comm);
 }
 
-/// Every method on the points asked for, of a scene on its snapshots, and its simulations. Whether
-/// all succeeded.
+/// Compares all methods on the requested points. For a scene these are its snapshots, and its
+/// simulations are compared as well. Returns false if a method failed.
 bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                  MPI_Comm comm) {
     std::vector<Comparison> comparisons;
@@ -157,8 +158,8 @@ int run(int argc, char** argv, MPI_Comm comm) {
     return 0;
 }
 
-/// The exit code; failures that all ranks know are printed once, any other ends the program on
-/// all ranks.
+/// Returns the exit code. A Failure, which all ranks throw, is printed once. Any other exception
+/// ends the program on all ranks.
 int run_and_report(int argc, char** argv, MPI_Comm comm) {
     try {
         return run(argc, argv, comm);

@@ -19,14 +19,14 @@ namespace comparisons {
 
 namespace {
 
-/// Quality of the parts of one call.
+/// The quality of the parts of one call.
 struct Judgement {
     double imbalance = 1;
     double worst_unbalance_percent = 0;
     double moved_fraction = 0;
 };
 
-/// A method under measurement; without a partitioner once it has failed.
+/// A method that is measured. Its partitioner is null once it has failed.
 struct Candidate {
     Candidate(const Method& measured, const Workload& workload, Lists lists, MPI_Comm comm)
         : method(measured) {
@@ -40,7 +40,7 @@ struct Candidate {
 
     int num_judged() const { return varies_with_seed(method) ? num_judged_seeds : 1; }
 
-    /// Of the calls, which take the seeds in turn.
+    /// Sets the seed of the next call. The calls use the seeds in turn.
     void choose_seed(int turn) const {
         if (varies_with_seed(method))
             partitioner->use_seed(method.seed() + static_cast<unsigned>(turn % num_judged_seeds));
@@ -49,7 +49,7 @@ struct Candidate {
     Method method;
     std::unique_ptr<Partitioner> partitioner;
     Measurement result;
-    std::vector<Judgement> judgements;  ///< one per seed
+    std::vector<Judgement> judgements;  ///< one for each seed
 };
 
 void note_code(Candidate& candidate, int code, MPI_Comm comm) {
@@ -61,7 +61,7 @@ void note_code(Candidate& candidate, int code, MPI_Comm comm) {
     if (!candidate.result.error.empty()) candidate.partitioner.reset();
 }
 
-/// One call; milliseconds on the slowest rank. The lists are still there.
+/// Makes one call and returns the milliseconds on the slowest rank. The lists of the call are kept.
 double timed_call(Candidate& candidate, MPI_Comm comm) {
     MPI_Barrier(comm);
     const double start = MPI_Wtime();
@@ -100,7 +100,7 @@ Judgement judge(const Workload& workload, const std::vector<rrcb::Part>& parts, 
             rrcb::moved_fraction(workload.points(), parts, num_parts, comm)};
 }
 
-/// One call that is not timed; that of the first seed is counted.
+/// Makes one call that is not timed. The traffic of the first seed's call is counted.
 void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm comm) {
     start_counting_traffic();
     const int code = candidate.partitioner->partition();
@@ -118,7 +118,7 @@ void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm co
     if (is_first) result.parts = std::move(parts);
 }
 
-/// Notes what the calls of all seeds come to.
+/// Computes the results from the calls of all seeds.
 void conclude(Candidate& candidate) {
     Measurement& result = candidate.result;
     std::vector<Judgement>& judgements = candidate.judgements;
@@ -135,20 +135,20 @@ void conclude(Candidate& candidate) {
         judgements[(judgements.size() - 1) / 2].worst_unbalance_percent;
 }
 
-/// Seed of the order of turns: other workloads have other orders, else what an order favours would
-/// be counted once for each of them.
+/// Returns a seed for the order of the turns. It differs between workloads. With the same order for
+/// all of them, the advantage that an order gives to a method would be counted once per workload.
 std::uint64_t order_seed(const Workload& workload, std::uint64_t seed, MPI_Comm comm) {
     const std::string numbers =
         ' ' + std::to_string(workload.dimension) + ' ' + std::to_string(size_of(comm));
     return seed_for(workload.name + numbers, seed);
 }
 
-/// A first call that is not timed, then the repeats, each turn in an order of its own.
+/// Calls each method once without timing it, then repeatedly, in a new order in each turn.
 void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan,
                    const Workload& workload, Progress& progress, MPI_Comm comm) {
     const std::uint64_t seed = order_seed(workload, plan.seed, comm);
     for (int call = 0; call < plan.repeats + 1; ++call) {
-        // The first timed turn and the second are a pair.
+        // The first two timed turns have opposite orders.
         const auto turn = static_cast<std::uint64_t>(call + 1);
         for (const std::size_t next : drawn_order(candidates.size(), seed, turn)) {
             Candidate& candidate = candidates[next];

@@ -17,7 +17,7 @@ using rrcb::PaperDomain;
 using rrcb::PaperOptions;
 using rrcb::Refine;
 
-/// A parameter in brackets, and that of the plug-in.
+/// A parameter in brackets, and the parameter of the plug-in that it sets.
 struct Key {
     std::string_view name;
     std::string_view parameter;
@@ -27,11 +27,11 @@ constexpr Key keys[] = {{"mesh", "RRCB_SUPPORT_MESH"}, {"refine", "RRCB_REFINE"}
                         {"tol", "IMBALANCE_TOL"},      {"central", "RRCB_CENTRAL_PARTS"},
                         {"machines", "RRCB_MACHINES"}, {"axes", "RRCB_AXES"}};
 
-/// A parameter in brackets of the paper's methods.
+/// A parameter in brackets of the methods of the paper.
 struct PaperKey {
     std::string_view name;
-    const char* parameter;  ///< of the plug-in
-    const char* legal;      ///< the values it takes, in words
+    const char* parameter;  ///< parameter of the plug-in
+    const char* legal;      ///< description of the allowed values
     bool (*read)(std::string_view text, PaperOptions& options);
     std::string (*write)(const PaperOptions& options);
 };
@@ -87,7 +87,7 @@ Options refined(Refine refine) {
     return options;
 }
 
-// The middle of the meshes and multipliers the paper studies, and all of its points.
+// Returns the middle one of the meshes and multipliers that the paper studies, with all points.
 PaperOptions of_paper(PaperDomain domain) {
     PaperOptions options;
     options.domain = domain;
@@ -167,7 +167,7 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
     if (name == "seed") method.seed_given = true;
 }
 
-/// Adds the refinement always, others if they are not the default.
+/// Adds the refinement, and those other parameters that differ from their defaults.
 void add(const Options& options, ZoltanParameters& parameters) {
     for (const Key& key : keys) {
         const rrcb::Option& option = *rrcb::find_parameter(key.parameter);

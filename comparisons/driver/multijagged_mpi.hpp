@@ -10,16 +10,16 @@
 
 namespace comparisons {
 
-/// Points of this rank as plain arrays, borrowed.
+/// The points of this rank as plain arrays, which must outlive this view.
 struct MultijaggedPoints {
     std::size_t count = 0;
     std::vector<const double*> axes;
-    int stride = 1;                   ///< of the coordinates along an axis
+    int stride = 1;  ///< distance between the coordinates of consecutive points along an axis
     const double* weights = nullptr;  ///< null: all 1
 };
 
-/// Zoltan2's multijagged, with its imbalance_tolerance. Collective over `comm`. Zoltan2's headers
-/// are no C++20, so this one holds nothing of it.
+/// Returns a partitioner by Zoltan2's multijagged with this imbalance_tolerance. Collective over
+/// `comm`. This header includes none of Zoltan2's, because they do not compile as C++20.
 std::unique_ptr<Partitioner> make_multijagged(const MultijaggedPoints& points, double tolerance,
                                               MPI_Comm comm);
 

@@ -6,7 +6,8 @@
 
 namespace comparisons {
 
-/// What is measured: one partition after the other of the same points, one part per rank.
+/// The interface of what is measured: repeated partitions of the same points, with one part per
+/// rank.
 class Partitioner {
   public:
     Partitioner() = default;
@@ -14,21 +15,21 @@ class Partitioner {
     Partitioner(const Partitioner&) = delete;
     Partitioner& operator=(const Partitioner&) = delete;
 
-    /// Partitions; the result of an earlier call must have been freed. Collective; returns
-    /// Zoltan's code on this rank.
+    /// Partitions the points. The result of the previous call must have been freed. Collective.
+    /// Returns Zoltan's code on this rank.
     virtual int partition() = 0;
 
-    /// Part of every local point by the result. Not collective.
+    /// Returns the part of every local point in the last result. Not collective.
     virtual std::vector<int> parts() const = 0;
 
-    /// What it calls, for messages. Not collective.
+    /// Returns the name of the function that it calls, for messages. Not collective.
     virtual std::string function() const = 0;
 
-    /// Frees the result if there is one. Not collective.
+    /// Frees the last result if there is one. Not collective.
     virtual void free_lists() {}
 
-    /// Seed of the next partitions' pseudo-random points, if there are any. Not collective, but the
-    /// same on every rank.
+    /// Sets the seed of the pseudo-random points in later partitions, if the method uses any. Not
+    /// collective, but all ranks must pass the same seed.
     virtual void use_seed(std::uint64_t) {}
 };
 

@@ -55,7 +55,7 @@ void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR l
     *code = ZOLTAN_OK;
 }
 
-/// rrcb::balance as a program calls it that has its points in arrays.
+/// Calls rrcb::balance like a program that has its points in arrays.
 class ArraysPartitioner : public Partitioner {
   public:
     ArraysPartitioner(const Method& method, const Workload& workload, MPI_Comm comm)
@@ -85,7 +85,7 @@ class ArraysPartitioner : public Partitioner {
     const Workload& workload_;
     MPI_Comm comm_;
     std::optional<rrcb::Balance> balance_;
-    rrcb::Cuts cuts_;  ///< of the last call, if they are to be reused
+    rrcb::Cuts cuts_;  ///< cuts of the previous call, if they are reused
 };
 
 }  // namespace
@@ -152,7 +152,7 @@ rrcb::Box ZoltanPartitioner::box_of(rrcb::Part part) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     rrcb::Box box{{-open, -open, -open}, {open, open, open}};
     const int size = size_of(comm_);
-    // Of a single part Zoltan says that its box is the origin.
+    // Zoltan does not return the box of a single part: its bounds would be the origin.
     if (size > 1) {
         int num_axes = 0;
         const int code = Zoltan_RCB_Box(zoltan_, part, &num_axes, &box.lower[0], &box.lower[1],
@@ -185,11 +185,11 @@ std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Worklo
 
 namespace {
 
-/// The division of points by Zoltan, which keeps its cuts for look-ups. Collective.
+/// Divides the points by Zoltan, which keeps the cuts for look-ups. Collective.
 mpm::Decomposition decompose(const std::shared_ptr<ZoltanPartitioner>& zoltan, MPI_Comm comm) {
     zoltan->free_lists();
     int code = zoltan->partition();
-    // Negative codes are errors. All ranks throw the one of any.
+    // Negative codes are errors. If any rank has one, all ranks throw it.
     MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MIN, comm);
     if (code < 0) throw std::runtime_error("Zoltan_LB_Partition returned " + std::to_string(code));
     mpm::Decomposition decomposition;
@@ -208,9 +208,9 @@ mpm::Decomposition decompose(const std::shared_ptr<ZoltanPartitioner>& zoltan, M
     return decomposition;
 }
 
-/// Zoltan's handle stays from one call to the next.
+/// Returns a balancer that uses the same handle of Zoltan in every call.
 mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
-    // Boxes and look-ups need kept cuts. The last setting counts.
+    // Boxes and look-ups need the cuts to be kept. The last value of a parameter counts.
     parameters.insert(parameters.begin(), {"REMAP", "0"});
     parameters.emplace_back("KEEP_CUTS", "1");
     auto zoltan = std::make_shared<std::shared_ptr<ZoltanPartitioner>>();

@@ -19,33 +19,33 @@
 
 namespace comparisons {
 
-/// What the callbacks see: the points of this rank, numbered through over all ranks.
+/// The data of the callbacks: the points of this rank, numbered across all ranks.
 struct NumberedPoints {
     rrcb::Points points;
     ZOLTAN_ID_TYPE first_id = 0;
 };
 
-/// Zoltan_LB_Partition on points; every method goes through the same callbacks and lists.
+/// Calls Zoltan_LB_Partition. All methods of Zoltan use the same callbacks and lists.
 ///
-/// Makes one part per rank. The arrays of the points must live as long as it.
+/// Makes one part per rank. The arrays of the points must outlive the object.
 class ZoltanPartitioner : public Partitioner {
   public:
-    /// Collective over `comm`. Throws Failure when Zoltan refuses a parameter.
+    /// Collective over `comm`. Throws Failure if Zoltan rejects a parameter.
     ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload, MPI_Comm comm);
     ~ZoltanPartitioner() override;
 
     int partition() override;
     std::vector<int> parts() const override;
     std::string function() const override { return "Zoltan_LB_Partition"; }
-    void free_lists() override;                  ///< Zoltan_LB_Free_Part
-    void use_seed(std::uint64_t seed) override;  ///< RRCB_SEED
-    /// Takes other points for the next partitions. Collective.
+    void free_lists() override;                  ///< calls Zoltan_LB_Free_Part
+    void use_seed(std::uint64_t seed) override;  ///< sets RRCB_SEED
+    /// Replaces the points of the following partitions. Collective.
     void use_points(const rrcb::Points& points);
 
-    Zoltan_Struct* handle() const { return zoltan_; }  ///< for settings of other kinds
+    Zoltan_Struct* handle() const { return zoltan_; }  ///< for further settings
 
-    /// Box of a part by the kept cuts; open sides are +-infinity. Throws Failure without KEEP_CUTS.
-    /// Not collective.
+    /// Returns the box of a part, computed from the kept cuts. Open sides are +-infinity. Throws
+    /// Failure unless KEEP_CUTS is set. Not collective.
     rrcb::Box box_of(rrcb::Part part) const;
 
   private:
@@ -64,17 +64,17 @@ class ZoltanPartitioner : public Partitioner {
     ObjectLists exports_;
 };
 
-/// The partitioner that a method names. Collective over `comm`; the workload must outlive it.
+/// Returns the partitioner of a method. Collective over `comm`; the workload must outlive it.
 ///
-/// Throws Failure when a parameter is refused.
+/// Throws Failure if a parameter is rejected.
 std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Workload& workload,
                                               Lists lists, MPI_Comm comm);
 
-/// A method as the simulation takes it; none when its parts are no boxes (RIB, HSFC). Only
-/// rrcb-arrays takes `weights`.
+/// Returns a balancer for simulations, or nullopt if the parts of the method are no boxes (RIB,
+/// HSFC). Only rrcb-arrays accepts `weights`.
 ///
-/// Through Zoltan's callbacks, lists and look-ups, but for rrcb-arrays; with KEEP_CUTS=1 for the
-/// look-ups and REMAP=0, as part p goes to rank p.
+/// Except for rrcb-arrays it uses Zoltan's callbacks, lists and look-ups. The look-ups require
+/// KEEP_CUTS=1. Part p is sent to rank p, so REMAP is 0.
 std::optional<mpm::Balancer> make_balancer(const Method& method, const PointWeights& weights = {});
 
 }  // namespace comparisons

@@ -10,7 +10,7 @@ namespace comparisons {
 
 namespace {
 
-/// Sum over the phases of the largest value on any rank.
+/// Returns the sum over the phases of the largest value on any rank.
 double sum_of_largest(std::vector<double> values, MPI_Comm comm) {
     MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
                   comm);

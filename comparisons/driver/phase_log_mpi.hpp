@@ -8,51 +8,54 @@
 
 namespace comparisons {
 
-/// The network that counted traffic is charged to.
+/// The network for which the time of counted traffic is estimated.
 struct Network {
-    double latency_s = 1.5e-6;  ///< of a message; a collective of n ranks takes log2(n) of them
+    double latency_s = 1.5e-6;  ///< of a message; a collective of n ranks takes log2(n) times as
+                                ///< long
     double bytes_per_second = 12e9;
 };
 
-/// Place where the ranks wait for the collectives of a phase.
+/// The phase in which the ranks wait for the collectives of a phase.
 enum class Waits { in_the_phase, in_the_next };
 
-/// Seconds the network needs for one rank's traffic among `num_ranks`. A collective that overlaps
-/// with the work up to the next phase takes one latency. Not collective.
+/// Returns the seconds that the network needs for one rank's traffic among `num_ranks` ranks. A
+/// collective that overlaps with the work until the next phase takes one latency. Not collective.
 double network_seconds(const Traffic& traffic, int num_ranks, const Network& network,
                        Waits waits = Waits::in_the_phase);
 
-/// What phases cost that all ranks start together.
+/// The cost of a sequence of phases. All ranks start each phase together.
 struct PathCost {
-    double work_s = 0;     ///< processor time outside MPI, of all ranks together
-    double path_s = 0;     ///< that of the slowest rank of each phase
-    double root_s = 0;     ///< that of rank 0, for which the others may wait
-    double network_s = 0;  ///< traffic of the busiest rank of each phase, by network_seconds
+    double work_s = 0;  ///< processor time outside MPI, summed over the ranks
+    double path_s =
+        0;  ///< processor time of the slowest rank of each phase, summed over the phases
+    double root_s = 0;     ///< processor time of rank 0, for which the others may wait
+    double network_s = 0;  ///< network_seconds() of the busiest rank of each phase, summed over the
+                           ///< phases
 };
 
-/// Work and traffic of this rank in each of a row of phases.
+/// Records the work and traffic of this rank in a sequence of phases.
 ///
-/// Work is the processor time outside MPI: what a rank needs on a core of its own, however many
-/// ranks share one here.
+/// Work is the processor time outside MPI. This is the time that a rank needs on a core of its own,
+/// even if several ranks share a core in this run.
 class PhaseLog {
   public:
     explicit PhaseLog(Waits waits = Waits::in_the_phase) : waits_(waits) {}
 
-    /// Runs `action` as one more phase.
+    /// Runs `action` as the next phase.
     template <typename Action>
     void record(Action&& action) {
         const Recording recording(*this);
         action();
     }
 
-    /// Work and network of the latest phase, as one of `num_ranks`, in s.
+    /// Returns the work and network time of the last phase if there are `num_ranks` ranks, in s.
     double last_s(int num_ranks) const;
 
-    /// Collective over `comm`, whose ranks have recorded the same phases.
+    /// Returns the cost. Collective over `comm`, all ranks of which have recorded the same phases.
     PathCost cost(MPI_Comm comm) const;
 
   private:
-    /// Ends its phase also when the action throws.
+    /// Ends the phase in its destructor, so also if the action throws.
     class Recording {
       public:
         explicit Recording(PhaseLog& log);

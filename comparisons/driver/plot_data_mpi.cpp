@@ -28,7 +28,7 @@ std::string data_file(const std::string& kind, const Workload& workload,
            (method.empty() ? "" : '_' + file_name_part(method)) + ".csv";
 }
 
-/// A column for each axis.
+/// Adds one column for each axis.
 void add_axes(Row& row, const std::string& prefix, const rrcb::Vector& values, int dimension) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
         row.add(prefix + axis_names[a], nine_digits(values[a]));
@@ -39,7 +39,7 @@ void add_box(Row& row, const rrcb::Box& box, int dimension) {
     add_axes(row, "upper_", box.upper, dimension);
 }
 
-/// Items of all ranks, in the order of the ranks, on rank 0; at most 2 GiB. Collective.
+/// Returns the items of all ranks on rank 0, in the order of the ranks; at most 2 GiB. Collective.
 template <typename Item>
 std::vector<Item> gather_on_root(const std::vector<Item>& mine, MPI_Comm comm) {
     static_assert(std::is_trivially_copyable_v<Item>);
@@ -62,7 +62,7 @@ struct PlottedPoint {
     rrcb::Part part = 0;
 };
 
-/// Every so many points through all ranks, that there are not too many.
+/// Writes points at equal distances in the order of all ranks' points, to limit their number.
 void write_points(const ResultsFolder& folder, const Workload& workload,
                   const Measurement& measurement, MPI_Comm comm) {
     const rrcb::Points points = workload.points();
@@ -87,7 +87,7 @@ void write_points(const ResultsFolder& folder, const Workload& workload,
     });
 }
 
-/// Boxes of the parts of a method that cuts along the axes; none of the others.
+/// Returns the boxes of the parts of a method that cuts along the axes; empty for other methods.
 std::vector<rrcb::Box> part_boxes(const Workload& workload, const Method& method, MPI_Comm comm) {
     const int num_parts = size_of(comm);
     std::vector<rrcb::Box> boxes;
@@ -177,7 +177,8 @@ void write_statistics(const ResultsFolder& folder, const Workload& workload,
                  [&] { return statistical_csv(cells, dimension, options); });
 }
 
-/// Dumps may hold points on a line, and points that are nowhere. Collective over `comm`.
+/// Returns whether a picture can show the points. The points of dumps may be on a line or not
+/// finite. Collective over `comm`.
 bool can_be_drawn(const Workload& workload, MPI_Comm comm) {
     int is_finite =
         std::ranges::all_of(workload.coordinates, [](double x) { return std::isfinite(x); });
@@ -185,7 +186,7 @@ bool can_be_drawn(const Workload& workload, MPI_Comm comm) {
     return workload.dimension > 1 && is_finite != 0;
 }
 
-/// The first sampled method of the comparison, or the one of the paper.
+/// Returns the options of the first sampled method, or the default options of the paper's method.
 rrcb::PaperOptions sampled_options(std::span<const Method> methods) {
     for (const Method& method : methods) {
         const auto* paper =

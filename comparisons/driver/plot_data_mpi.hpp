@@ -9,10 +9,10 @@
 
 namespace comparisons {
 
-/// Writes what the pictures of a workload show: data/points_*, boxes_*, cells_* and statistical_*.
+/// Writes the data of a workload's pictures: data/points_*, boxes_*, cells_* and statistical_*.
 ///
-/// Collective over `comm`. `measurements` are those of `methods`, in their order; failed ones are
-/// left out.
+/// Collective over `comm`. `measurements` are those of `methods`, in the same order. Methods that
+/// have failed are skipped.
 void write_plot_data(const ResultsFolder& folder, const Workload& workload,
                      std::span<const Method> methods, std::span<const Measurement> measurements,
                      MPI_Comm comm);

@@ -25,7 +25,7 @@ std::ifstream open(const std::string& path) {
     return input;
 }
 
-/// A text that is read line by line.
+/// Reads a text line by line.
 class LineReader {
   public:
     LineReader(std::istream& input, std::string path) : input_(input), path_(std::move(path)) {}
@@ -93,12 +93,12 @@ void read_point(Workload& workload, const LineReader& reader,
     }
 }
 
-/// A file of a dump: a key and a value on each line.
+/// Reads a file of a dump, whose lines contain a key and a value.
 class DumpFile : public LineReader {
   public:
     DumpFile(std::ifstream& input, const std::string& path) : LineReader(input, path) {}
 
-    /// The next line's key.
+    /// Reads the next line and returns its key.
     std::string next_key() {
         if (!next()) fail("the file is truncated; its last line is not 'end'");
         return line().substr(0, line().find(' '));
@@ -128,7 +128,7 @@ std::string rank_file(const std::string& folder, std::int64_t rank) {
     return (std::filesystem::path(folder) / ("rank-" + std::to_string(rank) + ".txt")).string();
 }
 
-/// Notes the call; its number of ranks.
+/// Reads the description of the call into `note`. Returns the number of ranks.
 std::int64_t read_call(const std::string& folder, std::string& note) {
     constexpr std::int64_t most_ranks = 1'000'000;
     const std::string path = (std::filesystem::path(folder) / "call.txt").string();
@@ -159,7 +159,7 @@ std::int64_t read_call(const std::string& folder, std::string& note) {
     return num_ranks;
 }
 
-/// What stands before the points of a rank.
+/// The values that precede the points of a rank.
 struct RankHead {
     std::int64_t dimension = 0;
     std::int64_t num_weights = 0;  ///< per point
@@ -186,7 +186,7 @@ RankHead read_head(DumpFile& file, std::int64_t rank, std::string& note) {
     return head;
 }
 
-/// Numbers as the C library writes them: hexadecimal, nan and inf among them.
+/// Reads a point. Its numbers are in the C library's format: hexadecimal, nan or inf.
 void read_point(DumpFile& file, const RankHead& head, Workload& workload) {
     file.next_key();
     const char* text = file.line().c_str();

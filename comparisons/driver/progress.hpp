@@ -5,7 +5,7 @@
 
 namespace comparisons {
 
-/// A bar on standard error; silent unless it is shown.
+/// Draws a progress bar on standard error if it is enabled.
 class Progress {
   public:
     explicit Progress(bool shown) : shown_(shown) {}
@@ -18,7 +18,7 @@ class Progress {
         draw();
     }
 
-    /// One step is done; the last one ends the line.
+    /// Advances the bar by a step. The last step ends the line.
     void advance() {
         const int percent_before = percent();
         ++done_;

@@ -23,7 +23,8 @@ ResultsFolder::ResultsFolder(const std::filesystem::path& path, MPI_Comm comm)
 void ResultsFolder::write(const std::string& name, const std::function<std::string()>& text) const {
     on_root(
         [&] {
-            // Renamed when it is whole: a run that is stopped leaves the old rows or the new ones.
+            // The file is renamed when it is complete. A run that is interrupted leaves either the
+            // old or the new file.
             const std::filesystem::path file = path_ / name;
             const std::filesystem::path draft = file.string() + ".new";
             std::ofstream out(draft);

@@ -8,14 +8,14 @@
 
 namespace comparisons {
 
-/// The folder results are written to, by rank 0; every function is collective and throws Failure
-/// on every rank when the file system refuses.
+/// The folder into which rank 0 writes results. Every function is collective, and throws Failure on
+/// every rank if the file system reports an error.
 class ResultsFolder {
   public:
-    /// Makes the folder and, below it, data for the plots.
+    /// Creates the folder, and in it the folder data for the plots.
     ResultsFolder(const std::filesystem::path& path, MPI_Comm comm);
 
-    /// Writes a file, which never holds half of it; `text` runs on rank 0 alone.
+    /// Writes a file, which is never visible incomplete. `text` is called on rank 0 only.
     void write(const std::string& name, const std::function<std::string()>& text) const;
 
   private:

@@ -6,7 +6,7 @@ namespace comparisons {
 
 namespace {
 
-/// Quoted where it must be.
+/// Returns a text as a field of CSV, quoted if necessary.
 std::string field(const std::string& text) {
     if (text.find_first_of(",\"\n\r") == text.npos) return text;
     std::string quoted = "\"";

@@ -13,16 +13,16 @@
 
 namespace comparisons {
 
-/// A row of a CSV file: its columns in their order, each a name and a value; a value that does not
-/// exist is empty.
+/// A row of a CSV file: an ordered list of columns, each with a name and a value. A missing value
+/// is empty.
 ///
-/// The columns of a file are listed once, where its rows are made; any row tells the header, also
-/// one that is made of nothing.
+/// The columns of a file are listed once, in the function that makes its rows. The header follows
+/// from any row, even from one made of a default-constructed item.
 class Row {
   public:
     Row& add(std::string name, std::string value);
 
-    /// A number as the shortest text that reads back as the same.
+    /// Adds a number, as the shortest text that parses to the same number.
     template <typename Number>
     requires std::is_arithmetic_v<Number> Row& add(std::string name, Number value) {
         return add(std::move(name), write_number(value));
@@ -33,20 +33,20 @@ class Row {
         return add(std::move(name), value ? write_number(*value) : std::string());
     }
 
-    /// The columns `prefix`low and `prefix`high.
+    /// Adds the columns `prefix`low and `prefix`high.
     Row& add_interval(const std::string& prefix, const std::optional<Interval>& interval);
 
-    /// The columns so far tell what was measured; unless `error` is empty, later ones are but
-    /// `error`.
+    /// Ends the columns that identify the measurement. If `error` is not empty, later columns are
+    /// left empty, except the column `error`.
     Row& end_key(const std::string& error);
 
-    /// The column `error`.
+    /// Adds the column `error`.
     Row& add_error();
 
     std::string header() const;
     std::string text() const;
 
-    /// Names and values.
+    /// Returns the names and values of the columns.
     const std::vector<std::pair<std::string, std::string>>& columns() const { return columns_; }
 
   private:
@@ -54,10 +54,10 @@ class Row {
     std::string error_;
 };
 
-/// A CSV file by RFC 4180: the header that `columns` tells, then the rows.
+/// Returns a CSV file according to RFC 4180: a header with the names in `columns`, then the rows.
 std::string csv(const Row& columns, const std::vector<Row>& rows);
 
-/// The same of items that `row_of` makes a row of, of a default one too.
+/// Returns a CSV file with a row for each item. The header is that of a default-constructed item.
 template <typename Items, typename RowOf>
 std::string csv_of(const Items& items, RowOf&& row_of) {
     std::vector<Row> rows;
@@ -65,8 +65,8 @@ std::string csv_of(const Items& items, RowOf&& row_of) {
     return csv(row_of(typename Items::value_type{}), rows);
 }
 
-/// Rows for people, in columns under the names that `columns` tells: the first to the left, numbers
-/// to the right. A shorter row ends with a text of any length.
+/// Prints rows for people, in aligned columns under the names in `columns`. The first column is
+/// aligned left, numbers are aligned right. The last column of a shorter row may have any length.
 void print_columns(std::ostream& out, const Row& columns, const std::vector<Row>& rows);
 
 }  // namespace comparisons

@@ -14,11 +14,11 @@ namespace comparisons {
 
 namespace {
 
-/// A shipped scene, and in what it differs here from its file.
+/// A shipped scene, and the values that replace those of its file.
 struct SceneRow {
     std::string_view name;
-    double cell_size = 0;  ///< m; 0: the file's
-    double end_time = 0;   ///< s; 0: the file's
+    double cell_size = 0;  ///< m; 0: as in the file
+    double end_time = 0;   ///< s; 0: as in the file
 };
 
 constexpr std::array<SceneRow, 6> rows{{
@@ -27,7 +27,7 @@ constexpr std::array<SceneRow, 6> rows{{
     {"torpedo_anchor"},
     {"dam_break"},
     {"run_out"},
-    // Its file has too few points to share out.
+    // The cells of its file are larger and give too few points to distribute.
     {"elastic_structure", 0.0625, 1},
 }};
 

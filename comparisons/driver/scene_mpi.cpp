@@ -17,14 +17,15 @@ namespace comparisons {
 
 namespace {
 
-/// Rounds of simulations at most: the fewest whose smallest and largest value make an interval.
+/// The largest number of rounds of simulations. The range of six values is a 95 % confidence
+/// interval.
 constexpr int max_rounds = 6;
 
 std::string interval_text(int every) {
     return every > 0 ? std::to_string(every) : "auto";
 }
 
-/// Those that rebalance at an interval.
+/// Returns the contenders that rebalance every `every` steps.
 std::vector<SimulationRounds> contenders(const Arguments& arguments, int every) {
     std::vector<SimulationRounds> all;
     for (const Method& method : arguments.methods)
@@ -39,8 +40,8 @@ std::vector<SimulationRounds> contenders(const Arguments& arguments, int every) 
     return all;
 }
 
-/// One for each method that is simulated and interval, and none without rebalancing. The second
-/// contender is measured twice, which shows the noise: identical runs must not be told apart.
+/// Returns one contender for each simulated method and interval, and first one without rebalancing.
+/// The second contender is also added a second time. The difference between these two is noise.
 std::vector<SimulationRounds> contenders(const Arguments& arguments) {
     const SimulationRounds none{"none", {}, {}, Cost::count, arguments.every.front()};
     std::vector<SimulationRounds> all(1, none);
@@ -51,7 +52,8 @@ std::vector<SimulationRounds> contenders(const Arguments& arguments) {
     return all;
 }
 
-/// Thinned so that history.csv stays below 5 MB; odd, so that a load that alternates shows.
+/// Returns the interval of records that keeps history.csv below 5 MB. It is odd, so that a load
+/// that alternates between steps remains visible.
 int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
     constexpr double max_rows = 60'000;
     const int num_parts = size_of(comm);
@@ -59,7 +61,8 @@ int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
     return (static_cast<int>(rows / max_rows) + 1) | 1;
 }
 
-/// Counts the steps of a simulation, and takes the snapshots of the scene if `snapshots` is given.
+/// Returns an observer that counts the steps of a simulation. If `snapshots` is given, it takes the
+/// snapshots of the scene.
 Observer observer(const SimulationPlan& plan, Progress& progress,
                   std::vector<Workload>* snapshots) {
     return [&plan, &progress, snapshots](int steps_done, const mpm::Simulation& simulation) {
@@ -71,8 +74,8 @@ Observer observer(const SimulationPlan& plan, Progress& progress,
     };
 }
 
-/// One simulation of each contender that has not failed yet; the first one's snapshots are of the
-/// first round.
+/// Runs one simulation of each contender that has not failed. The snapshots are those of the first
+/// contender in the first round.
 void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPlan& plan,
                std::vector<Workload>& snapshots, Progress& progress, MPI_Comm comm) {
     progress.start("simulations, round " + std::to_string(round + 1),
@@ -80,7 +83,8 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
     std::vector<SimulationPlan> plans(all.size(), plan);
     std::vector<std::unique_ptr<TimedSimulation>> simulations(all.size());
     const std::uint64_t seed = seed_for("round " + std::to_string(round), plan.seed);
-    // Where a simulation is in memory follows from what was made before it.
+    // The order is random, because the place of a simulation in memory depends on those created
+    // before it.
     for (const std::size_t next : drawn_order(all.size(), seed, 0)) {
         const SimulationRounds& rounds = all[next];
         const bool shows_the_scene = round == 0 && next == 0;
@@ -95,7 +99,7 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
                 plans[next], make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr),
                 comm, rounds.cost);
     }
-    // Turns are long enough that each simulation finds its points in the cache again.
+    // The turns are long enough that most steps find their points in the cache.
     constexpr int turn = 50;
     for (int done = 0; done < plan.num_steps; done += turn) {
         const auto number = static_cast<std::uint64_t>(done / turn);
@@ -112,7 +116,7 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
     }
 }
 
-/// Steps until the front of the slope lies still, within 0.2 m of where it ends.
+/// Returns the steps until the front of the slope stops, within 0.2 m of its final position.
 int steps_of_failure(MPI_Comm comm) {
     constexpr double end_of_failure_s = 6.5;
     mpm::Scene scene = choose_scene("slope", false, comm);
@@ -127,7 +131,7 @@ void add_cost(Row& row, const std::string& phase, const PathCost& cost) {
         .add(phase + "_network_s", cost.network_s);
 }
 
-/// `number` counts the rounds from 1 on.
+/// Returns the row of a round. The first round has the number 1.
 Row round_row(const SimulationPlan& plan, int num_ranks, const SimulationRounds& rounds, int number,
               const SimulationRun& run) {
     Row row;

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
-/// Steps of which the controller gets the sums: those of the scenes are short.
+/// The controller gets sums over this number of steps, because the steps of the scenes are short.
 constexpr int steps_a_decision = 4;
 
-/// Seconds `action` takes on this rank, all ranks starting together.
+/// Returns the seconds that `action` takes on this rank. All ranks start together.
 template <typename Action>
 double timed(Action&& action, PhaseLog& log, MPI_Comm comm) {
     MPI_Barrier(comm);
@@ -26,14 +26,15 @@ double timed(Action&& action, PhaseLog& log, MPI_Comm comm) {
     return MPI_Wtime() - start;
 }
 
-/// The number of every rank.
+/// Returns the value of each rank.
 std::vector<double> gathered(double mine, MPI_Comm comm) {
     std::vector<double> all(static_cast<std::size_t>(size_of(comm)));
     MPI_Allgather(&mine, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, comm);
     return all;
 }
 
-/// Runs `action` unless an earlier one has failed; notes a failure, which all ranks see alike.
+/// Runs `action` unless an earlier one has failed. Records a failure, which is the same on all
+/// ranks.
 template <typename Action>
 void unless_failed(SimulationRun& run, Action&& action) {
     if (!run.error.empty()) return;
@@ -130,7 +131,7 @@ void TimedSimulation::record_load() {
     steps_since_record_ = 0;
 }
 
-/// Of the step that has been done.
+/// Records the step that has just been done.
 void TimedSimulation::record_step() {
     const double seconds = steps_.last_s(num_ranks_);
     seconds_since_record_ += seconds;
@@ -170,7 +171,7 @@ void TimedSimulation::rebalance() {
     run_.moved_fraction += (moved_lately_ - run_.moved_fraction) / ++run_.rebalances;
 }
 
-/// No point is lost or added, so the mean load is the same in every step.
+/// The number of points is constant, so the mean load is the same in every step.
 void TimedSimulation::note_loads(SimulationRun& run) const {
     const int num_parts = size_of(comm_);
     std::vector<double> most = loads_;

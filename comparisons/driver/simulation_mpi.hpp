@@ -19,71 +19,73 @@
 
 namespace comparisons {
 
-/// Run of a scene, the same for every method.
+/// The settings with which a scene is run with every method.
 struct SimulationPlan {
     mpm::Scene scene;
     int num_steps = 1;
-    int every = 1;           ///< steps between rebalances; 0: a controller says when
+    int every = 1;           ///< steps between rebalances; 0: a controller decides
     int record_every = 1;    ///< steps between records of the load
-    std::uint64_t seed = 1;  ///< of the order of turns
+    std::uint64_t seed = 1;  ///< for the order of turns
 };
 
-/// Points on every rank, after the rebalance of a step if it had one.
+/// The number of points on every rank in a step, after its rebalance if it had one.
 struct LoadRecord {
     std::int64_t step = 0;
-    double time = 0;                ///< s
-    std::vector<double> points;     ///< per part
-    double moved_fraction = 0;      ///< of the points, by the latest rebalance; 0 before the first
-    std::vector<double> seconds{};  ///< per part, of a step; mean since the record before
+    double time = 0;             ///< s
+    std::vector<double> points;  ///< per part
+    double moved_fraction = 0;   ///< share of the points moved by the last rebalance; 0 before the
+                                 ///< first
+    std::vector<double> seconds{};  ///< per part, of a step: mean since the previous record
 };
 
-/// Cost of a whole simulation under one method; the same on every rank.
+/// The cost of a complete simulation with one method. It is the same on every rank.
 struct SimulationRun {
     std::string error;                  ///< empty unless the simulation failed
-    std::optional<std::uint64_t> seed;  ///< of the method's points, where it varies with it
+    std::optional<std::uint64_t> seed;  ///< seed of the method's points, if it varies with the seed
     std::int64_t num_points = 0;
-    double wall_s = 0;           ///< balance_s + decide_s + step_s; records are not timed
-    double balance_s = 0;        ///< rebalances with the migration of the points, slowest rank
-    double decide_s = 0;         ///< the controller and learning costs, slowest rank
-    double step_s = 0;           ///< steps, slowest rank
-    double mean_imbalance = 1;   ///< over all steps, each after the rebalance it begins with
-    double worst_imbalance = 1;  ///< of the same
+    double wall_s = 0;           ///< balance_s + decide_s + step_s, without the time of records
+    double balance_s = 0;        ///< rebalances including migration, on the slowest rank
+    double decide_s = 0;         ///< controller and learning of costs, on the slowest rank
+    double step_s = 0;           ///< steps, on the slowest rank
+    double mean_imbalance = 1;   ///< mean over all steps, after the rebalance of the step
+    double worst_imbalance = 1;  ///< largest value of any step
     int rebalances = 0;
-    double moved_fraction = 0;      ///< of the points that change owner, mean over the rebalances
+    double moved_fraction = 0;  ///< share of the points that change owner, mean over the rebalances
     std::optional<double> front_m;  ///< largest x of a point that has moved a metre, at the end
-    double moved_m = 0;             ///< the farthest that a point is from its start, at the end
-    double mass_kg = 0;             ///< at the end; in 2-D per metre of depth
-    double path_points = 0;         ///< most points on a rank, summed over the steps
+    double moved_m = 0;      ///< largest distance of a point from its start position, at the end
+    double mass_kg = 0;      ///< at the end; in 2-D per metre of depth
+    double path_points = 0;  ///< largest number of points on a rank, summed over the steps
     PathCost step_cost;
     PathCost balance_cost;
     PathCost decide_cost;
     std::vector<LoadRecord> history;
 };
 
-/// Seconds of the run with a core for every rank: the slowest rank of each step and rebalance, and
-/// the network.
+/// Returns the seconds of the run if every rank has a core of its own: the time of the slowest rank
+/// in each step and rebalance, plus the time of the network.
 double critical_path_s(const SimulationRun& run);
 
 /// Called before the first step and after every step.
 using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
 
-/// What a point weighs: one, or the seconds that it is learned to cost.
+/// The weight of a point: one, or the seconds that the point is estimated to take.
 enum class Cost { count, learned };
 
-/// Returns the balancer of a method, whose points have these weights; none for no rebalancing.
+/// Returns the balancer of a method for points with these weights, or nullopt for no rebalancing.
 using BalancerMaker = std::function<std::optional<mpm::Balancer>(const PointWeights&)>;
 
-/// A balancer that takes no weights, or none.
+/// Returns a BalancerMaker for a balancer that ignores weights.
 inline BalancerMaker without_weights(std::optional<mpm::Balancer> balancer) {
     return [balancer = std::move(balancer)](const PointWeights&) { return balancer; };
 }
 
-/// A scene under one method, to be run in turns with others so that all meet the same noise.
+/// Runs a scene with one method. Several such simulations are advanced in turn, so that noise
+/// affects all of them equally.
 ///
-/// Rebalanced before step 0, every, 2 every, ... or when the controller says so, by processor time
-/// outside MPI and network; without a balancer the slabs of the start stay.
-/// All functions are collective over `comm`; a simulation that fails notes why and stands still.
-/// The plan must outlive it.
+/// The points are rebalanced before the steps 0, every, 2 every, ... or when the controller
+/// decides, based on the processor time outside MPI and the estimated time of the network. Without
+/// a balancer the initial slabs are kept. All functions are collective over `comm`. A simulation
+/// that fails records the reason and does not advance further. The plan must outlive the object.
 class TimedSimulation {
   public:
     TimedSimulation(const SimulationPlan& plan, const BalancerMaker& make_balancer,
@@ -91,10 +93,10 @@ class TimedSimulation {
     TimedSimulation(const TimedSimulation&) = delete;
     TimedSimulation& operator=(const TimedSimulation&) = delete;
 
-    /// Advances by `num_steps`, at most to the end of the plan.
+    /// Advances by `num_steps` steps, but not beyond the end of the plan.
     void advance(int num_steps);
 
-    /// What it has cost so far.
+    /// Returns the costs so far.
     SimulationRun result() const;
 
   private:
@@ -119,19 +121,20 @@ class TimedSimulation {
     PhaseLog steps_;
     PhaseLog balances_;
     PhaseLog decisions_{Waits::in_the_next};  ///< the controller reduces during the next step
-    std::vector<double> loads_;               ///< points on this rank in each step
+    std::vector<double> loads_;               ///< number of points on this rank in each step
     struct {
         double seconds = 0;
         double points = 0;
         std::vector<double> columns;
-    } undecided_;              ///< sums over the steps that the controller does not know yet
-    double moved_lately_ = 0;  ///< share of the points that the latest rebalance moved
+    } undecided_;              ///< sums over the steps not yet passed to the controller
+    double moved_lately_ = 0;  ///< share of the points moved by the last rebalance
     double seconds_since_record_ = 0;
     int steps_since_record_ = 0;
     int steps_done_ = 0;
 };
 
-/// Steps of the scene's time with the time step of its start. Collective over `comm`.
+/// Returns the number of steps to the end of the scene with its initial time step. Collective over
+/// `comm`.
 int steps_to_end(const mpm::Scene& scene, MPI_Comm comm);
 
 }  // namespace comparisons

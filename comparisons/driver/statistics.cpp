@@ -7,10 +7,11 @@ namespace comparisons {
 
 namespace {
 
-/// Number of values that may be left out at each end.
+/// Returns the number of values that can be left out at each end of the sorted values.
 std::optional<std::size_t> left_out_at_each_end(std::size_t num_values) {
     constexpr long double most_at_one_end = 0.05L / 2;
-    // Of 0 values below the median first; long double, as it is 2^-n.
+    // The sum starts with the probability that none of the values is below the median, 2^-n. This
+    // needs long double.
     long double probability = std::ldexp(1.0L, -static_cast<int>(num_values));
     long double sum = probability;
     std::optional<std::size_t> left_out;

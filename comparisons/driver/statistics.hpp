@@ -6,26 +6,28 @@
 
 namespace comparisons {
 
-/// From the lower to the upper end.
+/// An interval with both ends included.
 struct Interval {
     double low = 0;
     double high = 0;
 };
 
-/// Middle of the values, the mean of the two middle ones when their number is even; 0 of none.
+/// Returns the median, which is the mean of the two middle values if their number is even. Returns
+/// 0 if there are no values.
 double median(std::vector<double> values);
 
-/// Holds the median of what the values are drawn from with at least 95 %, whatever its
-/// distribution: two order statistics, equally far from both ends.
+/// Returns a confidence interval of at least 95 % for the median of the distribution of the values.
+/// It makes no assumption about the distribution. Its ends are two of the values.
 ///
-/// The narrowest such pair, by the binomial distribution. None of fewer than 6 values, where even
-/// the smallest and the largest hold it with less. At most 16,000 values.
+/// It is the narrowest interval that leaves out equally many values at each end, by the binomial
+/// distribution. Returns nullopt for fewer than 6 values, whose full range has less than 95 %
+/// confidence. Accepts at most 16,000 values.
 std::optional<Interval> interval95(std::vector<double> values);
 
-/// From the smallest to the largest value; 0 of none.
+/// Returns the interval from the smallest to the largest value; 0 to 0 if there are no values.
 Interval range_of(std::span<const double> values);
 
-/// values[i] / reference[i], measured in the same turn. Empty when their numbers differ or a
+/// Returns values[i] / reference[i] for each turn i. Empty if the numbers of values differ, or if a
 /// reference is not above 0.
 std::vector<double> paired_ratios(std::span<const double> values,
                                   std::span<const double> reference);

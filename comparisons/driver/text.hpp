@@ -10,7 +10,7 @@
 
 namespace comparisons {
 
-/// The number that is the whole of `text`, or nothing.
+/// Returns the number that `text` consists of, or nullopt if it is anything else.
 template <typename Number>
 std::optional<Number> read_number(std::string_view text) {
     Number number{};
@@ -20,17 +20,17 @@ std::optional<Number> read_number(std::string_view text) {
     return number;
 }
 
-/// Shortest text that reads back as the same number.
+/// Returns the shortest text that parses to the same number.
 template <typename Number>
 std::string write_number(Number number) {
     char text[64];
     return {text, std::to_chars(text, text + sizeof text, number).ptr};
 }
 
-/// Pieces of `text` between separators that stand outside square brackets.
+/// Splits `text` at the separators that are outside square brackets.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// Names as in "a, b, c", of things of which `name_of` tells them.
+/// Returns the names of things, separated by ", ". `name_of` returns the name of one.
 template <typename Things, typename NameOf = std::identity>
 std::string joined(const Things& things, NameOf name_of = {}) {
     std::string text;
@@ -39,22 +39,23 @@ std::string joined(const Things& things, NameOf name_of = {}) {
     return text;
 }
 
-/// `text` without blanks and carriage returns at both ends.
+/// Returns `text` without blanks and carriage returns at both ends.
 std::string_view trim(std::string_view text);
 
-/// `text` as a part of a file name: letters, digits and . _ - stay, the rest becomes _.
+/// Returns `text` as a part of a file name: characters other than letters, digits and . _ - become
+/// _.
 std::string file_name_part(std::string_view text);
 
-/// `value` with a number of digits behind the point.
+/// Returns `value` with `digits` digits after the decimal point.
 std::string fixed(double value, int digits);
 
-/// `value` to nine digits, for pictures.
+/// Returns `value` with nine digits, which is enough for pictures.
 std::string nine_digits(double value);
 
-/// 54464 as "54,464".
+/// Formats 54464 as "54,464".
 std::string grouped(std::int64_t number);
 
-/// 1536 as "1.5 KiB".
+/// Formats 1536 as "1.5 KiB".
 std::string human_bytes(double bytes);
 
 }  // namespace comparisons

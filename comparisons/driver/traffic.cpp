@@ -11,7 +11,7 @@ namespace comparisons {
 namespace {
 
 bool counting = false;
-int ranks_per_machine = 0;  ///< 0: as they are
+int ranks_per_machine = 0;  ///< 0: the machines that the ranks are on
 Traffic traffic;
 std::map<std::string, CallCount> calls;
 
@@ -76,7 +76,7 @@ void count_communicator(const char* function) {
     ++traffic.communicators;
 }
 
-/// Returns what a reading of the clock takes: the least of some.
+/// Returns the time that reading the clock takes: the shortest of several readings.
 double reading_seconds() {
     double least = 1;
     for (int i = 0; i < 1000; ++i) {
@@ -86,12 +86,13 @@ double reading_seconds() {
     return least;
 }
 
-double clock_s = 0;     ///< reading_seconds(), once measured
-double last_end_s = 0;  ///< of the latest call
-bool polls = false;     ///< that call found a request undone: a loop waits for it
+double clock_s = 0;     ///< reading_seconds(), once it has been measured
+double last_end_s = 0;  ///< end of the last call
+bool polls = false;     ///< the last call found an unfinished request, so a loop is waiting for it
 
-/// Adds the processor time of its scope to the time in MPI, while traffic is counted, with what
-/// the clock took outside of it, and since the last call if a loop waits.
+/// Adds the processor time of its scope to the time in MPI while traffic is counted. Also adds the
+/// time that reading the clock takes outside the scope, and the time since the last call if a loop
+/// is waiting.
 class InMpi {
   public:
     InMpi() {
@@ -169,7 +170,7 @@ extern "C" {
 #define SEND(name, parameters, arguments) \
     FUNCTION(name, parameters, arguments, \
              if (to != MPI_PROC_NULL) count_message(__func__, bytes_of(count, type), to, comm))
-// These carry no traffic of their own, but in them a rank may wait.
+// These functions are not counted as traffic, but a rank may wait in them.
 #define RECEIVE(name, parameters, arguments) FUNCTION(name, parameters, arguments, (void)0)
 #define WAIT RECEIVE
 #include "mpi_functions.inc"

@@ -7,15 +7,17 @@
 
 namespace comparisons {
 
-/// What one rank's MPI calls moved.
+/// The traffic of one rank's MPI calls.
 ///
-/// A point-to-point message counts once, at its sender, with its bytes. A collective counts one
-/// message on each rank that takes part, with the bytes the rank hands in and the bytes it gets
-/// out. `root_bytes_in` is what rank 0 of MPI_COMM_WORLD receives, counted where it is known:
-/// at the sender, or as what rank 0 gets out of a collective. Summed over the ranks these are the
-/// totals. `collectives` are those among the messages; `communicators` are the calls that make
-/// one, whose messages and bytes are the MPI library's own affair. `seconds_in_mpi` is the
-/// processor time inside MPI, and from an MPI_Test that finds a request undone to the next call.
+/// A point-to-point message counts once, at its sender, with its bytes. A collective call counts as
+/// one message on each rank that takes part, with the bytes that the rank passes in and gets out.
+/// The sum over the ranks is the total.
+///
+/// `root_bytes_in` are the bytes that rank 0 of MPI_COMM_WORLD receives. They are counted at the
+/// sender, or at rank 0 as the output of a collective. `collectives` is the number of messages that
+/// are collective. `communicators` is the number of calls that create a communicator; their
+/// internal messages are not counted. `seconds_in_mpi` is the processor time inside MPI, plus the
+/// time from each MPI_Test that finds an unfinished request to the next call.
 struct Traffic {
     std::int64_t messages = 0;
     std::int64_t bytes = 0;
@@ -25,33 +27,33 @@ struct Traffic {
     double seconds_in_mpi = 0;
 };
 
-/// Processor time this thread has used, in s; not collective.
+/// Returns the processor time of this thread, in s. Not collective.
 double processor_seconds();
 
-/// What the calls of one MPI function moved on one rank.
+/// The traffic of one MPI function on one rank.
 struct CallCount {
     std::int64_t calls = 0;
-    std::int64_t bytes_in = 0;   ///< handed in
-    std::int64_t bytes_out = 0;  ///< got out; of a message 0, since its sender counts it
+    std::int64_t bytes_in = 0;   ///< passed in
+    std::int64_t bytes_out = 0;  ///< returned; 0 for messages, whose sender counts them
 };
 
-/// Names of the functions that are counted. Not collective.
+/// Returns the names of the counted functions. Not collective.
 std::span<const char* const> counted_functions();
 
-/// By the name of the function, what was counted since counting started. Not collective.
+/// Returns the counts since counting started, by the name of the function. Not collective.
 std::map<std::string, CallCount> counted_calls();
 
-/// Starts counting on this rank, from zero. Not collective.
+/// Starts counting from zero on this rank. Not collective.
 ///
-/// The counters are MPI functions of this program that shadow those of the MPI library and call
-/// its profiling interface (PMPI); they count whatever library makes the call.
+/// The counters are MPI functions of this program that replace those of the MPI library and call
+/// its profiling interface (PMPI). They count the calls of all libraries.
 void start_counting_traffic();
 
 /// Stops counting on this rank. Not collective.
 Traffic stop_counting_traffic();
 
-/// Makes MPI_Comm_split_type put so many consecutive ranks of MPI_COMM_WORLD on each machine. Not
-/// collective, but the same on every rank.
+/// Makes MPI_Comm_split_type treat every `number` consecutive ranks of MPI_COMM_WORLD as one
+/// machine. Not collective, but all ranks must pass the same number.
 void set_ranks_per_machine(int number);
 
 }  // namespace comparisons

@@ -1,4 +1,5 @@
-// Cost of the search for cuts by a great many virtual ranks in this process, as a row of CSV.
+// Measures the search for cuts with very many virtual ranks in one process, and prints a row of
+// CSV.
 #include "../../tests/support/virtual_search.hpp"
 
 #include <mpi.h>
@@ -22,7 +23,7 @@ struct Arguments {
     std::size_t points_per_rank = 8;
 };
 
-/// False where the arguments are none.
+/// Returns false if the arguments are invalid.
 bool read(int argc, char** argv, Arguments& arguments) {
     if (argc != 5) return false;
     const int ranks = std::atoi(argv[1]);

@@ -65,8 +65,8 @@ std::vector<std::size_t> curve_places(const Workload& workload, MPI_Comm comm) {
     return places;
 }
 
-/// Rank of each point when the curve is cut into pieces of equal count; points in one cell of the
-/// curve keep their order.
+/// Returns the rank of each point if the curve is cut into pieces with equal numbers of points.
+/// Points in the same cell of the curve keep their order.
 std::vector<int> sorted_ranks(const std::vector<std::size_t>& places, std::size_t num_cells,
                               MPI_Comm comm) {
     const int size = size_of(comm);
@@ -151,7 +151,7 @@ void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm) {
             rrcb::transfer(plan, rrcb::columns(coordinates, workload.weights), comm);
     else
         workload.coordinates = rrcb::transfer(plan, coordinates, comm);
-    // What stays comes first; it belongs behind what comes from the ranks before this one.
+    // The points that stay come first. Move them behind those that arrive from lower ranks.
     const auto kept = plan.num_points - plan.export_indices.size();
     const auto before = static_cast<std::size_t>(std::ranges::lower_bound(plan.import_ranks, rank) -
                                                  plan.import_ranks.begin());
@@ -165,11 +165,11 @@ void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm) {
 
 namespace {
 
-/// Sends every point to its rank; `workload` holds any distribution of them. Collective over
-/// `comm`.
+/// Sends every point to its rank of the layout, from any distribution of the points. Collective
+/// over `comm`.
 ///
-/// Depends on the points and the number of ranks alone when each rank holds a piece of one global
-/// order, ranks in order.
+/// The result depends only on the points and the number of ranks if each rank passes a section of
+/// one global order, in the order of the ranks.
 void distribute(Workload& workload, Layout layout, std::uint64_t seed, MPI_Comm comm) {
     const std::vector<int> ranks =
         layout == Layout::sorted
@@ -179,7 +179,7 @@ void distribute(Workload& workload, Layout layout, std::uint64_t seed, MPI_Comm 
     if (layout == Layout::sorted) reorder(workload, curve_places(workload, comm));
 }
 
-/// Of rank 0's points.
+/// Sends the properties of rank 0's points to all ranks.
 void broadcast_shape(Workload& workload, MPI_Comm comm) {
     MPI_Bcast(&workload.dimension, 1, MPI_INT, 0, comm);
     MPI_Bcast(&workload.weighted, 1, MPI_CXX_BOOL, 0, comm);
@@ -227,7 +227,7 @@ Replay read_replay(const std::string& folder, MPI_Comm comm) {
         ranks.insert(ranks.end(), static_cast<std::size_t>(share), r);
     }
     move(workload, ranks, comm);
-    // The last component, whatever follows it.
+    // The name is the last component of the path, with or without a trailing slash.
     const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
     workload.name = (path.has_filename() ? path : path.parent_path()).filename().string();
     workload.layout = same_ranks ? "dump" : "dealt";

@@ -21,22 +21,22 @@ namespace {
 using rrcb::Vector;
 using std::numbers::pi;
 
-/// A particle and its own random numbers, the same at every time.
+/// A particle with its own random numbers, which are the same at every time.
 struct Particle {
     std::size_t number;
-    double share;  ///< of the particles before it, 0 to 1
+    double share;  ///< share of the particles that precede it, 0 to 1
     CounterRandom random;
 
     double uniform(double lower, double upper) { return random.uniform(lower, upper); }
 
-    /// Returns its place in a jittered lattice of unit spacing with a corner at the origin.
+    /// Returns its position in a jittered lattice of unit spacing with a corner at the origin.
     Vector cell(std::size_t nx, std::size_t ny) {
         return {static_cast<double>(number % nx) + uniform(0.2, 0.8),
                 static_cast<double>(number / nx % ny) + uniform(0.2, 0.8),
                 static_cast<double>(number / nx / ny) + uniform(0.2, 0.8)};
     }
 
-    /// Returns a place in a ball around the origin.
+    /// Returns a random position in a ball around the origin.
     Vector ball(double radius) {
         const double z = uniform(-1, 1);
         const double angle = uniform(0, 2 * pi);
@@ -46,7 +46,7 @@ struct Particle {
     }
 };
 
-/// Turns a position around the axis after `first` and `second`, from the first to the second.
+/// Rotates a position in the plane of the axes `first` and `second`, from the first to the second.
 Vector turned(Vector x, double angle, std::size_t first = 0, std::size_t second = 1) {
     const Vector old = x;
     x[first] = std::cos(angle) * old[first] - std::sin(angle) * old[second];
@@ -54,7 +54,8 @@ Vector turned(Vector x, double angle, std::size_t first = 0, std::size_t second 
     return x;
 }
 
-/// Ritter's solution of a dam break, by columns of water; the rarefaction reaches the wall at 1.
+/// Returns a particle of a dam break, moved in columns by Ritter's solution. The rarefaction wave
+/// reaches the wall at time 1.
 Vector dam(Particle& p, double t) {
     const Vector cell = p.cell(80, 100);
     const double behind = 80 - cell[0];
@@ -65,7 +66,7 @@ Vector dam(Particle& p, double t) {
     return {x, cell[1] * depth, 0};
 }
 
-/// A hopper runs empty from below onto a growing cone.
+/// Returns a particle of a hopper that empties from below onto a growing cone.
 Vector pour(Particle& p, double t) {
     const double drained = 1.1 * t;
     const double outlet = 40;
@@ -84,7 +85,7 @@ Vector pour(Particle& p, double t) {
             std::lerp(outlet, height, way)};
 }
 
-/// Two rotating clusters pass each other.
+/// Returns a particle of one of two rotating clusters that pass each other.
 Vector galaxies(Particle& p, double t) {
     const double side = p.number % 2 == 0 ? 1 : -1;
     Vector x = p.ball(1);
@@ -96,7 +97,8 @@ Vector galaxies(Particle& p, double t) {
     return {x[0] + side * (12 * t - 6), x[1] + 1.2 * side, x[2]};
 }
 
-/// A front passes a sheet askew and pushes it together, to a third behind it.
+/// Returns a particle of a sheet that an oblique front crosses and compresses, to a third behind
+/// it.
 Vector front(Particle& p, double t) {
     const Vector x = p.cell(100, 80);
     const double behind = std::max(0.0, 128 * t - 0.8 * x[0] - 0.6 * x[1]);
@@ -113,13 +115,13 @@ Vector rod(Particle& p, double t) {
     return turned({x[0] - 200, x[1] - 10, 0}, pi * t);
 }
 
-/// A bar that turns around two axes.
+/// Returns a particle of a bar that rotates about two axes.
 Vector tumble(Particle& p, double t) {
     const Vector x = p.cell(80, 10);
     return turned(turned({x[0] - 40, x[1] - 5, x[2] - 5}, pi * t), 0.7 * pi * t, 1, 2);
 }
 
-/// Eight drops fall one after the other and flatten on the ground.
+/// Returns a particle of one of eight drops that fall one after another and flatten on the ground.
 Vector drops(Particle& p, double t) {
     const std::size_t drop = p.number % 8;
     CounterRandom its(17, drop);
@@ -133,7 +135,7 @@ Vector drops(Particle& p, double t) {
     return {center[0] + wide * x[0], center[1] + wide * x[1], z + (6.2 + x[2]) / (wide * wide)};
 }
 
-/// A tank empties through a nozzle against a wall, along which the jet spreads.
+/// Returns a particle of a tank that empties through a nozzle. The jet spreads along a wall.
 Vector jet(Particle& p, double t) {
     const double x = 20 * (0.9 * t - p.share);
     const double in_jet = std::clamp(x / 5 + 1, 0.0, 1.0);
@@ -147,7 +149,7 @@ Vector jet(Particle& p, double t) {
             std::lerp(p.uniform(-10, 10), radius * std::sin(angle), in_jet)};
 }
 
-/// Matter falls into a web, by Zel'dovich's approximation.
+/// Returns a particle of matter that falls into a web, by Zel'dovich's approximation.
 Vector web(Particle& p, double t) {
     const Vector start = p.cell(20, 20);
     Vector x = start;
@@ -163,14 +165,14 @@ Vector web(Particle& p, double t) {
     return x;
 }
 
-/// A block is wound up: the inner turns faster.
+/// Returns a particle of a block that is wound up: its inner parts rotate faster.
 Vector vortex(Particle& p, double t) {
     const Vector cell = p.cell(90, 90);
     const Vector x{cell[0] - 45, cell[1] - 45, 0};
     return turned(x, 4 * pi * t / (1 + (x[0] * x[0] + x[1] * x[1]) / 400));
 }
 
-/// Half of a ball expands, the other half flies apart in twelve pieces.
+/// Returns a particle of a ball. One half expands, the other half breaks into twelve pieces.
 Vector explosion(Particle& p, double t) {
     const double way = 1 - (1 - t) * (1 - t);
     Vector x = p.ball(12.4);
@@ -185,7 +187,7 @@ Vector explosion(Particle& p, double t) {
     return x;
 }
 
-/// A belt carries a strip around a corner.
+/// Returns a particle of a strip that a belt carries around a corner.
 Vector conveyor(Particle& p, double t) {
     const Vector x = p.cell(400, 20);
     const double way = x[0] - 400 + 350 * t;
@@ -202,7 +204,7 @@ struct Kind {
     std::size_t num_points;
     std::size_t num_calls;
     double spacing;
-    Vector (*position)(Particle&, double time);  ///< at a time of 0 to 1
+    Vector (*position)(Particle&, double time);  ///< the time is from 0 to 1
 
     std::vector<double> positions(std::size_t call) const {
         const double time = static_cast<double>(call) / static_cast<double>(num_calls - 1);
@@ -228,13 +230,13 @@ constexpr Kind kinds[] = {
     {"drops", 3, 8000, 100, 1, drops},
     {"jet", 3, 8000, 100, 1, jet},
     {"web", 3, 8000, 100, 1, web},
-    // Nothing was tuned for these.
+    // No option was chosen by means of these two flows.
     {"vortex", 2, 8100, 120, 1, vortex},
     {"explosion", 3, 8000, 80, 1, explosion},
     {"conveyor", 2, 8000, 100, 1, conveyor},
 };
 
-/// A column of dry grains collapses.
+/// Returns a column of dry grains that collapses.
 Grains column() {
     Grains grains{3, 0.5};
     for (std::size_t i = 0; i < 7000; ++i) {
@@ -248,7 +250,7 @@ Grains column() {
     return grains;
 }
 
-/// A disk falls into a tank of grains without friction.
+/// Returns a disc that falls into a tank of grains without friction.
 Grains splash() {
     Grains grains{2, 0, 60};
     for (std::size_t i = 0; i < 4800; ++i) {
@@ -269,13 +271,13 @@ Grains splash() {
 struct GrainKind {
     const char* name;
     std::size_t num_calls;
-    double time;  ///< between two calls
+    double time;  ///< time between two calls
     Grains (*start)();
 };
 
 constexpr GrainKind grain_kinds[] = {{"column", 100, 0.25, column}, {"splash", 120, 0.25, splash}};
 
-/// Lets grains fall when their positions are first needed.
+/// Returns a flow of grains. They are simulated when positions are first needed.
 Flow fall(const GrainKind& kind) {
     auto calls = std::make_shared<std::vector<std::vector<double>>>();
     Grains start = kind.start();

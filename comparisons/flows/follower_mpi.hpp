@@ -12,36 +12,36 @@
 
 namespace comparisons {
 
-/// A way to call the balancer along a flow.
+/// A way to call the balancer repeatedly while particles move.
 struct Policy {
     std::string name;
-    bool has_previous;  ///< gives the cuts of the call before; otherwise deals the particles anew
-    bool keeps_axes;    ///< of the first call
-    bool renumbers;     ///< parts, by rrcb::remap, so that many points keep theirs
+    bool has_previous;  ///< passes the previous cuts; otherwise deals the particles anew
+    bool keeps_axes;    ///< keeps the axes of the first call's cuts
+    bool renumbers;     ///< calls rrcb::remap, so that many points keep their part
 };
 
-/// Returns the policies, or those of some names in the order of these. Not collective. Throws
+/// Returns all policies, or those with the given names in the same order. Not collective. Throws
 /// Failure for an unknown name.
 std::vector<Policy> policies(const std::vector<std::string>& names = {});
 
-/// Counts of a call over all ranks.
+/// Counts of one call, summed over all ranks.
 struct CallCounts {
-    std::int64_t moved = 0;  ///< particles whose part is not that of the call before; first call: 0
-    std::int64_t messages = 0;  ///< as of Traffic
+    std::int64_t moved = 0;     ///< particles whose part is not that of the previous call
+    std::int64_t messages = 0;  ///< counted as in Traffic
 };
 
-/// A program that balances the particles of a flow by a policy.
+/// Balances the particles of a flow by a policy.
 ///
-/// Each rank holds the particles of its parts. At the first call, and at each one without earlier
-/// cuts, particle i is on rank i modulo the number of ranks instead.
+/// Each rank holds the particles of its parts. In the first call, and in each call without previous
+/// cuts, particle i is instead on rank i modulo the number of ranks.
 class Follower {
   public:
     Follower(const Policy& policy, int num_parts, MPI_Comm comm);
 
-    /// Balances all particles, which have the same order at each call. Collective.
+    /// Balances all particles. They have the same order in each call. Collective.
     CallCounts go_on(const Workload& all);
 
-    /// Returns the part of each particle after the last call, on every rank.
+    /// Returns the part of each particle in the last call, on every rank.
     const std::vector<rrcb::Part>& parts() const { return parts_; }
 
   private:

@@ -16,8 +16,8 @@ namespace {
 using rrcb::Vector;
 
 constexpr double stiffness = 1000;
-constexpr double damping = 10;      ///< force over speed
-constexpr double time_step = 0.01;  ///< a seventh of the shortest contact
+constexpr double damping = 10;      ///< force divided by speed
+constexpr double time_step = 0.01;  ///< a seventh of the duration of the shortest contact
 
 double dot(const Vector& a, const Vector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -27,11 +27,11 @@ Vector added(const Vector& a, double factor, const Vector& b) {
     return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
-/// Returns the force on a body at a contact: elastic and damped across it, viscous along it up to
-/// the limit of friction.
+/// Returns the contact force on a body. Normal to the contact it is elastic and damped. Along the
+/// contact it is viscous, up to the limit of friction.
 ///
-/// @param normal  of unit length, towards the body
-/// @param velocity of the body relative to the other
+/// @param normal is a unit vector that points towards the body
+/// @param velocity of the body relative to the other body
 Vector contact_force(const Vector& normal, double overlap, const Vector& velocity,
                      double friction) {
     const double across = dot(velocity, normal);
@@ -43,7 +43,7 @@ Vector contact_force(const Vector& normal, double overlap, const Vector& velocit
     return speed > 0 ? added(force, -brake / speed, along) : force;
 }
 
-/// Forces of a step.
+/// Computes the forces of a step.
 class Step {
   public:
     explicit Step(const Grains& grains)
@@ -78,7 +78,8 @@ class Step {
         }
     }
 
-    /// Finds the earlier grains in the cells around one, which then joins its cell.
+    /// Computes the contacts of grain i with earlier grains in the neighbouring cells, then adds it
+    /// to its own cell.
     void touch_grains(std::size_t i) {
         std::array<std::int64_t, 3> at{};
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -122,7 +123,7 @@ class Step {
     std::size_t up_;
     std::vector<Vector> forces_;
     std::vector<std::int64_t> cells_;
-    std::vector<int> next_;  ///< grain of the same bucket, or -1
+    std::vector<int> next_;  ///< next grain in the same bucket, or -1
     std::vector<int> heads_ = std::vector<int>(num_buckets, -1);
 };
 

@@ -1,4 +1,4 @@
-// Follows flows by policies of rebalancing, as CSV on standard output: a row for each call.
+// Balances flows with several policies and prints CSV on standard output, with a row for each call.
 //
 //   mpirun -n 4 rrcb_flows PARTS FLOWS POLICIES
 //
@@ -20,10 +20,10 @@ namespace {
 
 using namespace comparisons;
 
-/// Radii of ghosts over the mean spacing.
+/// Radii of ghosts, in units of the mean spacing.
 constexpr std::array near_and_wide{1.2, 2.5};
 
-/// Returns all particles on every rank. Collective.
+/// Returns all particles at a call, on every rank. Collective.
 Workload at_call(const Flow& flow, std::size_t call) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -47,8 +47,8 @@ std::vector<std::string> read_names(const std::string& word) {
     return names;
 }
 
-/// Counts the ghosts of the parts of each policy on rank 0, each policy by one of the ranks.
-/// Collective.
+/// Counts the ghosts of the parts of each policy. The policies are distributed over the ranks, and
+/// rank 0 gets the results. Collective.
 void count_ghosts(std::vector<PolicyCounts>& counts, const std::vector<Follower>& followers,
                   const Workload& now, double spacing, int num_parts) {
     int rank = 0;
@@ -104,7 +104,7 @@ void run(const std::vector<std::string>& words) {
     const std::optional<int> num_parts = read_number<int>(words[0]);
     if (!num_parts || *num_parts < 1) throw Failure("PARTS must be a number of 1 or more");
     const std::vector<Policy> chosen = policies(read_names(words[2]));
-    // The first call duplicates the communicator, which is not to be counted for the first flow.
+    // The first call duplicates the communicator. It must not be counted for the first flow.
     const std::vector<double> no_points;
     rrcb::balance(rrcb::interleaved_points(no_points, 2), {}, {}, MPI_COMM_WORLD);
     for (const std::string& name : words[1] == "all" ? flow_names() : read_names(words[1]))
@@ -115,7 +115,8 @@ void run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
-    // A rank that waits long sends a message, which a busy machine must not add to the counts.
+    // A rank that waits for long sends a message. On a busy machine such messages would distort the
+    // counts.
     rrcb::mpi::patience = std::chrono::hours(1);
     try {
         run({argv + 1, argv + argc});

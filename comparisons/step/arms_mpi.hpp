@@ -10,31 +10,32 @@
 
 namespace comparisons {
 
-/// One call, or a part of the step of a hand-written code.
+/// One call of the library, or one part of the step of a hand-written code.
 struct Stage {
     std::string name;
     std::function<void(Particles&)> call;  ///< collective
 };
 
-/// The services of a step in their order. Those before the last bring points to their ranks and
-/// copy ghosts; the last adds the forces on ghosts to those on their points. The last two, fetch
-/// and accumulate, serve alone while ghosts are kept.
+/// The stages of a step in their order. All stages before the last one move points to their ranks
+/// and copy ghosts. The last stage adds the forces on ghosts to those on their points. In steps
+/// that keep the ghosts only the last two stages are called, fetch and accumulate.
 using Arm = std::vector<Stage>;
 
-/// Names of the arms.
+/// Returns the names of the arms.
 std::vector<std::string> arm_names();
 
-/// Makes an arm; throws Failure for another name. Collective. `flow` must outlive it.
+/// Returns an arm. Throws Failure for an unknown name. Collective. `flow` must outlive it.
 Arm make_arm(std::string_view name, const Flow& flow);
 
-/// The calls of the library that take points from any rank to any other.
+/// Returns the arm with those calls of the library that can move points from any rank to any other.
 Arm loop(const Flow& flow);
 
-/// The exchanges of the library with the ranks nearby.
+/// Returns the arm with the library's exchanges between neighbouring ranks.
 Arm neighbours(const Flow& flow);
 
-/// A step as its author would write it for one program: the neighbours are known from the boxes,
-/// each gets one message in each stage with the columns side by side, and buffers are kept.
+/// Returns a step as an author would write it for one program. The neighbours follow from the
+/// boxes. Each neighbour gets one message per stage that contains all columns, and the buffers are
+/// reused.
 Arm by_hand(const Flow& flow);
 
 }  // namespace comparisons

@@ -19,13 +19,13 @@ namespace {
 
 enum Tag : int { leavers, ghosts, forces };
 
-/// A rank whose box is near this rank's, and the buffers of its messages.
+/// A rank whose box is near this rank's box, and the buffers of its messages.
 struct Neighbour {
     int rank;
     rrcb::Box box;
-    std::vector<double> rows{};         ///< to send
-    std::vector<std::uint32_t> sent{};  ///< points that are ghosts there
-    std::size_t num_ghosts = 0;         ///< from there
+    std::vector<double> rows{};         ///< rows to send
+    std::vector<std::uint32_t> sent{};  ///< local points that are ghosts there
+    std::size_t num_ghosts = 0;         ///< number of ghosts from there
 };
 
 template <std::size_t dimension>
@@ -47,8 +47,8 @@ class ByHand {
         requests_.resize(neighbours_.size());
     }
 
-    /// Sends each point that left the box to the rank whose box it is in; the last points take
-    /// their places.
+    /// Sends each point that has left the box to the rank whose box contains it. The last points
+    /// fill the gaps.
     void migrate(Particles& p) {
         for (Neighbour& neighbour : neighbours_) neighbour.rows.clear();
         std::size_t count = p.size();
@@ -76,7 +76,7 @@ class ByHand {
         wait();
     }
 
-    /// Lists the points within the radius of each neighbour's box.
+    /// Finds the points within the radius of each neighbour's box.
     void find_ghosts(const Particles& p) {
         for (Neighbour& neighbour : neighbours_) neighbour.sent.clear();
         const std::size_t count = p.size();
@@ -106,7 +106,7 @@ class ByHand {
         wait();
     }
 
-    /// Adds the forces on ghosts by ascending rank.
+    /// Adds the forces on ghosts to those on their points, by ascending rank.
     void accumulate(Particles& p) {
         const double* next = p.ghost_forces.data();
         for (std::size_t k = 0; k < neighbours_.size(); ++k) {
@@ -165,7 +165,7 @@ class ByHand {
         to[2 * dimension] = std::bit_cast<double>(p.ids[i]);
     }
 
-    /// Writes received rows behind the first `begin` points.
+    /// Writes the received rows behind the first `begin` points.
     void unpack(std::size_t count, std::size_t begin, std::vector<double>& x,
                 std::vector<double>& v, std::vector<std::int64_t>& ids) const {
         const double* from = received_.data();
@@ -191,7 +191,7 @@ class ByHand {
         }
     }
 
-    /// Returns the length of a message, which is then in received_.
+    /// Receives a message into received_. Returns its length.
     std::size_t receive(const Neighbour& neighbour, Tag tag) {
         MPI_Status status;
         MPI_Probe(neighbour.rank, tag, comm_, &status);
@@ -210,8 +210,8 @@ class ByHand {
 
     MPI_Comm comm_;
     double radius_;
-    rrcb::Box home_{};   ///< of this rank
-    rrcb::Box quiet_{};  ///< the part of it that no neighbour needs
+    rrcb::Box home_{};   ///< box of this rank
+    rrcb::Box quiet_{};  ///< the part of the box whose points no neighbour needs
     std::vector<Neighbour> neighbours_{};
     std::vector<double> received_{};
     std::vector<MPI_Request> requests_{};

@@ -15,10 +15,10 @@ namespace comparisons {
 
 namespace {
 
-/// Steps after which buffers are as long as they get.
+/// The number of steps after which the buffers have reached their final sizes.
 constexpr int steps_before = 3;
 
-/// Returns the places of ids in ascending order.
+/// Returns the indices that sort the ids in ascending order.
 std::vector<std::size_t> order_of(const std::vector<std::int64_t>& ids) {
     std::vector<std::size_t> order(ids.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -35,7 +35,7 @@ std::vector<double> sorted(const std::vector<double>& values, std::size_t width,
     return result;
 }
 
-/// Returns the points and the ghosts by ascending id.
+/// Returns the points and the ghosts, sorted by id.
 Particles sorted(const Particles& p) {
     Particles result{p.dimension};
     const std::vector<std::size_t> points = order_of(p.ids);

@@ -13,39 +13,42 @@
 
 namespace comparisons {
 
-/// What surrounds the calls of an arm while it runs.
+/// Functions called by run() around the stages and after the steps of an arm.
 struct Observer {
-    /// Makes the call of the stage with that number in stage_names(); not in steps before those
-    /// that are measured.
+    /// Called instead of each stage of a measured step. Gets the index of the stage in
+    /// stage_names() and a function that runs the stage, which it must call.
     std::function<void(std::size_t, const std::function<void()>&)> around;
-    /// Gets the number of the step, also of the others, and the points after it.
+    /// Called after every step, measured or not, with its number and the points.
     std::function<void(int, const Particles&)> after = [](int, const Particles&) {};
 };
 
-/// Names of what is measured: the stages, then the last two in steps that keep points and ghosts.
+/// Returns the names of the measurements: all stages, then again the last two stages, for the steps
+/// that keep points and ghosts.
 std::vector<std::string> stage_names(const Arm& arm);
 
-/// Runs an arm from the start of the flow: some steps that are not measured, then `steps` that are,
-/// then as many in which no point moves. Collective.
+/// Runs an arm from the start of the flow. First come some steps that are not measured, then
+/// `steps` measured steps, then as many measured steps in which no point moves. Collective.
 void run(const Arm& arm, const Flow& flow, int steps, const Observer& observer);
 
-/// Costs of a stage: mean over the ranks and steps.
+/// The costs of a stage, as means over the ranks and steps.
 struct StageCounts {
     double collectives = 0;
     double messages = 0;     ///< between two ranks
-    double bytes = 0;        ///< of messages, and into and out of collectives
+    double bytes = 0;        ///< of messages, and passed to and returned by collectives
     double allocations = 0;  ///< by operator new
     double bytes_allocated = 0;
 };
 
-/// Counts each of stage_names(), traffic and memory in runs of their own. Collective.
+/// Returns the counts of each of stage_names(). Traffic and memory are counted in separate runs.
+/// Collective.
 std::vector<StageCounts> count(std::string_view arm, const Flow& flow, int steps);
 
-/// Compares the points, ghosts and sums of arms.
+/// Checks that the points, ghosts and sums of all arms are the same.
 class SameResults {
   public:
-    /// Keeps the results of the first arm, and throws Failure if those of another differ in a bit,
-    /// save their order. Collective calls then end. Not collective.
+    /// Keeps the results of the first arm. Throws Failure if those of another arm are not
+    /// bit-identical, apart from their order. No collective calls may follow a failure. Not
+    /// collective.
     void check(std::string_view arm, int step, const Particles& particles);
 
   private:

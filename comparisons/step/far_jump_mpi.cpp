@@ -27,7 +27,7 @@ Discovery step_until_failure(const Arm& arm, Particles& particles, const Flow& f
     return found;
 }
 
-/// Returns what each rank gives. Collective.
+/// Returns the value of each rank. Collective.
 std::vector<Discovery> gathered(const Discovery& mine, MPI_Comm comm) {
     int num_ranks = 1;
     MPI_Comm_size(comm, &num_ranks);

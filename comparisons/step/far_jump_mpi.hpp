@@ -8,16 +8,17 @@
 
 namespace comparisons {
 
-/// How a rank finds out that a point has passed all neighbours of its rank.
+/// What a rank observes after a point has jumped beyond all neighbours of its rank.
 struct Discovery {
-    int calls = 0;           ///< with messages, from the jump to the one that failed
-    std::size_t points = 0;  ///< of this rank then
-    std::string text{};      ///< of the error
+    int calls = 0;           ///< calls that send messages, from the jump to the call that failed
+    std::size_t points = 0;  ///< number of this rank's points at that time
+    std::string text{};      ///< message of the error
 };
 
-/// Lets a point of rank 0 jump to the opposite corner of the box, and every rank make the steps of
-/// the arm "neighbours" until a call fails. Collective.
-/// @return of each rank, on every rank; a rank that finds nothing in 100 steps has no text
+/// Moves a point of rank 0 to the opposite corner of the box. Then all ranks run the steps of the
+/// arm "neighbours" until a call fails. Collective.
+/// @return the observation of each rank, on every rank; `text` is empty if nothing fails in 100
+/// steps
 std::vector<Discovery> jump_far(const Flow& flow);
 
 }  // namespace comparisons

@@ -10,9 +10,9 @@ namespace comparisons {
 
 namespace {
 
-constexpr double leaving = 0.01;  ///< share of the points of a rank, in a step
+constexpr double leaving = 0.01;  ///< share of a rank's points that leave it in a step
 
-/// Returns the mean over the ranks of the area of inner faces over the volume of the box.
+/// Returns the area of the inner faces of a box divided by its volume, as a mean over the ranks.
 double inner_faces(const rrcb::Cuts& cuts, const std::array<int, 3>& cubes) {
     double sum = 0;
     for (rrcb::Part part = 0; part < cuts.num_parts; ++part) {
@@ -50,7 +50,8 @@ Flow::Flow(int dimension, std::int64_t points_per_rank, MPI_Comm comm)
     std::tie(start_.x, start_.v, start_.ids) = rrcb::transfer(
         rrcb::plan(balance, comm),
         rrcb::columns(start_.column(start_.x), start_.column(start_.v), start_.ids), comm);
-    // A jump of at most t, evenly distributed, takes t / 4 of a layer's points through a face.
+    // Of a layer of thickness t next to a face, a quarter of the points cross the face in jumps
+    // that are uniformly distributed up to a length of t.
     if (num_ranks > 1) travel_ = 4 * leaving / inner_faces(cuts_, cubes_);
 }
 

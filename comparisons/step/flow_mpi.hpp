@@ -11,11 +11,12 @@
 
 namespace comparisons {
 
-/// Random points in a box of unit cubes, as many cubes as ranks, that jump at random: 1 % of them
-/// leave their rank in each step. Ghosts are needed within two spacings.
+/// Random points in a box that consists of as many unit cubes as there are ranks. The points jump
+/// at random, so that 1 % of them leave their rank in each step. Ghosts are needed within two
+/// spacings.
 ///
-/// A jump depends on the number of the point and of the step only, so the points are the same
-/// whatever holds them.
+/// A jump depends only on the numbers of the point and of the step. The points are therefore the
+/// same for every arm.
 class Flow {
   public:
     /// Balances the points. Collective. `comm` must outlive it.
@@ -25,18 +26,19 @@ class Flow {
     MPI_Comm comm() const { return comm_; }
     int dimension() const { return start_.dimension; }
     double radius() const { return radius_; }
-    /// Returns the greatest length of a jump along an axis.
+    /// Returns the largest length of a jump along an axis.
     double travel() const { return travel_; }
     /// Returns the points of this rank after the balance.
     const Particles& start() const { return start_; }
 
-    /// Moves the points of this rank, which reflect at the sides of the box. Not collective.
+    /// Moves the points of this rank. They are reflected at the sides of the box. Not collective.
     void move(Particles& particles, int step) const;
 
     /// Moves the first point to the upper corner of the box. Not collective.
     void jump(Particles& particles) const;
 
-    /// Writes forces on points and ghosts that depend on these and on this rank. Not collective.
+    /// Writes forces on points and ghosts. They depend on the positions and on this rank. Not
+    /// collective.
     void push(Particles& particles) const;
 
   private:

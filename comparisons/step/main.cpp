@@ -1,4 +1,4 @@
-// Services of a step by several arms, as CSV on standard output.
+// Measures the services of a step for several arms and prints CSV on standard output.
 //
 //   mpirun -n 4 rrcb_step counts DIMENSION POINTS STEPS ARM ...
 //       traffic and memory of each stage, mean over ranks and steps; all arms must give the same
@@ -26,10 +26,10 @@
 #include <string>
 #include <vector>
 
-/// Marks what Callgrind counts.
+/// Runs a stage. Callgrind counts inside this function.
 extern "C" [[gnu::noinline]] void rrcb_step_stage(const std::function<void()>& call) {
     call();
-    // Not a jump to the call, which would leave this function before.
+    // Prevents a tail call, which would leave this function before `call` runs.
     asm volatile("" ::: "memory");
 }
 
@@ -44,7 +44,7 @@ void print(const Flow& flow, const std::string& line) {
     if (rank == 0) std::cout << line << std::endl;
 }
 
-/// Means over the ranks of a step: the points that leave a rank, and the ghosts.
+/// The points that leave a rank in a step, and its ghosts, as means over the ranks.
 struct Size {
     double leavers = 0;
     double ghosts = 0;
@@ -107,13 +107,13 @@ void print_stages(const Flow& flow, int steps, const Words& arms) {
     }
 }
 
-/// Returns the seconds of the services in a step, without those in which nothing moves: of the
-/// rank that took longest.
+/// Returns the seconds that the services of a step take on the slowest rank. Steps in which nothing
+/// moves are not counted.
 double seconds_of(const std::string& name, const Flow& flow, int steps) {
     double seconds = 0;
     const Arm arm = make_arm(name, flow);
     run(arm, flow, steps, {[&](std::size_t stage, const std::function<void()>& call) {
-            // Ranks wait for one another after the work of a step, which is not measured.
+            // Ranks wait for each other after the work of a step. This wait is not measured.
             if (stage == 0 || stage + 1 == arm.size()) MPI_Barrier(flow.comm());
             const double start = MPI_Wtime();
             call();

@@ -8,8 +8,8 @@
 
 namespace comparisons {
 
-/// Particles of this rank and copies of others near them, in columns as a program has them:
-/// positions, velocities and forces interleaved.
+/// The particles of this rank and the ghosts near them, in columns as a program has them.
+/// Positions, velocities and forces are interleaved.
 struct Particles {
     int dimension = 0;
     std::vector<double> x{}, v{}, forces{};

@@ -16,7 +16,7 @@ Arguments read(std::vector<std::string> texts) {
     return read_arguments(static_cast<int>(pointers.size()), pointers.data());
 }
 
-/// The first part of the error.
+/// Expects an error whose message begins with `start`.
 void expect_error(std::vector<std::string> texts, const std::string& start) {
     try {
         read(std::move(texts));

@@ -23,7 +23,8 @@ TEST(Cloud, fills_the_outline_of_the_slope_evenly) {
         EXPECT_TRUE(x >= 0 && x <= 110 && z >= -15 && z <= ground(x)) << x << ' ' << z;
         above_toe_level += z > 0;
     }
-    // Areas 600 + 200 of 2450 square metres; five standard deviations of the binomial number.
+    // These parts have 600 + 200 of 2450 square metres. The tolerance is five standard deviations
+    // of the binomial distribution.
     const double share = 800.0 / 2450;
     EXPECT_NEAR(above_toe_level, share * count, 5 * std::sqrt(count * share * (1 - share)));
 }
@@ -37,7 +38,7 @@ TEST(Cloud, extrudes_the_slope_by_forty_metres) {
 }
 
 TEST(Cloud, numbers_the_lattice_along_the_first_axis) {
-    // The smallest square lattice of 7 points is 3 x 3.
+    // The smallest square lattice with at least 7 points is 3 x 3.
     const std::vector<double> expected = {0, 1, 1, 1, 2, 1, 0, 2};
     EXPECT_EQ(cloud_points({"lattice", 7, 2, 1}, 3, 7), expected);
 }

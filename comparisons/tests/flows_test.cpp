@@ -16,8 +16,8 @@
 namespace comparisons {
 namespace {
 
-/// A lattice of 40 x 4 points, 40 of them along an axis, around the origin; at first along x. Then
-/// it has turned clockwise by a right angle.
+/// Returns a lattice of 40 x 4 points around the origin. Its 40 columns are along x, or, after a
+/// clockwise turn by a right angle, along y.
 Workload rod(bool has_turned) {
     Workload all{"rod", "", 2, {}, false, {}};
     for (int i = 0; i < 160; ++i) {
@@ -39,7 +39,7 @@ struct Turn {
     friend bool operator==(const Turn&, const Turn&) = default;
 };
 
-/// Two parts before and after the turn.
+/// Returns the counts of two parts for the turn of the rod.
 Turn turn_by(const std::string& policy) {
     Follower follower(policies({policy})[0], 2, MPI_COMM_WORLD);
     EXPECT_EQ(follower.go_on(rod(false)).moved, 0);
@@ -53,27 +53,27 @@ Turn turn_by(const std::string& policy) {
 }
 
 TEST(Follower, counts_moves_and_ghosts_of_a_rod_that_turns) {
-    // A cut across four rows: on each side one column is near, two are within 2.5. The end that
-    // was below it, at negative x, is above it after the turn, so all points change their parts,
-    // unless the parts change their numbers.
+    // The cut crosses four rows. On each side one column is near it, and two are within 2.5. The
+    // end at negative x was below the cut and is above it after the turn. All points therefore
+    // change their part, unless the parts are renumbered.
     EXPECT_EQ(turn_by("fresh"), (Turn{160, 8, 16}));
     EXPECT_EQ(turn_by("fresh + remap"), (Turn{0, 8, 16}));
-    // A cut along the rod, between two columns on each side.
+    // With kept axes the cut is along the rod, with two columns on each side.
     EXPECT_EQ(turn_by("kept axes"), (Turn{80, 80, 160}));
 }
 
 TEST(Grains, fall_like_a_stone_and_come_to_rest_on_the_ground_with_a_shallow_dent) {
     Grains grain{2, 0, 0, {{0, 8.5, 0}}, {{1, 0, 0}}};
     move(grain, 2);
-    // Symplectic Euler is half a time step of 0.01 ahead: 2 (2 + 0.01) / 2.
+    // Symplectic Euler is ahead by half a time step of 0.01: 2 (2 + 0.01) / 2.
     EXPECT_NEAR(grain.x[0][1], 8.5 - 2.01, 1e-9);
     EXPECT_NEAR(grain.x[0][0], 2, 1e-9);
     move(grain, 100);
-    EXPECT_NEAR(grain.x[0][1], 0.5 - 0.001, 1e-6);  // the weight over the stiffness
+    EXPECT_NEAR(grain.x[0][1], 0.5 - 0.001, 1e-6);  // the weight divided by the stiffness
 }
 
 TEST(Grains, that_touch_push_each_other_apart_alike) {
-    // Far above the ground, a tenth of a diameter too close.
+    // The pair is far above the ground and overlaps by a tenth of a diameter.
     Grains pair{2, 0, 0, {{-0.45, 100, 0}, {0.45, 100, 0}}, {{}, {}}};
     move(pair, 0.5);
     EXPECT_GT(pair.v[1][0], 1);

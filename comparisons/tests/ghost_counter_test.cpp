@@ -22,7 +22,7 @@ struct Partition {
     int dimension = 2;
 };
 
-/// Every pair of points.
+/// Counts the ghosts by testing every pair of points.
 Ghosts reference(const Partition& all, double radius, std::optional<int> ranks_per_node) {
     std::vector<std::int64_t> needed(static_cast<std::size_t>(all.num_parts));
     std::vector<std::set<rrcb::Part>> neighbours(needed.size());
@@ -55,7 +55,7 @@ Ghosts reference(const Partition& all, double radius, std::optional<int> ranks_p
     return result;
 }
 
-/// With every point on the rank that its index deals it to.
+/// Counts the ghosts by GhostCounter. Point i is on rank i modulo the number of ranks.
 Ghosts counted(const Partition& all, const GhostRule& rule) {
     Workload mine;
     mine.dimension = all.dimension;
@@ -76,7 +76,8 @@ void expect_equal(const Ghosts& found, const Ghosts& expected) {
     EXPECT_EQ(found.off_machine, expected.off_machine);
 }
 
-/// A cloud of 600 points in strips of equal width along the longest axis, or dealt out one by one.
+/// Returns a cloud of 600 points, divided into strips of equal width along the longest axis or
+/// dealt out one by one.
 Partition cloud(const std::string& name, int dimension, int num_parts, bool in_strips) {
     Partition all{{}, {}, num_parts, dimension};
     const std::vector<double> coordinates = cloud_points({name, 600, dimension, 5}, 0, 600);
@@ -109,7 +110,7 @@ TEST(GhostCounter, counts_what_every_pair_of_points_tells) {
 }
 
 TEST(GhostCounter, takes_twice_the_median_spacing) {
-    // 40 points, ten rows of four, and some far from all others.
+    // There are 40 points in ten rows of four, and some that are far from all others.
     Partition all{{}, {}, 2};
     for (int i = 0; i < 40; ++i) {
         all.points.push_back({i % 4 + 0.0, i / 4 + 0.0, 0});
@@ -121,7 +122,7 @@ TEST(GhostCounter, takes_twice_the_median_spacing) {
     }
     const Ghosts ghosts = counted(all, {});
     EXPECT_EQ(ghosts.radius, 2);
-    // Two rows on each side of the cut.
+    // Two rows on each side of the cut are ghosts.
     EXPECT_EQ(ghosts.sum, 16);
     EXPECT_FALSE(ghosts.off_machine);
 }

@@ -35,7 +35,8 @@ class MeasurementTest : public testing::Test {
 };
 
 TEST_F(MeasurementTest, exact_methods_are_exact_with_any_lists) {
-    // 1200 points divide evenly by 1, 2, 3 and 4 ranks, and no two share a coordinate.
+    // 1200 points can be divided evenly by 1, 2, 3 and 4 ranks, and no two points share a
+    // coordinate.
     const std::vector<Method> methods =
         read_methods("zoltan-rcb,zoltan-rib,root-rcb,rrcb-exact,rrcb-arrays[refine=exact]");
     for (const Lists lists : {Lists::parts, Lists::exports, Lists::all}) {
@@ -89,7 +90,7 @@ TEST_F(MeasurementTest, pseudo_random_points_are_judged_over_ten_seeds) {
         sizes.push_back(std::abs(fixed.worst_unbalance_percent));
         if (seed > 1) continue;
         EXPECT_EQ(open.parts, fixed.parts);
-        // On one rank all points are at rest, unless the seed has just changed.
+        // On one rank no point moves, unless the seed has just changed.
         if (num_ranks_ > 1) {
             EXPECT_EQ(open.traffic.bytes, fixed.traffic.bytes);
         }

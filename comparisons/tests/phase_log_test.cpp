@@ -20,7 +20,8 @@ TEST(PhaseLog, charges_messages_collectives_and_bytes_to_the_network) {
     traffic.messages = 5;
     traffic.bytes = 300;
     EXPECT_DOUBLE_EQ(network_seconds(traffic, 8, network), 5 * 2 + 3);
-    // Two of the messages are collectives, and a communicator is made: three rounds each.
+    // Two of the messages are collectives, and one communicator is made. Each of these takes three
+    // rounds.
     traffic.collectives = 2;
     traffic.communicators = 1;
     EXPECT_DOUBLE_EQ(network_seconds(traffic, 8, network), (3 + 3 * 3) * 2 + 3);
@@ -58,7 +59,7 @@ TEST(PhaseLog, adds_the_slowest_rank_of_each_phase) {
             MPI_Barrier(MPI_COMM_WORLD);
         });
     }
-    // One rank works in each phase, the others wait in it.
+    // In each phase one rank works while the others wait.
     const PathCost cost = log.cost(MPI_COMM_WORLD);
     EXPECT_GE(cost.path_s, n * busy_s);
     EXPECT_GE(cost.work_s, n * busy_s);

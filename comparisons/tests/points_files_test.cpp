@@ -24,7 +24,7 @@ const std::string good_rank =
     "weights 2\nparts 1\nobjects 2\n0x1.8p+0 nan 0x1p-1 0x1p+0 4\n-inf -0x1p-1074 0x0p+0 0x1p+0 "
     "0\nend\n";
 
-/// The dump of two ranks that these texts make.
+/// Returns the dump of two ranks whose files contain these texts.
 Dump read(const std::string& call, const std::string& rank = good_rank,
           const std::string& first_rank = empty_rank) {
     const std::string folder = testing::TempDir() + "rrcb_dump_" + std::to_string(getpid());

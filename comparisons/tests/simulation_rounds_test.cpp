@@ -8,8 +8,8 @@
 namespace comparisons {
 namespace {
 
-/// Of `step_s` on the critical path of the steps, a quarter of it network; the same in every other
-/// column.
+/// Returns a run whose steps take `step_s` on the critical path, a quarter of it in the network.
+/// All other columns are the same in every run.
 SimulationRun run_of(double step_s) {
     SimulationRun run;
     run.num_points = 1000;

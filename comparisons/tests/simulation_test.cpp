@@ -18,7 +18,7 @@
 namespace comparisons {
 namespace {
 
-/// The slope in 22 cells across.
+/// Returns the slope with 22 cells across.
 mpm::Scene coarse_slope() {
     mpm::Scene scene = choose_scene("slope", false, MPI_COMM_WORLD);
     mpm::resize_cells(scene, 5);
@@ -64,7 +64,7 @@ void expect_points_kept(const mpm::Scene& scene) {
 TEST(Simulation, every_balancer_keeps_the_points_and_their_mass) {
     expect_points_kept(coarse_slope());
     mpm::Scene anchor = choose_scene("torpedo_anchor", true, MPI_COMM_WORLD);
-    // So that the soil settles at once.
+    // Without this effect the soil settles at once.
     std::erase_if(anchor.effects,
                   [](const mpm::Effect& effect) { return effect.name == "geostatic"; });
     expect_points_kept(anchor);
@@ -99,16 +99,16 @@ TEST(Simulation, snapshots_show_a_scene_at_its_start_middle_and_end) {
     EXPECT_EQ(snapshots[1].name, "torpedo_anchor-middle");
     EXPECT_EQ(snapshots[0].dimension, 3);
     EXPECT_EQ(snapshots[0].coordinates.size(), snapshots[2].coordinates.size());
-    // Soil at rest moves only where it is struck.
+    // Soil at rest moves only where the anchor strikes it.
     bool has_moved = snapshots[0].coordinates != snapshots[2].coordinates;
     MPI_Allreduce(MPI_IN_PLACE, &has_moved, 1, MPI_CXX_BOOL, MPI_LOR, MPI_COMM_WORLD);
     EXPECT_TRUE(has_moved);
 }
 
 TEST(Simulation, exact_methods_share_the_points_out_to_one_a_level) {
-    constexpr double levels = 2;  // of the bisection, up to 4 parts
+    constexpr double levels = 2;  // levels of the bisection for up to 4 parts
     for (const char* name : {"zoltan-rcb", "root-rcb", "rrcb-exact"}) {
-        // At every step: from one to the next points cross cuts.
+        // Rebalances at every step, because points cross cuts between steps.
         const SimulationRun result = run(make_balancer(read_method(name)), coarse_slope(), 1);
         ASSERT_EQ(result.error, "") << name;
         const double mean = static_cast<double>(result.num_points) / num_ranks();
@@ -123,8 +123,8 @@ TEST(Simulation, exact_methods_share_the_points_out_to_one_a_level) {
     }
 }
 
-/// Slabs that grow wider from one rebalance to the next; notes the share of the points that change
-/// hands by looking at each.
+/// Returns slabs that are wider in each rebalance. Notes the share of the points that change owner
+/// by testing each point.
 mpm::Balancer widening_slabs(std::vector<double>& moved) {
     return [&moved](mpm::Positions positions, MPI_Comm comm) {
         const double width = 20 * std::exp2(static_cast<double>(moved.size()));
@@ -213,8 +213,8 @@ TEST(Simulation, a_controller_rebalances_where_no_interval_is_given) {
     const SimulationRun result = simulation.result();
     EXPECT_EQ(result.error, "");
     EXPECT_EQ(result.rebalances, num_calls);
-    EXPECT_GE(num_calls, 1);  // before the first step, whatever the loads
-    EXPECT_LE(num_calls, 3);  // each takes two steps to heed and three to judge
+    EXPECT_GE(num_calls, 1);  // the first rebalance is before the first step, whatever the loads
+    EXPECT_LE(num_calls, 3);  // each needs two steps to take effect and three to be judged
 }
 
 mpm::Decomposition decomposed(const char* method, mpm::Positions positions) {

@@ -10,7 +10,7 @@
 namespace comparisons {
 namespace {
 
-/// n, n - 1, ..., 1: the k-th smallest is k.
+/// Returns n, n - 1, ..., 1, of which the k-th smallest is k.
 std::vector<double> descending(std::size_t n) {
     std::vector<double> values(n);
     std::iota(values.rbegin(), values.rend(), 1.0);
@@ -24,13 +24,13 @@ TEST(Statistics, takes_the_middle) {
 }
 
 TEST(Statistics, fewer_than_six_values_have_no_interval) {
-    // Smallest and largest of 5 miss the median with 2 / 2^5 = 6.25 %.
+    // The range of 5 values misses the median with a probability of 2 / 2^5 = 6.25 %.
     for (std::size_t n = 0; n < 6; ++n) EXPECT_FALSE(interval95(descending(n))) << n;
 }
 
 TEST(Statistics, leaves_out_as_many_values_as_the_binomial_sums_allow) {
-    // Chance to miss the median when j values are left out at each end: 2 (C(n,0) + ... + C(n,j)) /
-    // 2^n, for j and j + 1.
+    // The probability to miss the median when j values are left out at each end is 2 (C(n,0) + ...
+    // + C(n,j)) / 2^n. Each comment gives it for j and j + 1.
     const struct {
         std::size_t n;
         double low;
@@ -89,7 +89,8 @@ TEST(DrawnOrder, is_the_last_one_backwards_in_every_second_turn) {
 }
 
 TEST(DrawnOrder, differs_between_workloads) {
-    // Of one order for all clouds the same method was second in five turns of seven.
+    // Each cloud has its own order. With the same order for all of them, one method came second in
+    // five of seven turns everywhere.
     EXPECT_NE(seed_for("uniform 2 16", 1), seed_for("uniform 3 16", 1));
     EXPECT_NE(drawn_order(14, seed_for("slope", 1), 0), drawn_order(14, seed_for("shell", 1), 0));
 }

@@ -12,7 +12,8 @@
 namespace comparisons {
 namespace {
 
-/// Sum over the stages of a step that moves points, or of one that keeps points and ghosts.
+/// Returns the sum over the stages of a step that moves points, or of one that keeps points and
+/// ghosts.
 StageCounts total(std::string_view arm, const Flow& flow, bool keeps) {
     const std::vector<std::string> names = stage_names(make_arm(arm, flow));
     const std::vector<StageCounts> counts = count(arm, flow, 4);
@@ -26,7 +27,7 @@ StageCounts total(std::string_view arm, const Flow& flow, bool keeps) {
     return sum;
 }
 
-/// Neighbours of a rank in a box of cubes, on average.
+/// Returns the mean number of neighbours of a rank in a box of cubes.
 double mean_neighbours(int dimension) {
     if (rrcb::test::num_ranks() == 4) return 3;
     return dimension == 2 ? 4 : 7;
@@ -78,7 +79,7 @@ TEST_P(Step, of_calls_for_points_that_go_anywhere_takes_six_collectives) {
     const StageCounts moves = total("loop", flow_, false);
     EXPECT_LE(moves.collectives, 6);
     EXPECT_LE(moves.messages, 37);
-    // With those of the exchange that a plan keeps from its first call on.
+    // The limit includes the allocations of the exchange that a plan keeps from its first call on.
     EXPECT_LE(moves.allocations, 260);
     const StageCounts keeps = total("loop", flow_, true);
     EXPECT_LE(keeps.collectives, 2);
@@ -87,14 +88,14 @@ TEST_P(Step, of_calls_for_points_that_go_anywhere_takes_six_collectives) {
 }
 
 TEST_P(Step, of_a_point_that_passes_all_neighbours_fails_on_every_rank_and_loses_no_point) {
-    // Otherwise all ranks are neighbours, and the point arrives.
+    // If all ranks are neighbours, the point arrives.
     const bool passes = mean_neighbours(GetParam()) < rrcb::test::num_ranks() - 1;
     std::size_t points = 0;
     for (const Discovery& found : jump_far(flow_)) {
         points += found.points;
         EXPECT_EQ(found.text.empty(), !passes);
         if (!passes) continue;
-        EXPECT_LE(found.calls, 3);  // the graph is so wide
+        EXPECT_LE(found.calls, 3);  // the diameter of the graph of neighbours
     }
     EXPECT_EQ(points, 1000U * static_cast<std::size_t>(rrcb::test::num_ranks()));
 }

@@ -78,10 +78,10 @@ TEST(Table, tells_intervals_of_six_repeats_and_ten_seeds) {
     Comparison six = comparison();
     six.measurements = {measured("zoltan-rcb", {4, 5, 4, 8, 2, 4}),
                         measured("rrcb-sampled", {6, 5, 2, 4, 3, 1})};
-    // Of ten sorted values the second to the ninth hold the median.
+    // The interval of ten sorted values is from the second to the ninth.
     six.measurements[1].imbalances = {1.9, 1.1, 1.8, 1.2, 1.7, 1.3, 1.6, 1.4, 1.5, 1};
     const std::string rows = rows_of(six);
-    // Ratios in turn: 1.5, 1, 0.5, 0.5, 1.5, 0.25; that of the medians is 3.5 / 4.
+    // The ratios are 1.5, 1, 0.5, 0.5, 1.5 and 0.25. The ratio of the medians is 3.5 / 4.
     EXPECT_NE(
         rows.find(
             ",3.5,1,6,1.45,25,3,400,50,6,7,0.5,0.875,1,6,0.25,1.5,1.1,1.8,10,-25,,,90,40,2,30\n"),

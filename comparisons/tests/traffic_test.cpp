@@ -10,7 +10,7 @@
 namespace comparisons {
 namespace {
 
-/// Totals over all ranks of what `communicate` moves.
+/// Returns the totals over all ranks of the traffic of `communicate`.
 template <typename Communicate>
 std::array<std::int64_t, 3> totals(Communicate&& communicate) {
     start_counting_traffic();
@@ -39,7 +39,7 @@ TEST(Traffic, counts_a_ring_of_messages_once_each) {
 
 TEST(Traffic, counts_messages_into_the_root_whatever_the_communicator) {
     const int n = rrcb::test::num_ranks();
-    // In the reversed communicator the root of the world is the last rank.
+    // Rank 0 of the world is the last rank of the reversed communicator.
     MPI_Comm reversed = MPI_COMM_NULL;
     MPI_Comm_split(MPI_COMM_WORLD, 0, -rrcb::test::rank(), &reversed);
     const auto send_to_last = [&] {
@@ -74,10 +74,10 @@ TEST(Traffic, counts_what_ranks_hand_in_and_get_out_of_collectives) {
     std::array<double, 2> pair{};
     std::vector<double> all(2 * static_cast<std::size_t>(n));
     EXPECT_EQ(totals([&] { MPI_Barrier(MPI_COMM_WORLD); }), (Expected{n, 0, 0}));
-    // The root hands in 16 bytes, every other rank gets 16 out.
+    // The root passes in 16 bytes, and every other rank gets 16 bytes.
     EXPECT_EQ(totals([&] { MPI_Bcast(pair.data(), 2, MPI_DOUBLE, 0, MPI_COMM_WORLD); }),
               (Expected{n, 16 * n, 0}));
-    // Every rank hands in 16 bytes, the root gets 16 n out.
+    // Every rank passes in 16 bytes, and the root gets 16 n bytes.
     EXPECT_EQ(totals([&] {
                   MPI_Gather(pair.data(), 2, MPI_DOUBLE, all.data(), 2, MPI_DOUBLE, 0,
                              MPI_COMM_WORLD);
@@ -93,7 +93,7 @@ TEST(Traffic, counts_what_ranks_hand_in_and_get_out_of_collectives) {
                                MPI_COMM_WORLD);
               }),
               (Expected{n, 32 * n * n, 16 * n}));
-    // Every rank hands in n times 8 bytes and gets 8 out.
+    // Every rank passes in 8 n bytes and gets 8 bytes.
     EXPECT_EQ(totals([&] {
                   double block = 0;
                   MPI_Reduce_scatter_block(all.data(), &block, 1, MPI_DOUBLE, MPI_SUM,
@@ -104,7 +104,7 @@ TEST(Traffic, counts_what_ranks_hand_in_and_get_out_of_collectives) {
 
 TEST(Traffic, counts_unequal_pieces) {
     const int n = rrcb::test::num_ranks();
-    // Rank r hands in r + 1 bytes: n (n + 1) / 2 in all.
+    // Rank r passes in r + 1 bytes, which is n (n + 1) / 2 in all.
     std::vector<int> counts;
     std::vector<int> starts;
     for (int r = 0; r < n; ++r) {

@@ -20,7 +20,7 @@ std::vector<int> counts_of_all(std::size_t mine) {
     return counts;
 }
 
-/// Points of all ranks in lexicographic order, on every rank.
+/// Returns the points of all ranks in lexicographic order, on every rank.
 std::vector<std::array<double, 3>> all_points(const Workload& workload) {
     const rrcb::Points points = workload.points();
     std::vector<double> mine;
@@ -127,7 +127,8 @@ TEST(Workload, a_missing_file_fails_on_every_rank) {
     EXPECT_THROW(file_workload("no such file", Layout::sorted, 1, MPI_COMM_WORLD), Failure);
 }
 
-/// Writes a dump of three ranks with 1, 3 and 2 points: (0, 0), (1, -1) ... of weight 1, 2 ...
+/// Writes a dump of three ranks with 1, 3 and 2 points. The points are (0, 0), (1, -1), ... and
+/// their weights are 1, 2, ...
 void write_dump(const std::string& folder) {
     std::filesystem::create_directories(folder);
     std::ofstream(folder + "/call.txt") << "rrcb-dump 1\nfunction f\nranks 3\nend\n";

@@ -19,12 +19,9 @@ inline Scene slope_scene(int cells_across = 116) {
         return x < toe ? toe - x : 0;
     };
     const double spacing = length / cells_across;
-    // Lattice points on the face itself belong to the slope, whatever the rounding.
-    const double tolerance = 1e-9 * spacing;
-    const Body soil{
-        .contains = [=](const Vector& at) { return at[1] <= ground(at[0]) + tolerance; },
-        .points_per_cell = {5, 4, 1},
-        .material = "soil"};
+    const Body soil{.contains = [=](const Vector& at) { return at[1] <= ground(at[0]); },
+                    .points_per_cell = {5, 4, 1},
+                    .material = "soil"};
     const int cells_up = static_cast<int>(std::ceil((crest - base) / spacing)) + 1;
     return {
         .name = "slope",

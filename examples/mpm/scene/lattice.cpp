@@ -18,6 +18,15 @@ Vector lattice_spacing(const Scene& scene, const Body& body) {
     return step;
 }
 
+Vector raised(const Vector& at, const Vector& spacing, int dimension) {
+    // Shares in a golden ratio: no side through two points of a lattice is along them.
+    constexpr Vector shares{1e-6, 0.6180339887498949e-6, 0.3819660112501052e-6};
+    Vector above = at;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        above[a] += shares[a] * spacing[a];
+    return above;
+}
+
 StartPlaces::StartPlaces(const Scene& scene)
     : dimension_(scene.dimension), lower_(scene.grid.lower) {
     std::int64_t next = 0;
@@ -62,7 +71,7 @@ void StartPlaces::visit(const Body& body, const Lattice& lattice, const PointVis
         for (at[1] = first[1]; at[1] < end[1]; ++at[1])
             for (at[0] = first[0]; at[0] < end[0]; ++at[0]) {
                 const Vector position = place(lattice, at);
-                if (!body.contains(position)) continue;
+                if (!body.contains(raised(position, lattice.spacing, dimension_))) continue;
                 visit(body, position,
                       lattice.first_number + at[0] +
                           lattice.count[0] * (at[1] + lattice.count[1] * at[2]));
@@ -129,11 +138,12 @@ void check_point(const Scene& scene, const Body& body, const Vector& at) {
         for (const double component : body.velocity(at))
             if (!std::isfinite(component))
                 refuse_point(place + ": the velocity", at, " must be finite");
+    const Vector size = lattice_spacing(scene, body);
+    const Vector above = raised(at, size, scene.dimension);
     for (const Body& other : scene.bodies)
-        if (&other != &body && contains(other.bounds, at) && other.contains(at))
+        if (&other != &body && contains(other.bounds, above) && other.contains(above))
             refuse_point(place + ": overlaps the body '" + other.name + "'", at,
                          "; subtract the shape of one from the other");
-    const Vector size = lattice_spacing(scene, body);
     for (const Plane& plane : scene.planes) {
         double height = 0, half_size = 0;
         for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {

@@ -49,6 +49,10 @@ class StartPlaces {
     std::vector<Lattice> lattices_;
 };
 
+/// Returns a place a millionth of the spacing of points above another. A body takes a point if it
+/// contains the raised place. So bodies are half-open, however points on their sides are rounded.
+Vector raised(const Vector& at, const Vector& spacing, int dimension);
+
 /// The number and the extent of the points of a scene.
 struct ScenePoints {
     std::int64_t num_points = 0;

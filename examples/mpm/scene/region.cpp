@@ -7,8 +7,6 @@ namespace mpm {
 
 namespace {
 
-constexpr double relative_tolerance = 1e-9;
-
 double squared_distance(const Vector& a, const Vector& b) {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -17,14 +15,6 @@ double squared_distance(const Vector& a, const Vector& b) {
 
 double dot(const Vector& a, const Vector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// Returns the distance in the x-y plane from a point to the line between two others.
-double distance_to_edge(const Vector& at, const Vector& a, const Vector& b) {
-    const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
-    const double along = (at[0] - a[0]) * dx + (at[1] - a[1]) * dy;
-    const double share = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
-    return std::hypot(at[0] - a[0] - share * dx, at[1] - a[1] - share * dy);
 }
 
 /// Returns whether a ray along x from a point crosses an edge.
@@ -36,39 +26,22 @@ bool crosses(const Vector& at, const Vector& a, const Vector& b) {
 }  // namespace
 
 Region box_region(const Box& box) {
-    Box wide = box;
-    for (std::size_t a = 0; a < 3; ++a) {
-        const double tolerance = relative_tolerance * (box.upper[a] - box.lower[a]);
-        wide.lower[a] -= tolerance;
-        wide.upper[a] += tolerance;
-    }
-    return [wide](const Vector& at) { return contains(wide, at); };
+    return [box](const Vector& at) { return contains(box, at); };
 }
 
 Region ball_region(const Vector& centre, double radius) {
-    const double reach = radius * (1 + relative_tolerance);
-    return [=](const Vector& at) { return squared_distance(at, centre) <= reach * reach; };
+    return [=](const Vector& at) { return squared_distance(at, centre) <= radius * radius; };
 }
 
 Region half_space_region(const Vector& point, const Vector& normal) {
-    const double size = std::sqrt(dot(normal, normal));
-    return [=](const Vector& at) {
-        const double scale = size * std::sqrt(squared_distance(at, point));
-        return dot(at, normal) - dot(point, normal) <= relative_tolerance * scale;
-    };
+    return [=](const Vector& at) { return dot(at, normal) <= dot(point, normal); };
 }
 
 Region polygon_region(std::vector<Vector> corners) {
-    double size = 0;
-    for (const Vector& corner : corners)
-        size = std::max(size, std::sqrt(squared_distance(corner, corners.front())));
-    return [corners = std::move(corners), tolerance = relative_tolerance * size](const Vector& at) {
+    return [corners = std::move(corners)](const Vector& at) {
         bool inside = false;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const Vector &a = corners[i], &b = corners[(i + 1) % corners.size()];
-            if (distance_to_edge(at, a, b) <= tolerance) return true;
-            if (crosses(at, a, b)) inside = !inside;
-        }
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            if (crosses(at, corners[i], corners[(i + 1) % corners.size()])) inside = !inside;
         return inside;
     };
 }

@@ -81,6 +81,54 @@ void check_bounds(const Scene& scene, const Body& body, Warnings& warnings) {
                                    " m, beyond the domain; make that larger or cut the body");
 }
 
+/// Volume of a body in the domain, m^3, to some thousandths; in two dimensions its area, m^2.
+double volume_of(const Scene& scene, const Body& body) {
+    // Roberts' sequence, which fills a box evenly: powers of the inverse of the root of x^4 = x
+    // + 1.
+    constexpr Vector strides{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    constexpr int num_samples = 1 << 16;
+    const auto dimension = static_cast<std::size_t>(scene.dimension);
+    const Vector domain_upper = scene.grid.upper();
+    Vector lower{}, width{};
+    double volume = 1;
+    for (std::size_t a = 0; a < dimension; ++a) {
+        lower[a] = std::max(body.bounds.lower[a], scene.grid.lower[a]);
+        width[a] = std::min(body.bounds.upper[a], domain_upper[a]) - lower[a];
+        volume *= width[a];
+    }
+    int num_inside = 0;
+    for (int k = 0; k < num_samples; ++k) {
+        Vector at{};
+        for (std::size_t a = 0; a < dimension; ++a)
+            at[a] = lower[a] + width[a] * std::fmod(0.5 + k * strides[a], 1.0);
+        num_inside += body.contains(at) ? 1 : 0;
+    }
+    return volume * num_inside / num_samples;
+}
+
+/// Points stand for equal volumes: together they may have more or less than the body.
+void check_masses(const Scene& scene, Warnings& warnings) {
+    constexpr double tolerance = 0.02;
+    std::vector<double> volumes(scene.bodies.size());
+    visit_points(scene, [&](const Body& body, const Vector&, std::int64_t) {
+        const Vector size = lattice_spacing(scene, body);
+        volumes[static_cast<std::size_t>(&body - scene.bodies.data())] +=
+            size[0] * size[1] * size[2];
+    });
+    for (std::size_t b = 0; b < volumes.size(); ++b) {
+        const Body& body = scene.bodies[b];
+        const double exact = volume_of(scene, body), excess = volumes[b] / exact - 1;
+        if (std::abs(excess) <= tolerance) continue;
+        const double density =
+            density_of(scene.materials[material_of(scene, body)], scene.dimension);
+        warnings.push_back("bodies / " + body.name + ": its points weigh " +
+                           written(density * volumes[b]) + " kg, its shape " +
+                           written(density * exact) +
+                           " kg; place its sides midway between points, or take more "
+                           "points_per_cell");
+    }
+}
+
 void check_probe(const Scene& scene, const Probe& probe, Warnings& warnings) {
     const Vector nearest = nearest_point(scene, probe.position).place;
     const double distance =
@@ -110,6 +158,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
             "not a cylinder; take depths from three");
     for (const Material& material : scene.materials) check_material(scene, material, warnings);
     for (const Body& body : scene.bodies) check_bounds(scene, body, warnings);
+    check_masses(scene, warnings);
     for (const Probe& probe : scene.probes) check_probe(scene, probe, warnings);
     return warnings;
 }

@@ -140,16 +140,6 @@ TEST(SceneFile, can_be_given_other_cells) {
     EXPECT_EQ(scene.grid.num_cells, (std::array<int, 3>{94, 4, 0}));
 }
 
-TEST(Region, polygon_holds_its_rim) {
-    const Region l = polygon_region({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
-    EXPECT_TRUE(l({0.5, 1.5}));
-    EXPECT_TRUE(l({1, 1.5}));
-    EXPECT_TRUE(l({2, 1}));
-    EXPECT_FALSE(l({1.5, 1.5}));
-    EXPECT_FALSE(l({-0.1, 0.5}));
-    EXPECT_FALSE(l({1.5, 1.0001}));
-}
-
 TEST(VelocityField, is_a_sum_of_forms) {
     const VelocityField field = velocity_field({.constant = {1, 2, 3},
                                                 .rotation_rate = 2,

@@ -43,12 +43,34 @@ std::string error_of(const std::string& text) {
 }
 
 TEST(SceneReports, warn_of_bodies_beyond_the_domain) {
-    const auto warnings = scene_warnings(
-        scene_of(blocks({box("3, 0", "5, 1"), "shape: ball, centre: [0, 3], radius: 0.5",
-                         "shape: half_space, point: [0, 3], normal: [0, -1]"})));
+    const auto warnings =
+        scene_warnings(scene_of(blocks({box("3, 0", "5, 1"), box("-0.5, 2", "1, 3"),
+                                        "shape: half_space, point: [0, 3], normal: [0, -1]"})));
     ASSERT_EQ(warnings.size(), 2u);
     expect_names(warnings[0], {"block0", "reaches to x = 5 m", "larger"});
     expect_names(warnings[1], {"block1", "reaches to x = -0.5 m"});
+}
+
+// Points at 0.125, 0.375, ... m of 0.0625 m^2: a box from 0.25 to 1.125 m has 3 x 3 of them, 562.5
+// kg for 765.6 kg; a ball of radius 0.375 has 4 for 7.07. 4 x 4 points stand for what they should.
+TEST(SceneReports, warn_of_points_that_weigh_more_or_less_than_their_body) {
+    const auto warnings = scene_warnings(scene_of(
+        blocks({box("0.25, 0.25", "1.125, 1.125"), box("2.125, 0.125", "3.125, 1.125"),
+                "shape: ball, centre: [3, 3], radius: 0.375",
+                "shape: polygon, corners: [[0.125, 2.125], [1.125, 2.125], [0.125, 3.125]]"})));
+    ASSERT_EQ(warnings.size(), 3u);
+    expect_names(warnings[0], {"block0", "562 kg", "766 kg", "midway between points"});
+    expect_names(warnings[1], {"block2", "250 kg", "442 kg", "points_per_cell"});
+    expect_names(warnings[2], {"block3", "625 kg", "500 kg"});
+}
+
+TEST(SceneReports, warn_of_no_body_of_a_shipped_scene) {
+    for (const char* name : {"axial_bar", "dam_break", "elastic_structure", "granular_column",
+                             "hydrostatic_column", "incline_block", "run_out", "slope",
+                             "submarine_slide", "torpedo_anchor", "two_disks", "vertical_cut"})
+        for (const std::string& warning : scene_warnings(
+                 read_scene(std::string(RRCB_SCENES "/") + name + ".yaml", MPI_COMM_WORLD).scene))
+            EXPECT_EQ(warning.find("bodies / "), std::string::npos) << name << ": " << warning;
 }
 
 TEST(SceneReports, warn_of_a_courant_number_beyond_the_stable_one) {

@@ -6,8 +6,8 @@
 
 namespace mpm {
 
-/// Returns the region of a box. All regions are closed: they contain positions on their boundary,
-/// and positions outside it by round-off.
+/// Returns the region of a box. A region is exact: Body states which points on its boundary belong
+/// to a body.
 Region box_region(const Box& box);
 /// Returns the region of a ball; in two dimensions of a disc.
 Region ball_region(const Vector& centre, double radius);

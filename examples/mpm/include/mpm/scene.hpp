@@ -30,6 +30,10 @@ using VelocityField = std::function<Vector(const Vector&)>;
 
 /// A body filled with material points. They form a lattice: each is at the centre of one of the
 /// equal parts of a cell.
+///
+/// A body is half-open: it takes points on its lower sides, and none on its upper sides. Bodies
+/// that touch therefore share no point, and the number of points does not depend on where the sides
+/// are.
 struct Body {
     Region contains;
     std::array<int, 3> points_per_cell{2, 2, 2};

@@ -94,33 +94,5 @@ TEST(Contact, gives_a_body_that_strikes_no_energy) {
         }
 }
 
-/// Share of its energy that a disk of 4 cells' radius keeps which strikes a wall or a plane across
-/// the grid.
-double energy_kept(ShapeFunction shape, double friction, double inclination, double speed) {
-    Scene scene = over_ground({.courant_number = 0.4}, ball_region({3.13, 1.7}, 1), friction, {});
-    scene.bodies.front().points_per_cell = {4, 4, 1};
-    scene.bodies.front().velocity = velocity_field({.constant = {0, -speed}});
-    scene.shape_function = shape;
-    if (inclination > 0) {
-        scene.walls = {};
-        scene.planes = {
-            {"slope", {3.13, 0.5}, {std::sin(inclination), std::cos(inclination)}, friction}};
-    }
-    Simulation simulation(scene, MPI_COMM_WORLD);
-    const double start = total_energy(simulation);
-    while (simulation.time() < 0.2 + 0.9 / speed) simulation.step();
-    EXPECT_GT(simulation.totals().momentum[1], 0) << "it has bounced";
-    return total_energy(simulation) / start;
-}
-
-// A dashpot takes half of it from the slow ones.
-TEST(Contact, without_friction_keeps_the_energy_of_an_impact) {
-    for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::quadratic})
-        for (const double inclination : {0.0, 0.3})
-            for (const double speed : {0.3, 2.0})
-                EXPECT_GT(energy_kept(shape, 0, inclination, speed), 0.9)
-                    << inclination << ' ' << speed;
-}
-
 }  // namespace
 }  // namespace mpm::test

@@ -1,4 +1,4 @@
-"""The paper's RRCB with and without its random points, call after call on points that stand still."""
+"""Runs the paper's RRCB with and without its random points, in repeated calls on points that do not move."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from methods import setting_of
 from results import Results
 
 AXES = ["x", "y"]
-CALLS, FIRST = 12, 4  # each starts from the parts of the one before; those counted
+CALLS, FIRST = 12, 4  # each call starts from the parts of the previous one; calls from number FIRST on count
 
 
 def excesses(
     points: np.ndarray, setting: str, parts: int, random: np.random.Generator | None
 ) -> float:
-    """Mean excess of the fullest part over the mean; with boxes alone if nothing is random."""
+    """Returns the mean excess of the fullest part over the mean part. If `random` is None, no points are drawn."""
     mesh, k, fraction = setting_of(setting)
     owners = np.argsort(np.argsort(points[:, 0], kind="stable")) * parts // len(points)
     found = []
@@ -33,7 +33,7 @@ def excesses(
 
 
 def cells_of(points: np.ndarray, mesh: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Count, mean and standard deviation in each non-empty cell of a mesh over the points."""
+    """Returns the number, mean and standard deviation of the points in each non-empty cell of a mesh."""
     low, high = points.min(axis=0), points.max(axis=0)
     places = np.minimum(((points - low) / (high - low) * mesh).astype(int), mesh - 1)
     _, cell, count = np.unique(places @ (mesh, 1), return_inverse=True, return_counts=True)
@@ -45,7 +45,7 @@ def cells_of(points: np.ndarray, mesh: int) -> tuple[np.ndarray, np.ndarray, np.
 def divide(
     lower: np.ndarray, upper: np.ndarray, weight: np.ndarray, points: np.ndarray, parts: int
 ) -> np.ndarray:
-    """The part of each point in the bisection of evenly filled boxes."""
+    """Returns the part of each point in the bisection of uniformly filled boxes."""
     if parts == 1:
         return np.zeros(len(points), int)
     axis = int(np.argmax(upper.max(axis=0) - lower.min(axis=0)))
@@ -80,7 +80,7 @@ def _quantile(low: np.ndarray, high: np.ndarray, weight: np.ndarray, share: floa
 
 
 def drawn_outside(results: Results, workload: str, side: float = 1.0) -> float:
-    """Share of the drawn points that lie in squares without a material point; NaN without files."""
+    """Returns the share of the drawn points in squares without a material point; NaN if there are no files."""
     drawn, real = results.data("statistical", workload), material_points(results, workload)
     if drawn.empty or not len(real):
         return float("nan")

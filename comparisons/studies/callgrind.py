@@ -1,4 +1,4 @@
-"""Counts a program's own instructions with Callgrind, each call of a function by itself."""
+"""Counts the instructions of a program's own functions with Callgrind, separately for each call of a function."""
 
 from __future__ import annotations
 
@@ -12,14 +12,15 @@ from pathlib import Path
 
 from driver import launcher
 
-# What waits for messages spins: the instructions of MPI, and of WAITS, depend on the machine. Those of libraries count
-# for the program's functions that call them.
+# Waiting for messages is a busy loop, so the instructions of MPI and of WAITS depend on the machine and are left out.
+# Those of libraries count for the program's functions that call them.
 OURS = re.compile(r"^rrcb_")
 HELPERS = re.compile(r"^(libc|libm|libstdc\+\+|libgcc_s|ld-linux.*)[.-]")
 WAITS = re.compile(r"^rrcb::(wait_watched|pause|Deadline::|mpi::Watch::)|^rrcb::NeighbourExchange::(run|receive|look_for)"
                    r"|steady_clock::now|nanosleep|clock_gettime")  # fmt: skip
-BELOW = "(below main)"  # calls main, and so what is counted in it
-# Callgrind counts an instruction for each byte that `rep movsb` moves. Symbols are bound before the first call.
+BELOW = "(below main)"  # calls main; counts the rest
+# Callgrind counts one instruction for each byte that `rep movsb` moves, so these settings avoid it. They also bind
+# symbols before the first call.
 EVEN = {
     "GLIBC_TUNABLES": "glibc.cpu.x86_rep_movsb_threshold=1000000000:glibc.cpu.x86_rep_stosb_threshold=1000000000",
     "LD_BIND_NOW": "1",
@@ -49,7 +50,7 @@ def run(command: list[str], ranks: int, function: str, folder: Path) -> tuple[st
 
 
 def own_instructions(path: Path) -> Counter[str]:
-    """Instructions in a file, by the program's function or the function of a library that it called."""
+    """Returns the instructions in a file by function of the program. A library function counts for its caller."""
     names: dict[tuple[str, str], str] = {}
     found: Counter[str] = Counter()
     now = {"ob": "", "fn": "", "cob": "", "cfn": ""}
@@ -75,7 +76,7 @@ def own_instructions(path: Path) -> Counter[str]:
 
 
 def short(function: str) -> str:
-    """The name without templates, parameters and namespaces without a name."""
+    """Returns the name without templates, parameters and unnamed namespaces."""
     name = function.replace("(anonymous namespace)::", "").replace("operator()", "call")
     while (shorter := re.sub(r"<[^<>]*>", "", name)) != name:
         name = shorter
@@ -83,7 +84,8 @@ def short(function: str) -> str:
 
 
 def _counted_as(now: dict[str, str], is_call: bool) -> str:
-    """The function that a cost counts for; none for MPI and for what calls the program's functions."""
+    """Returns the function that a cost counts for, or an empty text for MPI and for the callers of the program's
+    functions."""
     # The layer that counts messages shadows functions of MPI.
     if not OURS.match(Path(now["ob"]).name) or now["fn"].startswith("MPI_"):
         return ""

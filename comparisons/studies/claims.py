@@ -1,4 +1,4 @@
-"""What the paper says, and the numbers measured here that it is judged by. docs/design/paper.md discusses them."""
+"""The paper's claims and the numbers measured here with which they are judged. docs/design/paper.md discusses them."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ SNAPSHOTS = [f"slope-{moment}" for moment in ("start", "middle", "end")]
 
 @dataclass
 class Claim:
-    """Confirmed if the first value is the greater one and 95 % intervals are apart. Nothing is told
-    apart by single measurements; counts are intervals from the least to the most of them."""
+    """A claim is confirmed if the first value is greater and the 95 % intervals do not overlap. Single measurements are
+    inconclusive. The interval of several counts is their range."""
 
     text: str
     measured: str
     value: Value
     limit: Value
-    part: str  # of the study, which has the numbers
+    part: str  # part of the study that measures the numbers
     digits: int = 2
     verdict: str = ""
 
@@ -47,7 +47,7 @@ class Claim:
 
 
 def compare(first: Value, second: Value) -> str:
-    """Whether the first is greater."""
+    """Returns whether the first value is greater."""
     if first.low > second.high:
         return CONFIRMED
     return REFUTED if first.high < second.low else NOT_TOLD_APART
@@ -63,7 +63,7 @@ def exactly(value: float) -> Value:
 
 
 class Evidence:
-    """The files of each run of the driver."""
+    """The result files of each run of the driver."""
 
     def __init__(self, out: Path) -> None:
         self.out = out
@@ -74,14 +74,14 @@ class Evidence:
 
     @cached_property
     def snapshots(self) -> list[dict[str, object]]:
-        """Rows by method, of each snapshot."""
+        """Returns the rows of each snapshot by method."""
         rows = measurements(read(self.out / "snapshots/table.csv"))
         groups = rows.groupby("workload", sort=False) if len(rows) else ()
         return [{row.method: row for row in of.itertuples()} for _, of in groups]
 
     @cached_property
     def winners(self) -> list[tuple]:
-        """Rows of RCB, and of the paper's settings in the same snapshot."""
+        """Returns the rows of RCB and of the paper's best settings, from the same snapshot."""
         return [(rows[RCB], rows[of]) for rows in self.snapshots for of in WINNERS if of in rows]
 
     def speed_ups(self, name: str, serial: str) -> dict[str, Value]:
@@ -93,7 +93,7 @@ class Evidence:
 
 
 def claim_table(out: Path) -> pd.DataFrame:
-    """A row for each claim whose numbers are there. The paper's text has no number for any of them."""
+    """Returns a row for each claim that has been measured. The paper gives no number for any of them."""
     evidence = Evidence(out)
     return pd.DataFrame([claim.row for find in FINDERS for claim in find(evidence)])
 
@@ -134,8 +134,8 @@ def _speed(evidence: Evidence) -> Iterator[Claim]:
 
 
 def _break_even(evidence: Evidence) -> str:
-    """From which cost of a point in a step RCB is faster at each step: what its call takes over what the
-    other processes save."""
+    """Returns the cost of a point in a step above which RCB is faster although it is called in each step: the
+    additional time of its call divided by what the other processes save."""
     rcb, serial = evidence.runs("simulations", RCB), evidence.runs("serial", "none")
     call = (balancing(rcb) / rcb["steps"]).median()
     step = (serial["step_path_s"] / serial["steps"] / serial["points"]).median()
@@ -144,7 +144,7 @@ def _break_even(evidence: Evidence) -> str:
 
 
 def _best_settings(evidence: Evidence) -> Iterator[Claim]:
-    """Of figure 5."""
+    """Yields the claims of figure 5."""
     speeds = evidence.speed_ups("grid", "grid-serial")
     fastest = sorted((of for of in speeds if setting_of(of)), key=lambda of: -speeds[of].number)[: len(WINNERS)]
     named = [of for of in WINNERS if of in speeds]
@@ -199,14 +199,14 @@ def _random_points(evidence: Evidence) -> Iterator[Claim]:
 
 
 def _pairs(rows: dict[str, object], field: int, ends: tuple[float, float]) -> list[tuple]:
-    """Rows at both ends of mesh (0) or fraction (2), all else alike."""
+    """Returns the rows for both ends of mesh (0) or fraction (2), all other parameters being equal."""
     settings = {setting_of(name): row for name, row in rows.items() if setting_of(name)}
     other = {s: (*s[:field], ends[1], *s[field + 1 :]) for s in settings if s[field] == ends[0]}
     return [(settings[a], settings[b]) for a, b in other.items() if b in settings]
 
 
 def _finer_mesh(evidence: Evidence) -> Iterator[Claim]:
-    # At the start the points lie on the faces of cells.
+    # At the start the points are on the faces of cells.
     skewed = [rows for rows in evidence.snapshots if not rows[RCB].workload.endswith("-start")]
     if pairs := [pair for rows in skewed for pair in _pairs(rows, 0, (2, 10))]:
         found = median_of(coarse.excess / fine.excess for coarse, fine in pairs)

@@ -1,9 +1,10 @@
-"""What matters for a step, by the clock: the balancer's call, its cuts or its weights.
+"""Measures by the clock which part of a balancer matters for a step: the call, the cuts or the weights.
 
-Takes 10 minutes. Whole simulations of particles on 2 ranks that need a core each: a splash (SPH) and a pile with loose
-grains (DEM), in boxes up to half higher than wide. Factors: Zoltan's RCB or rrcb, both through callbacks with reuse;
-cuts across the longest axis or that with fewest points near; weights of 1 or learned. A round runs each combination in
-an order drawn anew; ratios are of one round. The A/A row compares two equal runs: its interval must contain 1.
+Takes 10 minutes. Complete simulations of particles run on 2 ranks, which need a core each. The scenes are a splash
+(SPH) and a pile with loose grains (DEM), in boxes up to 1.5 times as high as wide. There are three factors: Zoltan's
+RCB or rrcb, both called through callbacks with reuse; cuts across the longest axis or across the axis with fewest
+points nearby; weights of 1 or learned weights. Each round runs all combinations in a random order. Ratios are taken
+within a round. The A/A row compares two equal runs: its interval must contain 1.
 """
 
 from __future__ import annotations
@@ -21,14 +22,14 @@ from document import CORES, markdown_table
 from driver import OUT, PROGRAMS, build, on_ranks
 from intervals import Value, median_of
 
-SCENES = {"splash": 1, "pile": 12}  # steps over those of a splash, which take longer
+SCENES = {"splash": 1, "pile": 12}  # number of steps relative to a splash, whose steps take longer
 RANKS = 2
 FACTORS = {"call": ("zoltan-rcb", "rrcb"), "cuts": ("longest", "fewest"), "weights": ("count", "learned")}
 
 
 def factors(runs: pd.DataFrame) -> list[list[str]]:
-    """For each scene: time of the second level of a factor over that of the first, of each round, the other factors
-    in every combination; the geometric mean of the combinations."""
+    """Returns a line for each scene: the ratio of the times with the second and the first level of each factor. It is
+    taken in each round and for every combination of the other factors, as geometric mean over the combinations."""
     lines = [["factor", *runs["scene"].unique()]]
     once = runs[runs["again"] == 0]
     for factor, (first, second) in FACTORS.items():
@@ -44,7 +45,7 @@ def factors(runs: pd.DataFrame) -> list[list[str]]:
 
 
 def ratios(upper: pd.DataFrame, lower: pd.DataFrame, factor: str, scene: str) -> Value:
-    """Median over the rounds of the geometric mean over the other factors."""
+    """Returns the median over the rounds of the geometric mean over the other factors."""
     key = ["round", *(name for name in FACTORS if name != factor)]
     times = [rows[rows["scene"] == scene].set_index(key)["wall_s"] for rows in (upper, lower)]
     logs = np.log(times[0] / times[1]).dropna().groupby("round").mean()
@@ -52,7 +53,7 @@ def ratios(upper: pd.DataFrame, lower: pd.DataFrame, factor: str, scene: str) ->
 
 
 def counts(runs: pd.DataFrame) -> list[list[str]]:
-    """What stands behind the times: medians of each combination."""
+    """Returns the counts that explain the times, as medians for each combination."""
     lines = [["scene", *FACTORS, "time, s", "calls, % of it", "ghosts", "moved"]]
     runs = runs[runs["again"] == 0].assign(share=100 * runs["calls_s"] / runs["wall_s"])
     columns = {"wall_s": 2, "share": 2, "ghosts": 0, "moved": 0}
@@ -62,7 +63,7 @@ def counts(runs: pd.DataFrame) -> list[list[str]]:
 
 
 def measure(program: Path, out: Path, minutes: float, rounds: int, points: int, steps: int) -> pd.DataFrame:
-    """Round by round through the scenes; writes after each."""
+    """Runs the scenes round by round. Writes the results after each round."""
     runs = pd.DataFrame()
     end = time.monotonic() + 60 * minutes
     for number in range(rounds):

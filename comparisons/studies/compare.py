@@ -73,7 +73,7 @@ def main() -> int:
 
 
 def _read_options(words: list[str]) -> tuple[argparse.Namespace, list[str]]:
-    """Those that matter here, and those that are the driver's alone."""
+    """Returns the options needed here, and the words that are passed to the driver."""
     if {"--help", "-h"} & set(words):
         print(__doc__, end="")
         sys.exit()
@@ -98,7 +98,7 @@ def _folder(text: str) -> Path:
 
 
 def _compare(ranks: int, out: Path, words: list[str]) -> int:
-    """Runs the driver, and reports what it wrote; files of an earlier comparison go first."""
+    """Removes the files of an earlier comparison, runs the driver and reports what it wrote."""
     started = time.time() - 1
     status = on_ranks(ranks, COMPARE, f"--out={out}", *words).returncode
     table = out / "table.csv"

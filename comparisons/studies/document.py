@@ -1,4 +1,4 @@
-"""A report: text, tables and pictures, written as report.md."""
+"""A report that consists of text, tables and pictures, written as report.md."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ class Report:
         self.blocks = [f"# {title}"]
 
     def text(self, text: str) -> None:
-        """Nothing if the text is empty."""
+        """Adds a paragraph unless the text is empty."""
         self.blocks += [text] * bool(text)
 
     def picture(self, name: str, caption: str) -> None:
-        """Nothing if there is no such picture."""
+        """Adds a picture if the file exists."""
         if (self.folder / name).exists():
             self.text(f"![{caption.split('. ')[0].rstrip('.')}]({name})\n\n*{caption}*")
 
     def table(self, caption: str, rows: pd.DataFrame) -> None:
-        """Nothing without rows."""
+        """Adds a table unless it has no rows."""
         if len(rows):
             self.text(f"**{caption}**\n\n{markdown_table([list(rows), *rows.values.tolist()])}")
 
     def write(self, record: Path) -> None:
-        """Ends with the machine and `record`, the driver's run.txt."""
+        """Writes the report. It ends with the machine and `record`, the driver's run.txt."""
         memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
         text = f"{_processor()}, {CORES} cores, {memory:.1f} GiB, {platform.platform()}\n"
         self.text("## The run\n\n```\n" + text + (record.read_text() if record.exists() else "") + "```")
@@ -41,13 +41,13 @@ class Report:
 
 
 def markdown_table(lines: list[list]) -> str:
-    """The first line is the header."""
+    """Returns a table in Markdown. The first line is the header."""
     header, *rows = ("| " + " | ".join(map(str, line)) + " |" for line in lines)
     return "\n".join([header, "|---" * len(lines[0]) + "|", *rows])
 
 
 def show(caption: str, rows: pd.DataFrame) -> None:
-    """Prints a table of texts."""
+    """Prints a table whose cells are texts."""
     lines = [list(rows), *rows.values.tolist()]
     widths = [max(map(len, column)) for column in zip(*lines)]
     print(f"\n{caption}\n")
@@ -63,7 +63,7 @@ def _processor() -> str:
 
 
 def shared_cores(ranks: int) -> str:
-    """What wall times mean if ranks have no core each; empty if they have."""
+    """Explains wall times if ranks share cores; empty if each rank has a core."""
     if ranks <= CORES:
         return ""
     return (

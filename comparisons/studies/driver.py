@@ -1,4 +1,4 @@
-"""Sets up, builds and runs the comparison driver, rrcb_compare, for the studies."""
+"""Configures, builds and runs the comparison driver, rrcb_compare, for the studies."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ COMPARE = PROGRAMS / "rrcb_compare"
 
 
 def build(*targets: str, multijagged: bool = False) -> None:
-    """Ends the program if it fails; goes on without Zoltan2, a minute to compile, if that cannot be installed."""
+    """Builds targets. Ends the program if that fails. Zoltan2 takes a minute to compile; continues without it if it
+    cannot be installed."""
     if multijagged and subprocess.run([ROOT / "tools/set_up", "--for", "multijagged"]).returncode:
         print("Going on without Zoltan2, so without zoltan2-mj.", file=sys.stderr)
     option = f"-DRRCB_MULTIJAGGED={'ON' if multijagged else 'OFF'}"
@@ -40,7 +41,7 @@ def on_ranks(ranks: int, program: Path, *arguments: str, **how) -> subprocess.Co
 
 
 class Driver:
-    """Calls of one build of the driver, each into a folder of its own below `out`."""
+    """Runs one build of the driver. Each run has its own folder below `out`."""
 
     def __init__(self, out: Path, program: Path = COMPARE, quick: bool = False) -> None:
         self.out, self.program, self.quick = out, program, quick

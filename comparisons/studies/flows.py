@@ -24,13 +24,13 @@ from results import read_all
 RUN = ["flow", "dim", "parts", "policy"]
 FACTORS = (1, 10)  # H
 RADII = ("near", "wide")
-MOST_RANKS = 16  # a rank for each part up to there
+MOST_RANKS = 16  # up to this number each part has a rank
 BASE = "fresh"
 QUICK = "rod,drops"
 
 
 def follow(program: Path, out: Path, parts: int, flows: str, policies: str) -> pd.DataFrame:
-    """A row for each flow, policy and call."""
+    """Returns a row for each flow, policy and call."""
     file, ranks = out / f"calls_{parts}.csv", min(parts, MOST_RANKS)
     print(f"rrcb_flows {parts} {flows} on {ranks} ranks", file=sys.stderr, flush=True)
     with file.open("w") as rows:
@@ -43,7 +43,8 @@ def ratio_name(factor: float, radius: str) -> str:
 
 
 def summary(calls: pd.DataFrame) -> pd.DataFrame:
-    """A row for each run: sums over the calls, ghosts of a call on average, and its cost over that of the best policy."""
+    """Returns a row for each run: sums over the calls, the mean number of ghosts per call, and the cost divided by that
+    of the best policy."""
     runs = calls.groupby(RUN, sort=False)
     rows = runs[["moved", "messages"]].sum()
     rows.insert(0, "calls", runs.size())
@@ -57,7 +58,7 @@ def summary(calls: pd.DataFrame) -> pd.DataFrame:
 
 
 def cost_table(rows: pd.DataFrame, radius: str) -> list[list[str]]:
-    """The mean and the worst ratio of each policy, over flows and numbers of parts."""
+    """Returns the mean and the worst ratio of each policy, over all flows and numbers of parts."""
     lines = [["policy", *(f"H = {factor:g}: {of}" for factor in FACTORS for of in ("mean", "worst", "worst case"))]]
     for policy, own in rows.groupby("policy", sort=False):
         line = [policy]
@@ -70,7 +71,7 @@ def cost_table(rows: pd.DataFrame, radius: str) -> list[list[str]]:
 
 
 def traffic_table(rows: pd.DataFrame) -> list[list[str]]:
-    """MPI calls of all flows, and the worst flow against the base."""
+    """Returns the MPI calls of all flows, and the worst flow compared with the base."""
     lines = [["parts", "policy", "MPI calls a call", f"/ {BASE}", f"worst / {BASE}"]]
     for (parts, policy), own in rows.groupby(["parts", "policy"], sort=False):
         own, base = (of.set_index("flow")["messages"] for of in (

@@ -1,5 +1,5 @@
-"""Draws the points that one rank gets as ghosts: those within the radius of its box, or those whose own
-radii reach it."""
+"""Draws the points that one rank receives as ghosts: those within the radius of its box, or those whose own radius
+reaches the box."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ RADIUS = 0.09
 
 
 def halves(points: np.ndarray, box: np.ndarray, parts: int) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Boxes of as many points each, cut across their longest side, with their points."""
+    """Returns boxes with equal numbers of points, cut across their longest side, and their points."""
     if parts == 1:
         return [(box, points)]
     axis = int(np.argmax(box[1] - box[0]))
@@ -25,7 +25,7 @@ def halves(points: np.ndarray, box: np.ndarray, parts: int) -> list[tuple[np.nda
 
 
 def draw_layer() -> plot.Figure:
-    """The ghosts of rank 3 of eight."""
+    """Draws the ghosts of rank 3 of eight ranks."""
     points = np.random.default_rng(5).beta(1.3, 1.9, (700, 2)) * [1.6, 1]
     ranks = halves(points, np.array([[0, 0], [1.6, 1]]), 8)
     figure, grid = plot.panels(1, 1, 7.2, 4.6)
@@ -48,7 +48,7 @@ def draw_layer() -> plot.Figure:
 
 
 def draw_radii() -> plot.Figure:
-    """Two points on either side of a cut: one within whose radius the other rank needs it, one not."""
+    """Draws two points near a cut. The other rank needs the one whose radius crosses the cut, but not the other one."""
     figure, grid = plot.panels(1, 1, 4.6, 2.7)
     axes = grid[0, 0]
     points = {"A": (0.7, 0.5, 0.42, "rank 1 gets A as a ghost"), "B": (1.5, 0.5, 0.27, "rank 0 does not get B")}

@@ -1,6 +1,6 @@
 """Compares the ghosts of methods on 16 clouds.
 
-With --loads it counts the loads of part sizes that are corrected by ghosts instead.
+With --loads it instead counts the loads of parts whose sizes are corrected for their ghosts.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ LOAD_RANKS = (8, 16, 32)
 
 
 def ratios(rows: pd.DataFrame) -> pd.DataFrame:
-    """Counts of each cloud, dimension, number of parts, seed and method over those of Zoltan's RCB."""
+    """Returns the counts of each cloud, dimension, number of parts, seed and method divided by those of Zoltan's RCB.
+    """
     counts = rows.set_index([*CASE, "seed", "method"])[COUNTS]
     return counts / counts.xs(BASE, level="method").reindex(counts.droplevel("method").index).to_numpy()
 
@@ -32,7 +33,7 @@ def mean(numbers: pd.Series) -> float:
 
 
 def table(found: pd.DataFrame) -> list[list[str]]:
-    """By cloud and dimension, geometric means of parts and seeds; then those of all clouds."""
+    """Returns the geometric means over parts and seeds for each cloud and dimension, then those of all clouds."""
     methods = [m for m in found.index.unique("method") if m != BASE]
     ghosts = found["ghosts"].groupby(["cloud", "dim", "method"], sort=False).agg(mean).unstack("method")
     lines = [["cloud", *methods]]
@@ -47,7 +48,8 @@ def table(found: pd.DataFrame) -> list[list[str]]:
 
 
 def load_table(rows: pd.DataFrame) -> list[list[str]]:
-    """By parts and cost of a ghost: the largest load over the mean load, mean of the clouds and worst, by corrections."""
+    """Returns a line for each number of parts and cost of a ghost. It has the largest load divided by the mean load
+    after each correction, as mean over the clouds and worst value."""
     numbers = sorted(rows["corrections"].unique())
     lines = [["parts", "cost of a ghost", *(f"{n} corrections: mean (worst)" for n in numbers),
               *(f"{n} / 0" for n in numbers[1:]), "ghosts after 2 / 0", "at most 1.03: 0; 2"]]  # fmt: skip

@@ -1,4 +1,4 @@
-"""The load unbalance over the steps of simulations."""
+"""Draws the load unbalance during simulations."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import plot
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-MOST_WINDOWS = 150  # lines that swing at every rebalance would run into one another
+MOST_WINDOWS = 150  # with more windows lines that change at every rebalance would overlap
 TIME = "time simulated [s]"
 
 
@@ -24,24 +24,24 @@ def draw_history(histories: dict[str, pd.DataFrame]) -> Figure | None:
 def per_part(
     history: pd.DataFrame, column: str = "lu_percent"
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Times of the steps, and the column as an array of parts by steps."""
+    """Returns the times of the steps, and a column as an array of parts by steps."""
     values = history.pivot_table(column, "part", "step", dropna=False)
     values = values.reindex(range(history["part"].max() + 1))
     return history.groupby("step")["time"].first().to_numpy(), values.to_numpy()
 
 
 def one_point(history: pd.DataFrame) -> float:
-    """What one point more in a part is, in percent of the mean."""
+    """Returns how much one more point in a part is, in percent of the mean."""
     return 100 / max(history["points"][history["step"] == history["step"].iloc[0]].mean(), 1)
 
 
 def _windows(steps: int) -> np.ndarray:
-    """First step of each window of consecutive steps."""
+    """Returns the first step of each window of consecutive steps."""
     return np.unique(np.linspace(0, steps, min(steps, MOST_WINDOWS), endpoint=False).astype(int))
 
 
 def _draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
-    """The worst part of every method, the worst step of each window."""
+    """Draws the worst part of every method, in the worst step of each window."""
     for method, style in plot.distinct_styles(histories).items():
         times, unbalance = per_part(histories[method])
         worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), one_point(histories[method]))
@@ -55,7 +55,7 @@ def _draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
 
 
 def draw_seconds(axes: Axes, history: pd.DataFrame) -> None:
-    """The time of each rank in a step, mean of each window; dashed: mean of the ranks."""
+    """Draws the time of each rank in a step as mean of each window; a dashed line is the mean of the ranks."""
     times, seconds = (values[..., 1:] for values in per_part(history, "seconds"))
     windows = _windows(len(times))
     lengths = np.diff([*windows, len(times)])

@@ -1,4 +1,4 @@
-"""Numbers with intervals of 95 %: how they are found and written, and what they tell apart."""
+"""Finds, compares and formats numbers with 95 % intervals."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ CONFIDENCE = 0.95
 
 @dataclass(frozen=True)
 class Value:
-    """A number and the ends of its interval, which are NaN where it has none."""
+    """A number and the ends of its interval. They are NaN if it has none."""
 
     number: float
     low: float = nan
     high: float = nan
-    count: int = 1  # of the values it is the median of
+    count: int = 1  # number of values of which it is the median
 
     @property
     def has_interval(self) -> bool:
@@ -26,20 +26,21 @@ class Value:
 
     @property
     def reach(self) -> tuple[float, float]:
-        """The interval, else the number twice."""
+        """Returns the interval, or the number twice if it has none."""
         return (self.low, self.high) if self.has_interval else (self.number, self.number)
 
     def __truediv__(self, other: Value) -> Value:
-        """Its interval is too wide where the two were measured in turns."""
+        """Returns the ratio. Its interval is too wide if both numbers were measured in turns."""
         ends = (self.low / other.high, self.high / other.low) if other.low > 0 else (nan, nan)
         return Value(self.number / other.number, *ends)
 
     def is_apart(self, other: Value) -> bool:
-        """False where the intervals overlap; where one was not measured the numbers count."""
+        """Returns False if the intervals overlap. If one has no interval, compares the numbers."""
         return not (self.low <= other.high and other.low <= self.high)
 
     def text(self, digits: int, kind: str = "f") -> str:
-        """As in 17.5 [17.1, 18.0]; the number alone where it has no interval or it is a point."""
+        """Returns a text like 17.5 [17.1, 18.0], or the number alone if it has no interval or the interval is a point.
+        """
         number, low, high = (f"{v:.{digits}{kind}}" for v in (self.number, self.low, self.high))
         return f"{number} [{low}, {high}]" if self.low < self.high else number
 
@@ -48,23 +49,23 @@ ONE = Value(1, 1, 1)
 
 
 def value_of(row: object, name: str) -> Value:
-    """Of a row with the columns name, name_low and name_high."""
+    """Returns the value of a row with the columns name, name_low and name_high."""
     return Value(*(getattr(row, name + end, nan) for end in ("", "_low", "_high")))
 
 
 def in_digits(value: float, significant: int) -> str:
-    """Rounded, without powers of ten."""
+    """Returns the value rounded to significant digits, without powers of ten."""
     return f"{float(f'{value:.{significant}g}'):g}"
 
 
 def decimals(values: Iterable[float], significant: int) -> int:
-    """Behind the point, for the least of these positive values to keep so many digits."""
+    """Returns the number of decimals with which the smallest of these positive values keeps its significant digits."""
     least = min((value for value in values if value > 0), default=1.0)
     return max(0, significant - 1 - floor(log10(least)))
 
 
 def mean_of(values: Iterable[Value]) -> Value:
-    """Geometric mean; its interval is as wide as if all erred to the same side."""
+    """Returns the geometric mean. Its interval is as wide as if all errors had the same sign."""
     values = list(values)
     known = all(v.low > 0 for v in values)
     ends = ([v.low for v in values], [v.high for v in values]) if known else ()
@@ -72,9 +73,9 @@ def mean_of(values: Iterable[Value]) -> Value:
 
 
 def interval95(values: Iterable[float]) -> tuple[float, float]:
-    """Two order statistics, equally far from both ends, that hold the median of what the values
-    are drawn from with at least 95 %: the narrowest such pair, by the binomial distribution. NaN
-    of fewer than 6 values, where even the least and the most hold it with less."""
+    """Returns a confidence interval of at least 95 % for the median of the distribution of the values. It is the
+    narrowest one that leaves out equally many values at each end, by the binomial distribution. Returns NaN for
+    fewer than 6 values, whose full range has less than 95 % confidence."""
     ordered = sorted(values)
     count = len(ordered)
     left_out = -1

@@ -1,4 +1,4 @@
-"""What the names of methods say: their parameters."""
+"""Reads parameters from the names of methods."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def parse(method: str) -> tuple[str, dict[str, str]]:
 
 
 def setting_of(method: str) -> tuple[float, ...]:
-    """Mesh, multiplier k and fraction of the paper's grid; empty of other methods."""
+    """Returns the mesh, multiplier k and fraction of the paper's grid; empty for other methods."""
     name, parameters = parse(method)
     is_setting = name == "rrcb-sampled" and list(parameters) == ["mesh", "k", "fraction"]
     return tuple(map(float, parameters.values())) if is_setting else ()

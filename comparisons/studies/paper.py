@@ -1,5 +1,5 @@
-"""Measures the paper's claims again and draws its figures 2 to 6. Each part runs the driver, whose CSV
-files then have all that the figures and the table are made of."""
+"""Measures the paper's claims again and draws its figures 2 to 6. Each part runs the driver, whose CSV files contain
+everything that the figures and the table need."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ SEEDS = 200
 
 
 def measure_boxes(driver: Driver) -> None:
-    """Figures 2 to 4, and the drawn points of the four settings."""
+    """Measures figures 2 to 4, and the drawn points of the four settings."""
     runs = {"six": RCB, "mesh": FINEST} | {f"setting-{n}": s for n, s in enumerate(WINNERS, 1)}
     for name, method in runs.items():
         driver.run(name, 6 if name == "six" else 4, [method], "--only=calls", "--repeats=1")
 
 
 def measure_snapshots(driver: Driver) -> None:
-    """The paper's parameters, and how traffic grows with the points."""
+    """Measures the paper's parameters, and how traffic grows with the number of points."""
     methods = ["zoltan-rcb", RCB, RCB + "[cut=midpoint]", "rrcb", "rrcb-exact"]
     methods += GRID[:: 5 if driver.quick else 1]
     methods += [setting for setting in WINNERS if setting not in methods]
@@ -47,34 +47,34 @@ def measure_snapshots(driver: Driver) -> None:
 
 
 def _simulate(driver: Driver, name: str, ranks: int, methods: list[str], steps: int, rounds: int) -> None:
-    """Rebalanced at each step, as in the paper."""
+    """Runs simulations that rebalance in each step, as in the paper."""
     words = ["--only=simulations", "--every=1", f"--repeats={2 if driver.quick else rounds}"]
     driver.run(name, ranks, methods, *words, *([] if driver.quick else [f"--steps={steps}"]))
 
 
 def measure_simulations(driver: Driver) -> None:
-    """Ten rounds with a seed each; and rebalanced seldom."""
+    """Runs ten rounds with a seed each. Also runs simulations that rebalance rarely."""
     _simulate(driver, "simulations", 4, [RCB, "rrcb", *WINNERS], STEPS, 10)
     _simulate(driver, "serial", 1, ["none"], STEPS, 10)
     driver.run("seldom", 4, [RCB], "--only=simulations", f"--every={SELDOM}", "--repeats=1")
 
 
 def measure_grid(driver: Driver) -> None:
-    """Figure 5: every mesh, k and fraction of the paper's charts, in the same rounds."""
+    """Measures figure 5: every mesh, k and fraction of the paper's charts, in the same rounds."""
     methods = [RCB, *(setting for setting in GRID if setting_of(setting)[1] in CHART_K)]
     _simulate(driver, "grid", 4, methods[:: 9 if driver.quick else 1], STEPS_OF_GRID, 6)
     _simulate(driver, "grid-serial", 1, ["none"], STEPS_OF_GRID, 6)
 
 
 def measure_ranks(driver: Driver) -> None:
-    """The paper's table 1: other numbers of processes."""
+    """Measures the paper's table 1 for other numbers of processes."""
     for ranks in RANKS[:1] if driver.quick else RANKS:
         _simulate(driver, f"ranks-{ranks}", ranks, [RCB, STANDARD], STEPS_BY_RANKS, 6)
     _simulate(driver, "ranks-1", 1, ["none"], STEPS_BY_RANKS, 6)
 
 
 def measure_seeds(driver: Driver) -> None:
-    """The settings with 2 σ under many seeds, to tell the meshes apart."""
+    """Runs the settings with 2 σ with many seeds, so that the meshes can be distinguished."""
     seeds = range(1, 3 if driver.quick else SEEDS + 1)
     methods = [f"{setting[:-1]},seed={seed}]" for setting in WINNERS[1:] for seed in seeds]
     driver.run("seeds", 4, methods, "--only=calls", "--no-data", "--repeats=1")
@@ -91,7 +91,7 @@ PARTS = {
 
 
 def rank_table(out: Path) -> pd.DataFrame:
-    """The paper's table 1: speed-up over serial by number of processes."""
+    """Returns the paper's table 1: the speed-up over one process by number of processes."""
     lines = []
     for ranks in RANKS:
         speeds = speed_ups(out / f"ranks-{ranks}", out / "ranks-1")
@@ -100,7 +100,7 @@ def rank_table(out: Path) -> pd.DataFrame:
 
 
 def seed_table(out: Path) -> pd.DataFrame:
-    """Median excess over the seeds in per cent, by mesh and snapshot."""
+    """Returns the median excess over the seeds in percent, by mesh and snapshot."""
     rows = measurements(read(out / "seeds/table.csv"))
     if rows.empty:
         return rows

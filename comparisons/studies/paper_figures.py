@@ -1,5 +1,4 @@
-"""Figures 2 to 6 of the paper as it has them, and the map from one cut to the next that docs/design/paper.md
-derives."""
+"""Draws figures 2 to 6 like the paper, and the map from one cut to the next that docs/design/paper.md derives."""
 
 from __future__ import annotations
 
@@ -34,7 +33,7 @@ CAPTIONS = {
 
 
 def draw_all(out: Path) -> list[str]:
-    """Draws the figures whose files are there; returns their names."""
+    """Draws the figures whose files exist. Returns their names."""
     figures = (draw_boxes, draw_mesh, draw_domain, draw_speed_ups, draw_largest, draw_map)
     drawn = {name: figure for name, draw in zip(CAPTIONS, figures) if (figure := draw(out))}
     for name, figure in drawn.items():
@@ -44,7 +43,7 @@ def draw_all(out: Path) -> list[str]:
 
 
 def draw_together(out: Path, names: list[str]) -> None:
-    """Small, one below the other, for the page that discusses them."""
+    """Draws the figures small and below each other, for the page that discusses them."""
     images = [plot.plt.imread(out / name) for name in names]
     if not images:
         return
@@ -95,7 +94,7 @@ def draw_domain(out: Path) -> Figure | None:
 
 
 def sub_domain(results: Results) -> pd.DataFrame:
-    """Cells of the rank with the fewest, which has the incline: cells without points are left out."""
+    """Returns the cells of the rank with the fewest, which contains the incline: cells without points are left out."""
     cells = results.data("cells", START)
     return cells if cells.empty else cells[cells["rank"] == cells["rank"].value_counts().idxmin()]
 
@@ -135,7 +134,7 @@ def draw_speed_ups(out: Path) -> Figure | None:
 
 
 def speed_ups(folder: Path, serial: Path) -> dict[str, Value]:
-    """Of each method: median serial critical path / its own, over the rounds."""
+    """Returns for each method the median critical path of the serial run divided by its own, over the rounds."""
     runs, alone = (once(sound(Results(of).all_runs)) for of in (folder, serial))
     if runs.empty or alone.empty:
         return {}
@@ -151,10 +150,10 @@ def draw_largest(out: Path) -> Figure | None:
 
 
 def next_offset(offset: float, mesh: int, multiplier: float) -> float:
-    """The cut of evenly spread points on [0, 1] after that at 1/2 + offset, less 1/2.
+    """Returns the offset from 1/2 of the cut that follows a cut at 1/2 + offset, for uniform points on [0, 1].
 
-    A rank lies on each side of the cut, with `mesh` cells; a box is r = k / √3 times as wide as its
-    cell. docs/design/paper.md derives it; for r < 2 and cuts less than about |r - 1| cells from 1/2.
+    On each side of the cut is a rank with `mesh` cells. A box is r = k / √3 times as wide as its cell. The model is
+    valid for r < 2 and cuts less than about |r - 1| cells from 1/2. docs/design/paper.md derives it.
     """
     r = multiplier / sqrt(3)
     if r > 1:
@@ -164,7 +163,7 @@ def next_offset(offset: float, mesh: int, multiplier: float) -> float:
 
 
 def draw_map(_: Path) -> Figure:
-    """The map of the model with its steps, for a multiplier below, at and above √3; mesh 4."""
+    """Draws the map of the model with its steps, for multipliers below, at and above √3, with a mesh of 4."""
     figure, grid = plot.panels(1, 3, 9, 3.8, sharey=True)
     for axes, (multiplier, name) in zip(grid[0], ((1.5, "1.5"), (sqrt(3), "√3"), (2, "2"))):
         _draw_steps(axes, 4, multiplier, -0.016)

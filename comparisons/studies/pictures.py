@@ -1,5 +1,5 @@
-"""The pictures of comparisons/run: ghosts, and load unbalance over the steps. Their captions are the docstrings of
-what draws them."""
+"""Draws the pictures of comparisons/run: ghosts, and load unbalance over the steps. The docstrings of the functions
+that draw them are their captions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ BASE, METHOD = "zoltan-rcb", "rrcb"
 
 
 def draw_all(results: Results) -> dict[str, str]:
-    """Draws what there is data for, and removes pictures of earlier runs; returns the captions."""
+    """Draws the pictures that have data, and removes those of earlier runs. Returns the captions."""
     plot.use_style()
     captions = {}
     for name, draw in PICTURES.items():
@@ -27,9 +27,9 @@ def draw_all(results: Results) -> dict[str, str]:
 
 
 def draw_ghosts(results: Results) -> Figure | None:
-    """Points by part at the end of a scene, and in black those that are ghosts of another part, because
-    one of its points is within twice the median distance to the nearest point. Not of the slope, whose parts
-    are strips under all methods."""
+    """Points by part at the end of a scene. Black points are ghosts of another part, because one of its points is
+    within twice the median distance to the nearest point. The slope has no such picture: with all methods its parts
+    are strips."""
     end = results.table
     if len(end):
         end = end[end["workload"].str.endswith("-end") & (end["workload"] != "slope-end")]
@@ -56,7 +56,8 @@ def draw_ghosts(results: Results) -> Figure | None:
 
 
 def are_near_others(points: pd.DataFrame) -> np.ndarray:
-    """Of each point, whether one of another part is within twice the median distance to the nearest."""
+    """Returns for each point whether a point of another part is within twice the median distance to the nearest point.
+    """
     x, parts = points[["x", "y"]].to_numpy(), points["part"].to_numpy()
     squared = lambda some: ((some[:, None] - x) ** 2).sum(axis=2)  # noqa: E731
     spacings = squared(x[:: len(x) // 128 + 1])
@@ -68,14 +69,14 @@ def are_near_others(points: pd.DataFrame) -> np.ndarray:
 
 
 def draw_unbalance(results: Results) -> Figure | None:
-    """The largest load unbalance of a part over the steps of the simulation, the worst of each window
-    of steps. Without learned costs, which even the time and not the points."""
+    """The largest load unbalance of a part during the simulation, as the worst step of each window of steps.
+    Simulations with learned costs are left out, because they balance the time and not the points."""
     return draw_history({name: of for name, of in results.histories().items() if name != "learned"})
 
 
 def draw_rank_times(results: Results) -> Figure | None:
-    """The time of each rank in a step over the simulation, if points are counted and if they weigh what
-    they are learned to cost; dashed: the mean of the ranks."""
+    """The time of each rank in a step during the simulation, with counted points and with points that weigh their
+    learned costs. The dashed line is the mean of the ranks."""
     histories = results.histories()
     if not {"count", "learned"} <= histories.keys():
         return None

@@ -1,4 +1,4 @@
-"""One look for all pictures: colours, lines with intervals, panels, axes, and labels."""
+"""The common style of all pictures: colours, lines with intervals, panels, axes and labels."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from matplotlib.figure import Figure  # noqa: E402
 from matplotlib import ticker  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
 
-# Of parts; any two differ from one another and from those of methods by 14 units of CIELAB or more.
+# Colours of parts. Any two of them, and any of them and a method's colour, differ by at least 14 units of CIELAB.
 PART_COLOURS = (
     "#B197FF #E5D870 #FF7D70 #7DA43C #3CE5FF #FF7DBE #E5A449 #8A97BE #63F2B1 #CB8A97 "
     "#F2D8BE #49B163 #FFCBFF #7DA48A #BEE5A4 #B1A463 #3CA4FF #FFA4FF #70D8BE #3CA4BE"
@@ -36,8 +36,8 @@ class MethodStyle(NamedTuple):
     marker: str
 
 
-# After M. Okabe and K. Ito: Color universal design (2008); the line style and the marker tell the
-# methods apart without the colour. Settings of one method are shades of its colour.
+# Colours after M. Okabe and K. Ito: Color universal design (2008). The line style and the marker distinguish the
+# methods without colour. Settings of one method are shades of its colour.
 _METHODS = {
     "none": MethodStyle("#888888", (0, (1, 1)), "x"),
     "zoltan-rcb": MethodStyle("#000000", "--", "s"),
@@ -64,12 +64,12 @@ _LINES = ("--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 3)))
 
 
 def method_style(method: str) -> MethodStyle:
-    """Of the setting, of its method where the setting has none."""
+    """Returns the style of the setting, or that of its method if the setting has none."""
     return _METHODS.get(method) or _METHODS.get(method.split("[")[0]) or _OTHER
 
 
 def distinct_styles(methods: Iterable[str]) -> dict[str, MethodStyle]:
-    """Of each method; settings that share a style get other lines."""
+    """Returns the style of each method. Settings with the same style get different lines."""
     styles: dict[str, MethodStyle] = {}
     for method in dict.fromkeys(methods):
         style = method_style(method)
@@ -105,7 +105,7 @@ def use_style() -> None:
 
 
 def panels(lines: int, columns: int, width: float, height: float, **share) -> tuple:
-    """A figure, and its panels as an array of lines and columns."""
+    """Returns a figure and its panels as an array of lines and columns."""
     return plt.subplots(lines, columns, figsize=(width, height), squeeze=False, **share)
 
 
@@ -117,18 +117,18 @@ def label_edges(grid: np.ndarray, x: str, y: str) -> None:
 
 
 def legend_above(figure: Figure, axes: Axes, inches: float = 1.45) -> Figure:
-    """What the axes are labelled; outside of the panels, in as many lines as the width needs at
-    `inches` an entry."""
+    """Draws the legend of the axes above the panels. An entry is `inches` wide, which determines the number of lines.
+    """
     handles = axes.get_legend_handles_labels()[0]
     most = max(1, int(figure.get_figwidth() / inches))
     lines = -(-len(handles) // most)
-    figure.suptitle("\n" * (lines - 1) + " ", fontsize=13)  # keeps room for the legend
+    figure.suptitle("\n" * (lines - 1) + " ", fontsize=13)  # reserves space for the legend
     figure.legend(handles=handles, loc="upper center", ncol=-(-len(handles) // lines))
     return figure
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Writes the picture; its logarithmic axes get plain numbers, two of them at least."""
+    """Writes the picture. Its logarithmic axes get plain numbers, at least two."""
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
         is_fixed = isinstance(axis.get_major_locator(), ticker.FixedLocator)
         if axis.get_scale() == "log" and not is_fixed:
@@ -149,27 +149,27 @@ def _label_plainly(axis: Axis) -> None:
 
 
 def _plain_number(value: float, _: int) -> str:
-    """Without powers of ten: 0.001, 100,000, 1 M."""
+    """Formats a number without powers of ten: 0.001, 100,000, 1 M."""
     if value >= 1e6:
         return f"{value / 1e9:g} G" if value >= 1e9 else f"{value / 1e6:g} M"
     return f"{value:,.0f}" if value >= 1 and value == round(value) else f"{value:.12f}".rstrip("0")
 
 
-# --- what stands in them ---
+# --- contents of panels ---
 
 
 def draw_line(
     axes: Axes, x: Sequence[float], y: Sequence[float], low: Sequence[float], high: Sequence[float],
     band: float = 0.15, **look
 ) -> None:
-    """Through the numbers, in a band from low to high."""
+    """Draws a line through the numbers, in a band from low to high."""
     (line,) = axes.plot(x, y, **look)
-    if len(y) > 1:  # else it would be as high as it is invisible
+    if len(y) > 1:  # a single point has no band
         axes.fill_between(x, low, high, color=line.get_color(), alpha=band, linewidth=0)
 
 
 def show_lengths(axes: Axes) -> None:
-    """Equal scales on both axes, in metres."""
+    """Gives both axes equal scales, in metres."""
     axes.set_aspect("equal")
     axes.margins(0.02)
     axes.set_xlabel("x [m]")
@@ -178,7 +178,7 @@ def show_lengths(axes: Axes) -> None:
 
 
 def length_ratio(clouds: Iterable[pd.DataFrame]) -> float:
-    """Height over width of panels that show every cloud, within what a picture can hold."""
+    """Returns the height of panels that show every cloud, divided by the width, within limits."""
     all_points = pd.concat([cloud[["x", "y"]] for cloud in clouds])
     width, height = all_points.max() - all_points.min()
     return float(np.clip(height / max(width, 1e-300), 0.2, 1.2))
@@ -187,8 +187,8 @@ def length_ratio(clouds: Iterable[pd.DataFrame]) -> float:
 def draw_cloud(
     axes: Axes, points: pd.DataFrame, colours: Sequence[str] | str, largest: float = 20
 ) -> None:
-    """Draws at most MAX_POINTS of the points, evenly chosen, with markers so large that all together
-    cover about the area of the axes, or the largest."""
+    """Draws at most MAX_POINTS of the points, at equal distances in their order. The markers are so large that together
+    they cover about the area of the axes, but no larger than `largest`."""
     chosen = slice(None, None, len(points) // MAX_POINTS + 1)
     x, y = points["x"][chosen], points["y"][chosen]
     size = axes.get_position(original=True).size * axes.figure.get_size_inches() * 72

@@ -36,7 +36,7 @@ RIVALS = {
     ZOLTAN: "Zoltan's RCB", "zoltan-hsfc": "Zoltan's HSFC", "hilbert-counts": "counted keys",
     "zoltan2-mj": "multijagged",
 }  # fmt: skip
-MOST_A_CORE = 8  # ranks that are timed; of more the waits are those of the machine
+MOST_A_CORE = 8  # ranks per core up to which calls are timed; with more the scheduler dominates
 LOOKS = {
     "time": "time / Zoltan's RCB", "rounds": "rounds of counting", "bytes": "bytes / Zoltan's RCB",
     "excess_percent": "imbalance left [%]",
@@ -56,7 +56,8 @@ def measure(driver: Driver, parts: list[int], points: int, repeats: int) -> None
 
 
 def rows_of(out: Path) -> pd.DataFrame:
-    """A row for each cloud, number of parts and method; times as ratios to Zoltan's RCB and to exact."""
+    """Returns a row for each cloud, number of parts and method, with times as ratios to Zoltan's RCB and to exact cuts.
+    """
     found = []
     for folder in sorted(path.parent for path in out.glob("*/call_times.csv")):
         turns = read(folder / "call_times.csv")
@@ -77,22 +78,22 @@ def _ratio(turns: pd.DataFrame, method: str, reference: str) -> Value:
 
 
 def noise_of(out: Path) -> Value:
-    """Zoltan's RCB over itself: an A/A test, whose interval must contain 1. A run counts once, because its
-    turns share the places of both arms in memory."""
+    """Returns the ratio of Zoltan's RCB to itself: an A/A test, whose interval must contain 1. A run counts once,
+    because all its turns have both arms at the same places in memory."""
     runs = [read(path) for path in sorted(out.glob("*/call_times.csv"))]
     return median_of(_ratio(turns, ZOLTAN + AGAIN, ZOLTAN).number for turns in runs if turns["turn"].max() > 1)
 
 
 def break_even(row: pd.Series, exact: pd.Series, step_ns: float) -> float:
-    """Steps between two rebalances from which exact cuts pay: what they cost more over what each step
-    then saves. Calls and steps share the cores alike."""
+    """Returns the number of steps between two rebalances above which exact cuts pay: their additional cost divided by
+    what each step then saves. Calls and steps share the cores in the same way."""
     dearer = exact["time_ms"] - row["time_ms"]
     saved = (row["imbalance"] - exact["imbalance"]) * row["points"] / min(CORES, row["ranks"]) * step_ns / 1e6
     return 0.0 if dearer <= 0 else dearer / saved if saved > 0 else inf
 
 
 def table_of(rows: pd.DataFrame, parts: int, step_ns: float) -> pd.DataFrame:
-    """A line for each setting: the median of the clouds, and the worst in brackets."""
+    """Returns a line for each setting, with the median of the clouds and the worst cloud in brackets."""
     rows = rows[rows["ranks"] == parts].set_index("case")
     by_method = dict(iter(rows.groupby("method")))
     exact, lines = by_method[EXACT], []
@@ -117,7 +118,7 @@ def _both(values: pd.Series, form: str) -> str:
 
 
 def choice_table(rows: pd.DataFrame, parts: int) -> pd.DataFrame:
-    """For each cloud the finest tolerance that costs no more than the widest: in rounds and bytes, to 10 %."""
+    """Returns for each cloud the finest tolerance that costs at most 10 % more rounds and bytes than the widest."""
     lines = []
     for case, of in rows[rows["ranks"] == parts].groupby("case", sort=False):
         by = of.set_index("method")
@@ -171,7 +172,7 @@ def _draw_panel(axes: Axes, rows: pd.DataFrame, name: str) -> None:
 
 
 def _draw_rivals(axes: Axes, rows: pd.DataFrame, name: str) -> None:
-    """A level for each; levels that are too near for a line of text each share one."""
+    """Draws a level for each method. Levels that are too close for separate labels share one."""
     levels = {}
     for method, of in rows[rows["method"].isin(RIVALS)].groupby("method"):
         levels[RIVALS[method]] = float(np.mean([np.log10(_value(row, name).number) for _, row in of.iterrows()]))

@@ -1,4 +1,4 @@
-"""The report of comparisons/run, from the files that the driver wrote; simulation.csv and noise.csv."""
+"""Writes the report of comparisons/run from the driver's files, simulation.csv and noise.csv."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from simulation import (
 )  # fmt: skip
 
 ZOLTAN = "zoltan-rcb"
-# Each with the exact setting of the same interface: callbacks with callbacks, arrays with arrays.
+# Each method and the exact setting with the same interface: both use callbacks, or both use arrays.
 INTERFACES = {"rrcb": "rrcb-exact", "rrcb-arrays": "rrcb-arrays[refine=exact]"}
 DEFINITIONS = (
     "imbalance: heaviest part / mean part. time: slowest rank, median of the repeats. speed-up: Zoltan RCB's"
@@ -74,7 +74,7 @@ def _add_simulations(report: Report, results: Results) -> None:
     report.table("What a step still pays: the slowest rank over the mean", paid_table(results.rounds))
 
 
-# --- tables: every cell is a text ---
+# --- tables, in which every cell is a text ---
 
 
 def _texts(rows: pd.DataFrame, name: str, digits: int) -> list[str]:
@@ -91,7 +91,7 @@ def _ratio(ratio: Value, is_reference: bool = False) -> str:
 
 
 def _doubt(ratio: Value) -> str:
-    """Follows a ratio and its noun in a sentence."""
+    """Returns a remark to put behind a ratio and its noun if the ratio may be 1; otherwise an empty text."""
     return "" if ratio.is_apart(ONE) else f" ({NOT_TOLD_APART})"
 
 
@@ -140,11 +140,11 @@ def noise_table(noise: pd.DataFrame) -> pd.DataFrame:
     return noise[["workload", "what"]].assign(ratio=[_ratio(ratio) for ratio in ratios])
 
 
-# --- three sentences: what a call costs, what the simulation gains, when it matters ---
+# --- three sentences: cost of a call, gain of the simulation, when the choice matters ---
 
 
 def failures(results: Results) -> list[str]:
-    """A sentence for each method and workload that failed, which the tables leave out."""
+    """Returns a sentence for each method and workload that failed. The tables leave them out."""
     found = [
         f"{row.method} failed on {getattr(row, 'workload', 'the simulation')}: {row.error}"
         for rows in (results.all_rows, results.all_runs)
@@ -162,7 +162,7 @@ def sentences(results: Results) -> list[str]:
 
 
 def _pairs(rows: pd.DataFrame, first: str, second: str) -> list[tuple]:
-    """The rows of two methods in each case that has both."""
+    """Returns the rows of two methods in each case that has both."""
     found = [(row_of(case, first), row_of(case, second)) for case in cases(rows).values()]
     return [(a, b) for a, b in found if a and b]
 
@@ -210,7 +210,7 @@ def _gain(rounds: pd.DataFrame) -> str:
 
 
 def _matter(rounds: pd.DataFrame) -> str:
-    """How often points must need a rebalance for the choice of the balancer to show."""
+    """Describes how often points must need a rebalance for the choice of the balancer to matter."""
     if not {"rrcb", ZOLTAN} <= set(rounds.get("method", ())):
         return ""
     each = balancing(rounds) / rounds["rebalances"].where(rounds["rebalances"] > 0)
@@ -239,7 +239,7 @@ def _ghosts(rows: pd.DataFrame) -> str:
 
 
 def cost_sentence(rounds: pd.DataFrame) -> str:
-    """What learned costs of points gain over counting them."""
+    """Describes the gain of learned costs of points compared with counting them."""
     if (time := paired(rounds, rounds["critical_path_s"], "learned", "count")) is None:
         return ""
     uneven = [of_method(rounds, uneven_work(rounds), method).text(3) for method in ("learned", "count")]
@@ -250,7 +250,7 @@ def cost_sentence(rounds: pd.DataFrame) -> str:
 
 
 def work_sentence(rounds: pd.DataFrame) -> str:
-    """What uneven points cost the steps; empty if balanced methods do not differ in them."""
+    """Describes what an uneven number of points costs the steps; empty if balanced methods do not differ in it."""
     if (slope := slope_of_work(rounds)) is None:
         return ""
     zero = Value(0, 0, 0)
@@ -259,7 +259,7 @@ def work_sentence(rounds: pd.DataFrame) -> str:
 
 
 def paid_table(rounds: pd.DataFrame) -> pd.DataFrame:
-    """What a step still pays under each method, in per cent."""
+    """Returns the losses that remain in a step with each method, in percent."""
     total = rounds["critical_path_s"]
     columns = {
         "uneven points %": uneven_points(rounds) - 1,

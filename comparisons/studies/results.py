@@ -13,7 +13,7 @@ WHOLE = "ranks points dim steps every messages bytes root_bytes_in rebalances".s
 
 
 def read_all(path: Path) -> pd.DataFrame:
-    """With the rows of failures; no rows where there is no such file."""
+    """Returns all rows of a file, including those of failures; no rows if the file does not exist."""
     if not path.exists():
         return pd.DataFrame()
     return pd.read_csv(
@@ -26,7 +26,7 @@ def read(path: Path) -> pd.DataFrame:
 
 
 def sound(rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows without an error; whole numbers as such, 0 steps between rebalances for auto."""
+    """Returns the rows without an error. Whole numbers become integers; "auto" becomes 0 steps between rebalances."""
     if "error" in rows:
         rows = rows[rows["error"].isna()].reset_index(drop=True)
     if "every" in rows:
@@ -36,9 +36,9 @@ def sound(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def measurements(rows: pd.DataFrame) -> pd.DataFrame:
-    """Adds to rows of the table: time_ms, the median; point, what one point more in a part adds to
-    the imbalance; excess, what is above the mean, no less than a point; case, a name for the same
-    points on the same ranks."""
+    """Adds columns to rows of the table. `time_ms` is the median. `point` is what one more point in a part adds to the
+    imbalance. `excess` is the excess over the mean, at least that of a point. `case` is a name that is the same for
+    the same points on the same ranks."""
     if rows.empty:
         return pd.DataFrame(columns=["method", "layout", "case"])
     rows = rows.rename(columns={"time_ms_median": "time_ms"})
@@ -50,14 +50,14 @@ def measurements(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 class Results:
-    """The files of a folder, each read once."""
+    """The files of a folder. Each is read once."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
     @cached_property
     def all_rows(self) -> pd.DataFrame:
-        """Every method and workload, with failures."""
+        """Returns the rows of every method and workload, including failures."""
         return read_all(self.folder / "table.csv")
 
     @cached_property
@@ -66,12 +66,12 @@ class Results:
 
     @cached_property
     def turns(self) -> pd.DataFrame:
-        """Every timed call."""
+        """Returns the rows of every timed call."""
         return read(self.folder / "call_times.csv")
 
     @cached_property
     def all_runs(self) -> pd.DataFrame:
-        """Every simulation, with failures and the second ones of none."""
+        """Returns the rows of every simulation, including failures and repeated measurements."""
         return read_all(self.folder / "simulation_runs.csv")
 
     @cached_property
@@ -80,26 +80,26 @@ class Results:
 
     @cached_property
     def summary(self) -> pd.DataFrame:
-        """The rows of simulation.csv."""
+        """Returns the rows of simulation.csv."""
         return summarise(self.all_runs) if len(self.all_runs) else pd.DataFrame()
 
     @cached_property
     def runs(self) -> pd.DataFrame:
-        """The same without failures."""
+        """Returns the rows of the simulations that did not fail."""
         return sound(self.summary)
 
     @cached_property
     def noise(self) -> pd.DataFrame:
-        """The rows of noise.csv."""
+        """Returns the rows of noise.csv."""
         return noise(self.all_runs, self.turns)
 
     def histories(self) -> dict[str, pd.DataFrame]:
-        """The rows of each method in history.csv."""
+        """Returns the rows of each method in history.csv."""
         rows = read(self.folder / "history.csv")
         return {} if rows.empty else dict(iter(rows.groupby("method", sort=False)))
 
     def data(self, kind: str, *names: str) -> pd.DataFrame:
-        """data/<kind>_<name>_<name>.csv, names as the driver spells them in file names."""
+        """Returns the rows of data/<kind>_<name>_<name>.csv. Names are spelt as in the driver's file names."""
         parts = [re.sub(r"[^A-Za-z0-9._-]", "_", name) for name in names]
         return read(self.folder / "data" / ("_".join([kind, *parts]) + ".csv"))
 

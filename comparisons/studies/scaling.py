@@ -1,8 +1,7 @@
-"""Counts what a call moves on 2 to 64 ranks, and models its time on up to a million.
+"""Counts the traffic of a call on 2 to 64 ranks, and models its time on up to a million ranks.
 
-All methods get the same points in the same layout, sorted over the ranks. Counts for each rank are
-fitted by a few terms; the search of many ranks is counted on up to a million virtual ones. Only the
-times on 2 ranks are measured.
+All methods get the same points in the same layout, sorted over the ranks. A few terms are fitted to the counts of each
+rank. The search of many ranks is counted on up to a million virtual ranks. Only the times on 2 ranks are measured.
 """
 
 from __future__ import annotations
@@ -25,16 +24,16 @@ from results import read, row_of
 RANKS = (2, 3, 4, 8, 16, 32, 64)
 MOST_RANKS = 1 << 20
 RANK_TICKS = [1 << power for power in (4, 8, 12, 16, 20)]
-COUNTED_POINTS = 5000  # a rank, of the counted calls
-CENTRAL_PARTS = 4096  # as many as rank 0 makes alone
-FIXED_PER_LEVEL = 14  # collectives of a level of Zoltan's RCB besides the search for its median
-CHILDREN = 7  # of a rank in a tree of radix 8
-RANK_CELLS, CENTRAL_CELLS = 16, 8192  # of a rank, and the most handed on
-NS_PER_POINT, NS_PER_LOOK, NS_PER_CELL = 20, 2, 50  # moments and assignment; a look; a merge
+COUNTED_POINTS = 5000  # per rank, in the counted calls
+CENTRAL_PARTS = 4096  # up to this number rank 0 alone finds the cuts
+FIXED_PER_LEVEL = 14  # collectives per level of Zoltan's RCB, without the search for the median
+CHILDREN = 7  # per rank in a tree of radix 8
+RANK_CELLS, CENTRAL_CELLS = 16, 8192  # cells of a rank, and the largest number passed on
+NS_PER_POINT, NS_PER_LOOK, NS_PER_CELL = 20, 2, 50  # moments and assignment; a count; a merge
 POINT_BYTES = 16  # in 2-D
 TERMS = {"1": lambda p: 1.0, "log": log2, "root": sqrt, "ranks": float, "ranks^1.5": lambda p: p**1.5}
 ZOLTAN, JAGGED = "zoltan-rcb", "zoltan2-mj"
-NAMES = {name: name for name in (ZOLTAN, JAGGED)}  # the driver's
+NAMES = {name: name for name in (ZOLTAN, JAGGED)}  # names of the driver
 NAMES |= {name: f"{name}[mesh=4]" for name in ("rrcb", "rrcb-exact")}
 LEVELS, ARRAYS = ("1", "log"), ("1", "log", "ranks")
 GROWTHS = {
@@ -48,9 +47,9 @@ TOLERANCES = {"rrcb": 1.01, "rrcb-exact": 1}  # of the search on virtual ranks
 
 
 class Machine(NamedTuple):
-    latency: float = 1.5e-6  # s, overheads of both ends included
+    latency: float = 1.5e-6  # s, including the overheads at both ends
     bandwidth: float = 12e9  # bytes/s
-    points: int = 50_000  # of a rank
+    points: int = 50_000  # per rank
 
 
 def count(driver: Driver, points: int) -> None:
@@ -63,7 +62,7 @@ def count(driver: Driver, points: int) -> None:
 
 
 def search_virtually(driver: Driver) -> None:
-    """Rows of the search on virtual ranks, whose points lie in the part of the same number."""
+    """Returns rows of the search on virtual ranks. The points of each are in the part of the same number."""
     free = next(line for line in Path("/proc/meminfo").open() if line.startswith("MemAvailable"))
     numbers = [256, 4096, 65536] + [MOST_RANKS] * (int(free.split()[1]) > 12e6)
     rows = []
@@ -78,7 +77,8 @@ def search_virtually(driver: Driver) -> None:
 
 
 def read_counts(out: Path) -> dict[str, pd.DataFrame]:
-    """By method a row for each number of ranks: counts for each rank, and bytes into rank 0."""
+    """Returns for each method a row for each number of ranks: the counts of each rank, and the bytes received by rank
+    0."""
     found: dict[str, list[dict]] = {name: [] for name in NAMES}
     for ranks in RANKS:
         table, calls = (read(out / f"ranks-{ranks}" / name) for name in ("table.csv", "calls.csv"))
@@ -104,7 +104,7 @@ def _counts(name: str, row: object, calls: pd.DataFrame) -> dict[str, float]:
 
 
 def fit(name: str, counts: pd.DataFrame, column: str) -> dict[str, float]:
-    """Coefficients of the terms of the column, none below 0, by the relative error."""
+    """Returns the coefficients of the column's terms, at least 0, fitted to minimize the relative error."""
     terms = GROWTHS[name][column.split()[-1]]
     counted = counts[column].to_numpy(float)
     table = np.array([[TERMS[term](ranks) for term in terms] for ranks in counts["ranks"]])
@@ -118,12 +118,12 @@ def at(coefficients: dict[str, float], ranks: int) -> float:
 
 
 def path(name: str, counts: pd.DataFrame, ranks: int, machine: Machine, virtual: pd.DataFrame) -> dict:
-    """What a call does one after the other, and its modelled time."""
+    """Returns the sequential messages, bytes and work of a call, and its modelled time."""
     log = log2(ranks)
     terms = {column: fit(name, counts, column) for column in counts.columns[1:]}
     value = {column: at(of, ranks) for column, of in terms.items()}
     collectives, root_bytes, work = terms["collectives"], value["root bytes"], NS_PER_POINT
-    # What grows with the levels is on half as many ranks at each.
+    # Terms that grow with the levels: each level has half as many ranks.
     messages = log * collectives["1"] + collectives.get("log", 0) * log * (log + 1) / 2
     sizes = value["bytes"] + root_bytes
     if name == ZOLTAN:
@@ -131,12 +131,12 @@ def path(name: str, counts: pd.DataFrame, ranks: int, machine: Machine, virtual:
         messages += value["messages"]
         looks = max(1, collectives["log"] - FIXED_PER_LEVEL)
         work = log * (NS_PER_POINT / 2 + NS_PER_LOOK * looks)
-    elif name == JAGGED:  # points in their parts migrate once; each look takes a collective
+    elif name == JAGGED:  # points migrate once, to their parts; each count takes a collective
         sizes += POINT_BYTES * machine.points
         work = 2 * NS_PER_POINT + NS_PER_LOOK * collectives["1"]
     else:
         is_central = ranks <= CENTRAL_PARTS
-        most = min(CENTRAL_CELLS, RANK_CELLS * ranks) if is_central else 0  # many ranks need none
+        most = min(CENTRAL_CELLS, RANK_CELLS * ranks) if is_central else 0  # with many ranks there is none
         climb = [min(most, RANK_CELLS * 8**level) for level in range(ceil(log / 3))]
         cells = CHILDREN * sum(climb) + most * log
         messages += 2 * CHILDREN * len(climb)
@@ -155,7 +155,7 @@ def path(name: str, counts: pd.DataFrame, ranks: int, machine: Machine, virtual:
 
 
 def _search(virtual: pd.DataFrame, tolerance: float, ranks: int) -> tuple[float, float, float]:
-    """Messages and bytes one after the other, and bytes into a rank, by the most of any number of
+    """Returns the sequential messages, the sequential bytes and the bytes into a rank: the largest for any number of
     virtual ranks."""
     rows = virtual[virtual["tolerance"] == tolerance]
     steps = log2(ranks)
@@ -196,7 +196,7 @@ def draw(paths: pd.DataFrame) -> plot.Figure:
 
 
 def fit_errors(counts: dict[str, pd.DataFrame]) -> pd.DataFrame:
-    """How far a fit without the largest number of ranks misses the counts on it."""
+    """Returns how much a fit without the largest number of ranks misses the counts on that number."""
     rows = [
         {"method": name}
         | {c: f"{at(fit(name, of[:-1], c), of.iloc[-1]['ranks']) / of.iloc[-1][c] - 1:+.0%}"

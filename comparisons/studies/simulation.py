@@ -1,8 +1,8 @@
-"""What the rounds of simulations come to: simulation.csv and noise.csv, of the runs that the driver
-records. columns.md describes their columns.
+"""Summarizes rounds of simulations in simulation.csv and noise.csv, from the runs that the driver recorded. columns.md
+describes their columns.
 
-Simulations of one round take turns, and so do calls, so what noise there is slows all of them alike:
-they are compared in pairs, never by medians over the rounds.
+The simulations of one round take turns, and so do calls, so that noise slows all of them down in the same way. They are
+compared in pairs, never by medians over the rounds.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 from intervals import Value, interval95, median_of
 
-AGAIN = " again"  # behind the name of what is measured a second time
-MARGIN = 0.01  # of the time of a program, from which a difference matters
+AGAIN = " again"  # follows the name of a repeated measurement
+MARGIN = 0.01  # share of a program's time above which a difference matters
 KEY = ["ranks", "points", "steps", "every"]
 MEDIANS = (
     "wall_s balance_s step_s mean_imbalance worst_imbalance front_x_m moved_m mass_kg path_points"
@@ -23,12 +23,12 @@ MEDIANS = (
 
 
 def once(rows: pd.DataFrame) -> pd.DataFrame:
-    """Without what was measured a second time."""
+    """Returns the rows without repeated measurements."""
     return rows[~rows["method"].str.endswith(AGAIN)] if len(rows) else rows
 
 
 def summarise(runs: pd.DataFrame) -> pd.DataFrame:
-    """A row for each method; of one that failed in a round only the reason."""
+    """Returns a row for each method. If it failed in a round, the row has only the reason."""
     runs = once(runs)
     last = runs.groupby("method", sort=False).tail(1).set_index("method")
     rounds = runs[runs["method"].isin(last.index[last["error"].isna()])]
@@ -53,9 +53,9 @@ def _add_interval(rows: pd.DataFrame, name: str, values: object) -> None:
 
 
 def _compare_with_none(rows: pd.DataFrame, rounds: pd.DataFrame) -> None:
-    """Adds the speed-up over none, of pairs; and the share that is kept of what could be gained if
-    rebalancing were free and the steps as short as under any method; and of what could be gained if
-    also the least work of any method were even over the ranks, without messages."""
+    """Adds the speed-up over "none", from pairs of runs. Also adds two shares of the possible gain that is realized.
+    The first assumes free rebalancing and steps as short as with the best method. The second assumes in addition
+    that the least work of any method is distributed evenly, without messages."""
     names = [f"speed_up_critical_path{end}" for end in ("", "_low", "_high")]
     rows[[*names, "ideal_speed_up", "gain_kept", "gain_kept_time"]] = np.nan
     if "none" not in rows.index:
@@ -75,7 +75,7 @@ def _compare_with_none(rows: pd.DataFrame, rounds: pd.DataFrame) -> None:
 
 
 def _close_fixed_imbalances(rows: pd.DataFrame, of_method: object) -> None:
-    """Rounds without a seed that agree to the last bit have nothing random about them."""
+    """Gives bit-identical values of rounds without a seed intervals of zero width: nothing is random about them."""
     values = of_method["mean_imbalance"]
     fixed = (of_method["seed"].count() == 0) & (values.size() > 1) & (values.nunique() == 1)
     for end in ("low", "high"):
@@ -83,8 +83,8 @@ def _close_fixed_imbalances(rows: pd.DataFrame, of_method: object) -> None:
 
 
 def noise(runs: pd.DataFrame, calls: pd.DataFrame) -> pd.DataFrame:
-    """How far what was measured twice is from itself: simulations under the first method, and calls of
-    Zoltan's RCB on each workload."""
+    """Compares repeated measurements with the first ones: simulations with the first method, and calls of Zoltan's RCB
+    on each workload."""
     cases = []
     for method in runs.loc[runs["method"].str.endswith(AGAIN), "method"].unique() if len(runs) else ():
         twice = method.removesuffix(AGAIN)
@@ -104,8 +104,8 @@ def noise(runs: pd.DataFrame, calls: pd.DataFrame) -> pd.DataFrame:
 def paired(
     rounds: pd.DataFrame, values: pd.Series, method: str, reference: str, number: str = "round"
 ) -> Value | None:
-    """Median over the rounds of the method's value over the reference's, with its interval. Calls
-    of one turn are paired in the same way; none where a method is not there."""
+    """Returns the median over the rounds of the method's value divided by the reference's, with its interval. Calls of
+    one turn are paired in the same way. Returns None if a method is missing."""
     chosen = [rounds["method"] == m for m in (method, reference)]
     found = [values[c].set_axis(rounds.loc[c, number]) for c in chosen]
     ratios = (found[0] / found[1]).dropna()
@@ -118,24 +118,24 @@ def of_method(rounds: pd.DataFrame, values: pd.Series, method: str) -> Value:
 
 
 def balancing(rounds: pd.DataFrame) -> pd.Series:
-    """Seconds of all rebalances on the critical path, with all that they move."""
+    """Returns the seconds of all rebalances on the critical path, including the points that they move."""
     return rounds["balance_path_s"] + rounds["balance_network_s"]
 
 
 def uneven_points(rounds: pd.DataFrame) -> pd.Series:
-    """Points of the fullest rank over the mean, mean of the steps."""
+    """Returns the points of the fullest rank divided by the mean, as mean over the steps."""
     return rounds["path_points"] * rounds["ranks"] / (rounds["points"] * rounds["steps"])
 
 
 def uneven_work(rounds: pd.DataFrame) -> pd.Series:
-    """Time of the slowest rank of a step over the mean, as measured."""
+    """Returns the measured time of the slowest rank of a step divided by the mean."""
     return rounds["step_path_s"] * rounds["ranks"] / rounds["step_work_s"]
 
 
 def slope_of_work(rounds: pd.DataFrame) -> Value | None:
-    """Per cent that the steps take longer for 1 % more points on the fullest rank: the slope of a
-    line through the balanced methods of a round, median of the rounds. Without balancing the points
-    lie elsewhere, which is not what uneven points cost."""
+    """Returns by how many percent the steps are longer if the fullest rank has 1 % more points. It is the slope of a
+    line through the balanced methods of a round, as median over the rounds. The run without balancing is left out,
+    because its points are also distributed differently."""
     slopes = []
     for _, simulated in rounds[rounds["rebalances"] > 0].groupby("round"):
         points, work = uneven_points(simulated), uneven_work(simulated)
@@ -145,12 +145,12 @@ def slope_of_work(rounds: pd.DataFrame) -> Value | None:
 
 
 def limit_of(call: float, other: float, step: float) -> float:
-    """Steps between rebalances below which the slower of two balancers costs a program MARGIN of its
-    time; call, other and step in the same unit.
+    """Returns the number of steps between rebalances below which the slower of two balancers costs a program MARGIN of
+    its time. The three times have the same unit.
 
-    At the best interval of k steps balancing takes 2 call / (k step) of the time, by
-    docs/design/rebalancing.md; the best interval grows with the root of the call, so a call that takes
-    1 / r of the time saves 1 - 1 / sqrt(r) of that.
+    With the best interval of k steps, balancing takes 2 call / (k step) of the time; see docs/design/rebalancing.md.
+    The best interval grows with the square root of the time of a call. A call that takes 1 / r of the time therefore
+    saves 1 - 1 / sqrt(r) of this share.
     """
     slower, faster = max(call, other), min(call, other)
     return 2 * (1 - (faster / slower) ** 0.5) * slower / (MARGIN * step)

@@ -1,9 +1,9 @@
-"""Services of a step, by the library and by hand: instructions, traffic and memory of each call.
+"""Compares the services of a step by the library and by hand: instructions, traffic and memory of each call.
 
-Random points, 1 % of which leave their rank in each step, with positions, velocities and numbers; ghosts within two
-spacings, on which forces act that are added to those on their points. Every arm must give the same ghosts and the same
-sums. Instructions are Callgrind's, without MPI's own. --clock measures seconds instead: on 2 ranks that need a core
-each, the arms in an order drawn anew for each round, one of them twice.
+Random points have positions, velocities and numbers, and 1 % of them leave their rank in each step. Ghosts are within
+two spacings. Forces act on them and are added to those on their points. Every arm must give the same ghosts and the
+same sums. Instructions are counted by Callgrind, without those of MPI. --clock measures seconds instead, on 2 ranks
+that need a core each. The arms run in a random order in each round, and one of them runs twice.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ CASES = ((2, 4), (2, 8), (3, 4), (3, 8))  # dimension, ranks
 JUMPS = (8, 16)  # ranks, in 2-D
 BY_CAUSE = ("loop", "ghosts")
 CASE = ["dim", "ranks"]
-# Most instructions a point and step, of stages or whole arms, which --hold checks.
+# Upper bounds of the instructions per point and step, for stages or complete arms, which --hold checks.
 BOUNDS = {
     (2, 4): {"loop ghosts": 78, "loop": 125, "by-hand": 44},
     (3, 8): {"loop ghosts": 135, "loop": 215, "by-hand": 132},
 }
-MOST_OF_BY_HAND = 1.2  # the library's step over that by hand
+MOST_OF_BY_HAND = 1.2  # bound of the library's step relative to the step by hand
 TIMED_RANKS = 2
-TIMED = ("loop", "neighbours", "by-hand", "by-hand")  # one arm against itself
+TIMED = ("loop", "neighbours", "by-hand", "by-hand")  # the last two are the same arm
 STYLES = {"assign_all": "#CC79A7", "plan": "#E69F00", "transfer, migrate": "#D55E00",
           "ghosts, find_ghosts": "#0072B2", "fetch": "#009E73", "accumulate": "#000000"}  # fmt: skip
 COLOURS = {stage: colour for stages, colour in STYLES.items() for stage in stages.split(", ")}
@@ -48,7 +48,7 @@ def counts(program: Path, dimension: int, ranks: int, points: int, steps: int) -
 
 def instructions(program: Path, dimension: int, ranks: int, points: int, steps: int, out: Path
                  ) -> dict[tuple[str, str], Counter[str]]:  # fmt: skip
-    """Those of a point and step in each function, for each arm and stage."""
+    """Returns the instructions per point and step of each function, for each arm and stage."""
     words = [str(program), "instructions", str(dimension), str(points), str(steps), *ARMS]
     printed, processes = callgrind.run(words, ranks, "rrcb_step_stage", out / "callgrind")
     stages = [tuple(line.split(",")) for line in printed.splitlines()[1:]]
@@ -69,7 +69,7 @@ def is_moving(rows: pd.DataFrame) -> pd.Series:
 
 
 def stage_table(rows: pd.DataFrame) -> list[list[str]]:
-    """Instructions a point and step of each stage, then of all."""
+    """Returns the instructions per point and step of each stage, then of all stages."""
     cases = list(dict.fromkeys(zip(rows["dim"], rows["ranks"])))
     lines = [["instructions a point and step", *(case_name(*case) for case in cases)]]
     for arm, own in rows.groupby("arm", sort=False):
@@ -82,7 +82,7 @@ def stage_table(rows: pd.DataFrame) -> list[list[str]]:
 
 
 def cost_table(rows: pd.DataFrame) -> list[list[str]]:
-    """Of a step and rank: those of steps that move points, and of steps that keep points and ghosts."""
+    """Returns the costs per step and rank: for steps that move points, and for steps that keep points and ghosts."""
     lines = [["case", "arm", "step", "collectives", "messages", "kB sent", "allocations", "kB allocated"]]
     for (dimension, ranks, arm), own in rows.groupby([*CASE, "arm"], sort=False):
         for name, part in (("moves", own[is_moving(own)]), ("keeps", own[~is_moving(own)])):
@@ -94,7 +94,7 @@ def cost_table(rows: pd.DataFrame) -> list[list[str]]:
 
 
 def cause_table(causes: dict[tuple[int, int], Counter[str]]) -> list[list[str]]:
-    """Functions of `ghosts` with at least 1 % of its instructions in a case."""
+    """Returns the functions of `ghosts` that have at least 1 % of its instructions in some case."""
     lines = [["function", *(case_name(*case) for case in causes)]]
     everything = sum(causes.values(), Counter())
     for name, _ in everything.most_common():
@@ -104,7 +104,7 @@ def cause_table(causes: dict[tuple[int, int], Counter[str]]) -> list[list[str]]:
 
 
 def draw(rows: pd.DataFrame, path: Path) -> None:
-    """Instructions of each stage side by side, a bar for each arm and case."""
+    """Draws the instructions of the stages side by side, with a bar for each arm and case."""
     plot.use_style()
     cases = list(dict.fromkeys(zip(rows["dim"], rows["ranks"])))
     figure, grid = plot.panels(1, len(cases), 2.1 * len(cases), 2.6, sharey=True)
@@ -123,7 +123,7 @@ def draw(rows: pd.DataFrame, path: Path) -> None:
 
 
 def excesses(rows: pd.DataFrame) -> list[str]:
-    """What takes more than its bound."""
+    """Returns a text for each number that exceeds its bound."""
     found = []
     for case, bounds in BOUNDS.items():
         of_case = rows[is_moving(rows) & (rows[CASE] == case).all(axis=1)]
@@ -138,7 +138,7 @@ def excesses(rows: pd.DataFrame) -> list[str]:
 
 
 def jump_table(program: Path) -> list[list[str]]:
-    """Calls after which ranks know of a point that has passed all neighbours."""
+    """Returns the number of calls after which ranks detect a point that has passed all neighbours."""
     lines = [["far jump", "neighbours of the rank fail in call", "all ranks fail by call", "points before", "after"]]
     for ranks in JUMPS:
         rows = on_ranks(ranks, program, "jump", "2", "1000", stdout=subprocess.PIPE, text=True, check=True).stdout
@@ -192,7 +192,8 @@ def time_all(program: Path, out: Path, points: int, steps: int, rounds: int) -> 
 
 
 def time_table(times: pd.DataFrame) -> list[list[str]]:
-    """Least time of a step, and medians of ratios of one turn; the last arm is the second of two equal ones."""
+    """Returns the least time of a step, and medians of ratios within a turn. The last arm is the second of two equal
+    ones."""
     lines = [["dimension", *(f"{arm}, least, ms" for arm in TIMED[:-1]),
               *(f"{arm} / {TIMED[-2]} [95 %]" for arm in TIMED[:-2]), "A/A [95 %]"]]  # fmt: skip
     for dimension, of_one in times.groupby("dim"):

@@ -18,14 +18,14 @@ COST = 100_000.0
 
 
 def strip():
-    """A unit square of 200 x 200 particles, a strip of it on each rank."""
+    """Returns this rank's strip of a unit square of 200 x 200 particles."""
     rows = np.arange(200 * comm.rank // comm.size, 200 * (comm.rank + 1) // comm.size)
     i, j = np.meshgrid(rows, np.arange(200), indexing="ij")
     return np.stack([(i.ravel() + 0.5) / 200, (j.ravel() + 0.5) / 200], axis=1)
 
 
 def count_neighbours(x, count):
-    """How many of x lie within the radius of each of the first `count`."""
+    """Counts for each of the first `count` particles how many of x are within the radius."""
     cells = np.floor(x / RADIUS).astype(int) + 2
     numbers = cells @ [STRIDE, 1]
     order = np.argsort(numbers, kind="stable")
@@ -44,7 +44,8 @@ def count_neighbours(x, count):
 
 
 def write_run(path, *records):
-    """Rank 0 writes records: the number of values, then these. Arrays are those of all ranks."""
+    """Writes records on rank 0: the number of values, then the values. Arrays are gathered from all
+    ranks."""
     gathered = [comm.gather(r.ravel()) if isinstance(r, np.ndarray) else r for r in records]
     if comm.rank == 0:
         with open(path, "wb") as file:
@@ -55,7 +56,8 @@ def write_run(path, *records):
 
 
 def read_run(path):
-    """Returns the records, of the arrays this rank's part: an equal one on other ranks."""
+    """Returns the records. Of the arrays each rank gets its part, or an equal share if the number
+    of ranks differs."""
     with open(path, "rb") as file:
 
         def next_of(kind):

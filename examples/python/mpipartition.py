@@ -1,11 +1,11 @@
-"""The interface of the package mpipartition, with parts of equal load in place of equal blocks.
+"""The interface of the package mpipartition, with parts of equal load instead of equal blocks.
 
     mpirun -n 4 python3 examples/python/mpipartition.py
 
 Copy this file to your program, and import Partition, distribute and overload from it. The first
-distribute() of a partition balances its points; later ones use the same cuts, so that several
-catalogues stay together. Parts are boxes, but not those of a Cartesian grid. Any number of ranks and
-any overload length can be used, in 1 to 3 dimensions.
+distribute() of a partition balances its points. Later calls use the same cuts, so that several
+catalogues stay together. Parts are boxes, but not those of a Cartesian grid. Any number of ranks
+and any overload length can be used, in 1 to 3 dimensions.
 """
 import math
 
@@ -16,18 +16,18 @@ import rrcb
 
 
 class Partition:
-    """Parts of the unit cube, one for each rank."""
+    """The parts of the unit cube, one for each rank."""
 
     def __init__(self, dimensions=3, *, comm=MPI.COMM_WORLD):
         self.comm = comm
         self.dimensions = dimensions
         self.rank = comm.rank
         self.nranks = comm.size
-        self.cuts = None  # those of the first points
+        self.cuts = None  # set by the first call of distribute()
 
     @property
     def boxes(self):
-        """Lower and upper corners of all parts, (nranks, 2, dimensions)."""
+        """Returns the lower and upper corners of all parts, with shape (nranks, 2, dimensions)."""
         return self.cuts.finite_boxes((np.zeros(self.dimensions), np.ones(self.dimensions)))
 
     @property
@@ -40,7 +40,7 @@ class Partition:
 
     @property
     def neighbor_ranks(self):
-        """Ranks whose parts touch this rank's part in the periodic cube."""
+        """Returns the ranks whose parts touch this rank's part in the periodic cube."""
         lower, upper = self.boxes.transpose(1, 0, 2)
         touches = np.zeros((self.nranks, self.dimensions), dtype=bool)
         for shift in (-1.0, 0.0, 1.0):
@@ -72,13 +72,13 @@ def overload(partition, box_size, data, overload_length, coord_keys):
     x = positions_of(box_size, data, coord_keys)
     length = overload_length / box_size
     parts = rrcb.assign_all(x, partition.cuts, partition.comm)
-    # The box of a part with the margin is within this radius of the part.
+    # The box of a part, extended by the margin, is within this radius of the part.
     ghosts = parts.ghosts(x, length * math.sqrt(x.shape[1]) * (1 + 1e-12), period=1.0)
     images = ghosts.fetch_positions(x)
     lower, upper = partition.boxes[partition.rank]
     near = ((images >= lower - length) & (images < upper + length)).all(axis=1)
     near &= ghosts.ranks != partition.rank
-    # Several images of a point may be near.
+    # Several periodic images of a point may be near.
     points = np.stack([ghosts.ranks, ghosts.fetch(np.arange(len(x)))], axis=1)[near]
     first = np.unique(points, axis=0, return_index=True)[1]
     copies = ghosts.fetch(data)

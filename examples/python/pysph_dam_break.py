@@ -1,8 +1,8 @@
-"""PySPH's dam break in three dimensions, divided by RRCB in place of Zoltan.
+"""PySPH's dam break in three dimensions, divided by RRCB instead of Zoltan.
 
     mpirun -n 4 python3 examples/python/pysph_dam_break.py [option of the dam break ...]
 
---plain leaves the division to Zoltan. Exits with 77 if PySPH is not installed.
+With --plain Zoltan divides the particles. Exits with 77 if PySPH is not installed.
 """
 import sys
 
@@ -23,12 +23,13 @@ comm = MPI.COMM_WORLD
 
 
 class RrcbManager(ZoltanParallelManagerGeometric):
-    """Divides particles, instead of cells, and finds those that other ranks need."""
+    """Divides particles instead of cells, and finds the particles that other ranks need."""
 
     balance = None
 
     def positions(self):
-        """Positions of the particles of all arrays on this rank, and where each array ends."""
+        """Returns the positions of the particles of all arrays on this rank, and the end of each
+        array."""
         xyz = np.concatenate([np.stack([a.x, a.y, a.z], axis=1) for a in self.particles])
         return xyz, np.cumsum([len(a.x) for a in self.particles])
 
@@ -58,7 +59,7 @@ class RrcbManager(ZoltanParallelManagerGeometric):
         self.export(rows, parts[rows])
 
     def export(self, rows, ranks):
-        """Gives each array the rows and destinations of its particles."""
+        """Sets the rows and destinations of each array's particles."""
         first = 0
         for exchange, array, end in zip(self.pa_exchanges, self.particles, self.positions()[1]):
             mine = (rows >= first) & (rows < end)

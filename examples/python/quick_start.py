@@ -1,4 +1,4 @@
-"""A cloud of points, divided and drawn.
+"""Divides a cloud of points and draws the parts.
 
     mpirun -n 4 python3 examples/python/quick_start.py [parts.png]
 
@@ -13,7 +13,7 @@ import rrcb
 
 comm = MPI.COMM_WORLD
 
-# Points crowd at the origin. Each rank has 10,000 at random positions.
+# Each rank has 10,000 points at random positions, which are densest at the origin.
 rng = np.random.default_rng(comm.rank)
 x = rng.random((10_000, 2)) ** 2
 mass = rng.random(len(x))
@@ -21,7 +21,7 @@ mass = rng.random(len(x))
 balance = rrcb.balance(x, weights=mass, comm=comm, tolerance=1.01)
 here = balance.distribute({"x": x, "mass": mass})
 
-# Copies of the points of other ranks within 0.02.
+# The ghosts are copies of other ranks' points within 0.02 of this rank's box.
 ghosts = balance.ghosts(here["x"], radius=0.02)
 near = ghosts.fetch(here)
 
@@ -32,7 +32,7 @@ if comm.rank == 0:
     print(f"the report has {balance.report.imbalance:.4f}")
     print(f"ghosts on each rank: {copies}")
 
-# A picture of the parts, with a tenth of the points.
+# Draw the parts with a tenth of the points.
 drawn = comm.gather(here["x"][::10])
 if drawn is not None and len(sys.argv) > 1:
     import matplotlib

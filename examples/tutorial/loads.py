@@ -1,11 +1,12 @@
-"""What all parallel steps of the tutorial measure: pairs, and how evenly the ranks count them."""
+"""Measurements of all parallel steps of the tutorial: pairs, and how evenly the ranks count them.
+"""
 from mpi4py import MPI
 
 
 class Loads:
     def __init__(self, pairs=0.0):
-        self.pairs = pairs  # of all ranks in all steps
-        self.heaviest = 0.0  # pairs of the busiest rank of each step, added up
+        self.pairs = pairs  # sum over all ranks and steps
+        self.heaviest = 0.0  # sum over the steps of the pairs on the busiest rank
 
     def add(self, own, comm):
         self.pairs += comm.allreduce(own)

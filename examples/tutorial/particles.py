@@ -8,7 +8,7 @@ WIDTH = 1.5  # of the tank, from x = 0
 
 
 def column_of_water():
-    """Positions of 30 x 60 particles in the left of the tank, a row each."""
+    """Returns the positions of 30 x 60 particles in the left part of the tank, one row each."""
     i, j = np.meshgrid(np.arange(30), np.arange(60), indexing="ij")
     return np.stack([(i.ravel() + 0.5) / 60, (j.ravel() + 0.5) / 60], axis=1)
 

@@ -54,7 +54,8 @@ def strips(steps):
 
 
 def parts(steps, num_parts=4):
-    """Parts of all particles by RRCB; every rank balances its share of them."""
+    """Returns the parts of all particles by RRCB. Every rank balances its share of the particles.
+    """
     x = water_after(steps)[comm.rank :: comm.size]
     balance = rrcb.balance(x, num_parts=num_parts, comm=comm)
     gathered = comm.gather((x, balance.parts))
@@ -84,7 +85,8 @@ def ghosts_of(rank, steps):
 
 
 def history(policy):
-    """The imbalance of each step with strips, with a balance in each, and with the controller."""
+    """Returns the imbalance of each step with strips, with a balance in each step, and with the
+    controller."""
     own = column_of_water() if comm.rank == 0 else np.empty((0, 2))
     cuts, found, made = None, [], []
     with rrcb.Controller(comm) as controller:
@@ -110,7 +112,7 @@ def history(policy):
 
 def main():
     folder = Path(sys.argv[1])
-    # All ranks make these.
+    # All ranks take part in these calls.
     middle, end, three, near = parts(0), parts(NUM_STEPS), parts(20, 3), ghosts_of(1, 20)
     four = parts(20)
     lines = {name: history(name) for name in ("fixed strips", "balance in each step", "controller")}

@@ -21,12 +21,12 @@ from vtk_files import history_of
 
 FUNCTIONS = ("linear", "quadratic")
 COURANT_NUMBERS = (0.4, 0.1)
-# Instructions are counted in some steps: 50, after which points are sorted again, or fewer of many points.
+# Instructions are counted in 50 steps, after which points are sorted again, or in fewer steps if there are many points.
 STEPS_COUNTED, POINT_STEPS_COUNTED = 50, 300_000
 OUTPUT = "  output:\n    history_every: 1\n    vtk_every: 1000000000\n"
 BALANCERS = ("none", "rrcb", "rrcb-exact")
 RANKS = 4
-STEPS_BETWEEN = 50  # rebalances
+STEPS_BETWEEN = 50  # steps between rebalances
 
 
 @dataclass(frozen=True)
@@ -35,21 +35,21 @@ class Result:
     cell: float
     courant_number: float
     error: float
-    instructions: float  # of all steps
+    instructions: float  # in all steps
 
 
 @dataclass(frozen=True)
 class Balance:
     name: str
     error: float
-    difference: float  # of the energy from that of one rank
+    difference: float  # of the energy from that with one rank
     imbalance: float
-    busiest: float  # instructions of the rank with most, of steps
-    rebalances: float  # the same of rebalances
+    busiest: float  # instructions in steps, on the busiest rank
+    rebalances: float  # instructions in rebalances, on the busiest rank
 
 
 def steps_in(printed: str) -> tuple[int, int]:
-    """Points and steps of a run."""
+    """Returns the numbers of points and steps of a run."""
     found = re.search(r"(\d+) points, (\d+) steps", printed)
     return int(found[1]), int(found[2])
 

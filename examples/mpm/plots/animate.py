@@ -75,7 +75,7 @@ def image_of_fall(painter: Painter, frame: Frame) -> Image.Image:
 def image_of_both(
     painters: list[Painter], shown: tuple[Frame, Frame], frames: list[Frame]
 ) -> Image.Image:
-    """The run and that without rebalancing below it."""
+    """Draws the run, and below it the run without rebalancing."""
     width, height = painters[0].size
     section = 5.6 * height / width
     figure, panels = plt.subplots(

@@ -21,7 +21,7 @@ from vtk_files import arrays_in, frames_of, points_of
 
 POINTS_PER_INCH = 72
 SMALLEST_MARKER = 1.5  # printer's points
-MARGIN = 0.015  # of the larger side
+MARGIN = 0.015  # relative to the larger side
 BOX = {"color": "black", "lw": 0.6}
 START = {"color": "black", "lw": 0.8, "ls": "--"}
 
@@ -30,13 +30,13 @@ START = {"color": "black", "lw": 0.8, "ls": "--"}
 class Frame:
     time: float
     position: np.ndarray  # rows of x and y of the points shown
-    value: np.ndarray  # that colours them
-    spacing: float  # of points at the start, m
-    boxes: list[tuple[float, float, float, float]]  # left, low, right, high, of the ranks
+    value: np.ndarray  # determines their colours
+    spacing: float  # distance of points at the start, m
+    boxes: list[tuple[float, float, float, float]]  # left, low, right, high of each rank's box
 
 
 def with_image(left: float, low: float, right: float, high: float) -> list[tuple]:
-    """A box and its image in x = 0; one, where it stands there."""
+    """Returns a box and its mirror image at x = 0, or only the box if it is at x = 0."""
     if left <= 0:
         return [(-right, low, right, high)]
     return [(left, low, right, high), (-right, low, -left, high)]
@@ -67,14 +67,14 @@ def read_frames(folder: Path, view: View) -> list[Frame]:
 
 
 def three_of(frames: list[tuple[float, Path]]) -> list[int]:
-    """The first, the one nearest to half the time, and the last."""
+    """Returns the first frame, the one nearest to half the time, and the last."""
     half = 0.5 * frames[-1][0]
     middle = min(range(len(frames)), key=lambda i: abs(frames[i][0] - half))
     return [0, middle, len(frames) - 1]
 
 
 def surface_of(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
-    """The highest points along x."""
+    """Returns the highest points along x."""
     x, y = frame.position.T
     column = np.round(x / frame.spacing).astype(int)
     tops = np.full(np.ptp(column) + 1, -np.inf)
@@ -84,7 +84,7 @@ def surface_of(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Painter:
-    """Draws frames of a run into axes of one extent and one scale of colours."""
+    """Draws frames of a run into axes with the same extent and the same scale of colours."""
 
     def __init__(self, frames: list[Frame], view: View, scene: str, folder: Path):
         self.first, self.view, self.scene, self.folder = frames[0], view, scene, folder
@@ -99,7 +99,7 @@ class Painter:
         return self.high - self.low
 
     def draw(self, axes: Axes, frame: Frame, inches_per_metre: float) -> list[Patch | Line2D]:
-        """Returns what the key must explain."""
+        """Draws a frame. Returns what the legend must explain."""
         axes.set_aspect("equal")
         axes.set_xlim(self.low[0], self.high[0])
         axes.set_ylim(self.low[1], self.high[1])
@@ -129,7 +129,7 @@ class Painter:
         return key
 
     def finish(self, figure: plt.Figure, panels, key: list[Patch | Line2D]) -> None:
-        """Adds the bar of colours and the key below all."""
+        """Adds the colour bar, and the legend below everything."""
         bar = figure.colorbar(
             self.shown, ax=panels, extend="max" if self.view.most else "neither", aspect=30, pad=0.02
         )
@@ -146,7 +146,8 @@ class Painter:
 
 
 def layout_of(size: np.ndarray) -> tuple[bool, tuple[float, float], float]:
-    """Whether panels are stacked, inches of the figure, and inches per metre."""
+    """Returns whether panels are stacked, the size of the figure in inches, and inches per metre.
+    """
     is_wide = size[0] > 1.5 * size[1]
     if is_wide:
         across = 6.0

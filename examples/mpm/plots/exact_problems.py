@@ -1,4 +1,5 @@
-"""Five problems with exact answers, for accuracy.py: scenes, and errors of their runs."""
+"""Defines five problems with exact solutions for accuracy.py: scenes, and the errors of their runs.
+"""
 
 from __future__ import annotations
 
@@ -13,17 +14,17 @@ from vtk_files import frames_of, history_of, points_of
 G = 9.81
 
 
-Tree = dict[str, object]  # of lists, as scene files have them
+Tree = dict[str, object]  # a tree of lists, as in scene files
 
 
 @dataclass(frozen=True)
 class Problem:
     name: str
-    error_of: Callable[[Path], float]  # of the folder of a run, by the size of what is compared
-    measure: str  # what the error is of
+    error_of: Callable[[Path], float]  # error of the run in a folder, relative to the compared quantity
+    measure: str  # name of the compared quantity
     cells: tuple[float, ...]  # sizes, m
     points: int  # along a cell
-    tree: Callable[[float], Tree]  # of the scene but for its method and output
+    tree: Callable[[float], Tree]  # the scene without its method and output
 
     def scene(self, cell: float, function: str, courant_number: float, end: str) -> str:
         method = {"shape_function": function, "courant_number": courant_number}
@@ -31,7 +32,7 @@ class Problem:
 
 
 def written(tree: Tree, indent: str = "") -> str:
-    """A tree of lists as YAML."""
+    """Returns a tree of lists as YAML."""
     text = ""
     for name, value in tree.items():
         is_list = isinstance(value, dict)
@@ -42,7 +43,7 @@ def written(tree: Tree, indent: str = "") -> str:
 
 def solid(upper: tuple[float, float], cell: float, material: tuple[float, float, float],
           lower: tuple[float, float] = (0, 0)) -> Tree:
-    """Cells, and an elastic material of a density, a modulus and Poisson's ratio."""
+    """Returns cells, and an elastic material with a density, a modulus and Poisson's ratio."""
     cells = [round((high - low) / cell) for low, high in zip(lower, upper)]
     keys = ("density", "youngs_modulus", "poissons_ratio")
     return {
@@ -64,7 +65,7 @@ def end_of(folder: Path) -> dict[str, np.ndarray]:
     return points_of(frames_of(folder, "points")[-1][1])
 
 
-# A wave between a wall and a free end, mode 1 of a bar.
+# Problem 1: mode 1 of a bar, a wave between a wall and a free end.
 BAR, BAR_MODULUS, BAR_SPEED = 25.0, 100.0, 0.01
 
 
@@ -85,12 +86,13 @@ def bar_error(folder: Path) -> float:
     return np.sqrt(np.mean((way - amplitude * np.sin(rate * history["time"])) ** 2)) / amplitude
 
 
-# A cantilever that its weight, there at once, lets vibrate.
+# Problem 2: a cantilever that vibrates because its weight is applied at once.
 BEAM, BEAM_MODULUS, BEAM_DENSITY = 6.0, 1e6, 1e3
 
 
 def timoshenko_rate() -> float:
-    """The first of a cantilever with shear, rad/s (Huang 1961): height 1, Poisson's ratio 0."""
+    """Returns the first frequency of a cantilever with shear, rad/s (Huang 1961), for height 1 and
+    Poisson's ratio 0."""
     bend = 1 / (12 * BEAM**2)
     shear = bend * 2 / (5 / 6)
 
@@ -121,7 +123,8 @@ def beam(cell: float) -> Tree:
 
 
 def fitted_rate(time: np.ndarray, value: np.ndarray, low: float, high: float) -> float:
-    """Rate of the cosine and sine that, with a constant, leave the least squares."""
+    """Returns the frequency of the cosine and sine that, with a constant, fit the values with the
+    least squares."""
 
     def rest(rate: float) -> float:
         columns = np.stack([np.ones_like(time), np.cos(rate * time), np.sin(rate * time)], axis=1)
@@ -141,7 +144,7 @@ def beam_error(folder: Path) -> float:
     return abs(rate / found - 1)
 
 
-# A layer under water, at rest.
+# Problem 3: a layer at rest under water.
 LAYER, LAYER_DENSITY, WATER = 0.1, 1800.0, 1000.0
 
 
@@ -163,7 +166,7 @@ def layer_error(folder: Path) -> float:
     return np.sqrt(np.mean((points["stress_yy"] - exact) ** 2)) / (weight * LAYER)
 
 
-# Half a disk of radius 1 at rest on rigid ground without friction, by its weight.
+# Problem 4: half a disk of radius 1, at rest under its weight on rigid ground without friction.
 DISK_MODULUS, DISK_RATIO, DISK_DENSITY, DISK_WEIGHT = 1e6, 0.3, 1e3, 6.0
 
 
@@ -178,7 +181,8 @@ def disk(cell: float) -> Tree:
 
 
 def disk_error(folder: Path) -> float:
-    """Stress up to half the contact's width above it (McEwen 1949), by the largest pressure."""
+    """Returns the error of the stress up to half the contact's width above the contact (McEwen
+    1949), divided by the largest pressure."""
     points = end_of(folder)
     x, z = points["position"][:, 0], points["position"][:, 1]
     weight = DISK_DENSITY * DISK_WEIGHT * np.pi
@@ -193,7 +197,7 @@ def disk_error(folder: Path) -> float:
     return np.sqrt(np.mean((points["stress_yy"][near] - exact[near]) ** 2)) / pressure
 
 
-# Two disks meet and part (Sulsky, Chen and Schreyer 1994).
+# Problem 5: two disks collide and separate (Sulsky, Chen and Schreyer 1994).
 def disks(cell: float) -> Tree:
     def moving(at: float, speed: float) -> Tree:
         return body(4, {"constant": [speed, speed]}, shape="ball", centre=[at, at], radius=0.2)

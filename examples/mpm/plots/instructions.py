@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-# A process alone starts ten times as fast if Open MPI looks for no other.
+# A single process starts ten times as fast if Open MPI does not look for others.
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_btl": "self", "OMPI_MCA_pml": "ob1"}
 TOGETHER = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -16,7 +16,7 @@ TOGETHER = {
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_mpi_yield_when_idle": "1",
 }
-# What waits for messages spins: its instructions depend on the machine.
+# Waiting for messages is a busy loop, whose instructions depend on the machine. Only these objects count.
 OURS = re.compile(r"rrcb|libm[.-]|libstdc")
 
 
@@ -34,7 +34,8 @@ def call(command: list[str], ranks: int = 1) -> str:
 
 
 def own_instructions(path: Path) -> int:
-    """Those of the program and its libraries, MPI left out, in a file of Callgrind."""
+    """Returns the instructions of the program and its libraries without MPI, from a file of
+    Callgrind."""
     names: dict[str, str] = {}
     total, is_ours, is_call = 0, False, False
     for line in path.read_text().splitlines():
@@ -46,14 +47,14 @@ def own_instructions(path: Path) -> int:
         elif line.startswith("calls="):
             is_call = True
         elif re.match(r"[-+*\d]", line):
-            # The line after a call has what the callee cost.
+            # The line after a call contains the cost of the callee.
             total += 0 if is_call or not is_ours else int(line.split()[1])
             is_call = False
     return total
 
 
 def count(command: list[str], function: str, folder: Path, ranks: int = 1) -> tuple[list[int], str]:
-    """Instructions within a function on each rank, and what the command has printed."""
+    """Returns the instructions within a function on each rank, and the output of the command."""
     tool = [
         "valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/callgrind.%p",
         "--collect-atstart=no", f"--toggle-collect={function}",

@@ -9,11 +9,11 @@ import sys
 from matplotlib import pyplot
 
 
-STEPS = 100  # that a value is the mean of
+STEPS = 100  # number of steps over which a value is the mean
 
 
 def read(path, method):
-    """Steps, and rows of the mean seconds of all ranks."""
+    """Returns the steps, and rows with the mean seconds of all ranks."""
     bins = {}
     with open(path, encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -25,7 +25,7 @@ def read(path, method):
 
 
 def imbalance(loads):
-    """Sum of the slowest ranks over that of the means."""
+    """Returns the sum of the slowest ranks divided by the sum of the means."""
     return sum(max(row) for row in loads) * len(loads[0]) / sum(map(sum, loads))
 
 

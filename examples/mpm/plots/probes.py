@@ -24,7 +24,7 @@ PANELS: list[tuple[str, Callable]] = [
 
 
 def read_probes(path: Path) -> dict[str, dict[str, np.ndarray]]:
-    """Columns of each probe, in the order of the file."""
+    """Returns the columns of each probe, in the order of the file."""
     columns: dict[str, dict[str, list[float]]] = defaultdict(lambda: defaultdict(list))
     with open(path, newline="") as file:
         for row in csv.DictReader(file):

@@ -12,5 +12,5 @@ def number_in(scene: str, key: str) -> float:
 
 
 def list_in(scene: str, key: str) -> list[float]:
-    """A list on one line; of rows, one after the other."""
+    """Returns a list that is on one line. Rows follow one another."""
     return [float(x) for x in re.findall(NUMBER, re.search(rf"^ +{key}: (.*)$", scene, re.M)[1])]

@@ -19,7 +19,8 @@ G = 9.81
 
 
 def compare(axes: Axes, at: np.ndarray, got: np.ndarray, theory: np.ndarray, name: str) -> None:
-    """Points of a run on a line of theory, with their largest difference by the line's range in the key."""
+    """Draws points of a run and a line of theory. The legend has their largest difference, divided
+    by the range of the line."""
     order = np.argsort(at)
     line = axes.plot(at[order], theory[order], lw=1, label=f"{name}, theory")[0]
     difference = np.abs(got - theory).max() / np.ptp(theory)

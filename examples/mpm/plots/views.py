@@ -1,4 +1,5 @@
-"""How the pictures show the scenes: what colours the points, and what is drawn beside them."""
+"""Defines how the pictures show the scenes: the values that colour the points, and what is drawn
+with them."""
 
 from __future__ import annotations
 
@@ -21,8 +22,8 @@ WATER, ROCK, STEEL = "#CFE6F5", "#9A9A9A", "#3B4A5A"
 class Moment:
     """A state of a run that is drawn."""
 
-    scene: str  # the text of its file; empty where that is not given
-    folder: Path  # of the run
+    scene: str  # text of the scene file; empty if none is given
+    folder: Path  # folder of the run
     time: float
 
 
@@ -38,7 +39,7 @@ def speed(points: Points) -> np.ndarray:
 
 
 def kilopascals(points: Points) -> np.ndarray:
-    """Pressure."""
+    """Returns the pressure."""
     return -sum(points[f"stress_{axis}"] for axis in ("xx", "yy", "zz")) / 3e3
 
 
@@ -49,18 +50,18 @@ def plastic_strain(points: Points) -> np.ndarray:
 @dataclass(frozen=True)
 class View:
     label: str = "moved [m]"
-    value: Callable[[Points], np.ndarray] = moved  # that colours the points
-    most: float | None = None  # end of the colours; none: the largest value
+    value: Callable[[Points], np.ndarray] = moved  # determines the colours of the points
+    most: float | None = None  # upper end of the colour scale; None: the largest value
     colours: str = "viridis"
-    is_mirrored: bool = False  # a quarter or a half, shown with its image
-    shows_start: bool = False  # the surface at the start, as a line
-    space: float = 0  # above the points, m
-    marker: float = 1.6  # side of a point's square, by the spacing at the start
+    is_mirrored: bool = False  # a quarter or half of the domain, shown with its mirror image
+    shows_start: bool = False  # draws the initial surface as a line
+    space: float = 0  # height of empty space above the points, m
+    marker: float = 1.6  # side of a point's square, relative to the initial spacing
     backdrop: Callable[[Axes, Moment], list[Patch | Line2D]] = lambda axes, moment: []
 
 
 def anchor(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
-    """The anchor at its place."""
+    """Draws the anchor at its position."""
     radius, cone, length = (
         number_in(moment.scene, key) for key in ("radius", "cone_height", "length")
     )
@@ -77,7 +78,7 @@ def anchor_in_water(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
 
 
 def ground(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
-    """The ground behind the plane of the scene."""
+    """Draws the ground behind the plane of the scene."""
     (x, y), (across, up) = list_in(moment.scene, "point"), list_in(moment.scene, "normal")
     ends = np.array([-1e4, 1e4])
     axes.fill_between(ends, y - (ends - x) * across / up, -1e4, color=ROCK, lw=0, zorder=0.5)
@@ -86,7 +87,7 @@ def ground(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
 
 
 def bank_in_water(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
-    """The sea and its surface, and the bed behind the plane of the scene."""
+    """Draws the sea and its surface, and the bed behind the plane of the scene."""
     bed = ground(axes, moment)
     level = axes.get_ylim()[1] - 4
     axes.axhspan(-1e4, level, color=WATER, lw=0, zorder=0)
@@ -122,7 +123,7 @@ VIEWS = {
     ),
     "elastic_structure": View(backdrop=clamped_feet),
     "two_disks": View(label="speed [m/s]", value=speed),
-    # Shear draws the rows of points apart: larger squares fill a layer as dense as at first.
+    # Shear separates the rows of points. Larger squares fill the gaps in a layer whose density has not changed.
     "dam_break": View(label="pressure [kPa]", value=kilopascals, most=20, marker=6),
     "granular_column": View(**STRAIN, most=3, marker=3.2),
     "vertical_cut": View(**STRAIN, most=1, marker=2),

@@ -24,20 +24,20 @@ def arrays_in(path: Path) -> dict[str, np.ndarray]:
 
 
 def history_of(folder: Path) -> dict[str, np.ndarray]:
-    """Columns of history.csv."""
+    """Returns the columns of history.csv."""
     with (folder / "history.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
 def points_of(files: list[Path]) -> dict[str, np.ndarray]:
-    """Columns of the points of all ranks."""
+    """Returns the columns of the points of all ranks."""
     pieces = [piece for piece in map(arrays_in, files) if piece["part"].size > 0]
     return {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
 
 
 def frames_of(folder: Path, name: str) -> list[tuple[float, list[Path]]]:
-    """Times of a series, `points` or `boxes`, and the files of each."""
+    """Returns the times of a series, `points` or `boxes`, and the files of each time."""
     frames: dict[float, list[Path]] = {}
     for entry in xml.parse(folder / f"{name}.pvd").getroot().iter("DataSet"):
         frames.setdefault(float(entry.get("timestep")), []).append(folder / entry.get("file"))

@@ -1,41 +1,42 @@
-"""Compares RRCB with Zoltan's RCB on the same points. With no option: a slope fails on
-4 ranks, the balancers meet on snapshots of it, the whole simulation is timed six times
-under each of them, and a table and pictures are written.
+"""Compares RRCB with Zoltan's RCB on the same points. Without options a slope fails on 4 ranks.
+The balancers divide snapshots of it, the complete simulation is timed six times with each of
+them, and a table and pictures are written.
 
 comparisons/run [option ...]
-  --ranks=4             MPI ranks, 1 to 256
-  --out=DIR             where table, data and pictures go (comparisons/out; of a scene
-                        but the slope comparisons/out/NAME)
-  --price               what accuracy costs, on twelve clouds; --price --help lists its options
-  --quick               a small run of everything, to see that it works
+  --ranks=4             number of MPI ranks, 1 to 256
+  --out=DIR             folder of the table, data and pictures. Default: comparisons/out; for
+                        scenes other than the slope comparisons/out/NAME
+  --price               measures the price of accuracy on twelve clouds; --price --help lists
+                        its options
+  --quick               a small run of everything, to check that it works
  points, one of
   --scene=slope         snapshots of a simulation: slope (the default), submarine_slide,
                         torpedo_anchor, dam_break, run_out, elastic_structure, or a scene file
-  --cloud=NAME          generated: uniform, slope, clusters, lattice, run_out, polygon,
+  --cloud=NAME          generated points: uniform, slope, clusters, lattice, run_out, polygon,
                         shell or spiral, with
-      --points=N            how many over all ranks
+      --points=N            number of points on all ranks
       --dim=2               or 3
-      --layout=sorted       over the ranks by position, or scattered
+      --layout=sorted       distributed over the ranks by position, or scattered
   --file=points.csv     columns x, y and optionally z and weight
-  --replay=DIR          what the plug-in dumped of a call (RRCB_DUMP)
+  --replay=DIR          a call that the plug-in has dumped (RRCB_DUMP)
  what is compared
   --methods=a,b,c       zoltan-rcb zoltan-rib zoltan-hsfc hilbert-counts root-rcb rrcb-sampled
-                        rrcb rrcb-exact rrcb-arrays, and zoltan2-mj where Zoltan2 can be installed;
-                        parameters in brackets: rrcb-sampled[mesh=4,k=2,fraction=0.25];
-                        zoltan-rcb, rrcb-sampled, rrcb and rrcb-exact unless told otherwise;
-                        all: every method, rrcb-sampled and rrcb in four settings each
-  --lists=PARTS         or EXPORT, ALL: what a call must return
-  --repeats=6           of each call, best an even number, and rounds of the simulations, of
-                        those 6 at most; medians have 95 % intervals from 6 on
-  --radius=R            cut-off that ghosts, the copies of points that parts need from
-                        others, are counted by; twice the mean spacing
-  --ranks-per-node=N    counts those between machines with so many ranks each
-  --seed=1              of the points of a cloud, of --layout=scattered and of the order of turns
-  --steps=N             of the simulation; to its end, of the slope until it lies still
-  --every=auto          rebalance the simulation when it pays; or N: steps between two
-                        rebalances; or several by commas, all in the same rounds
-  --cost=learned        the simulations also compare weights from learned costs with
-                        counting; of the default methods, else --cost=count
+                        rrcb rrcb-exact rrcb-arrays, and zoltan2-mj if Zoltan2 can be installed;
+                        parameters in brackets: rrcb-sampled[mesh=4,k=2,fraction=0.25].
+                        Default: zoltan-rcb, rrcb-sampled, rrcb and rrcb-exact.
+                        all: every method, rrcb-sampled and rrcb with four settings each
+  --lists=PARTS         or EXPORT, ALL: the lists that a call must return
+  --repeats=6           repeats of each call, preferably an even number, and rounds of the
+                        simulations, at most 6. With 6 or more, medians have 95 % intervals
+  --radius=R            cut-off with which ghosts are counted: copies of points that parts need
+                        from other parts. Default: twice the mean spacing
+  --ranks-per-node=N    also counts ghosts between machines with N ranks each
+  --seed=1              for the points of a cloud, --layout=scattered and the order of turns
+  --steps=N             steps of the simulation. Default: to its end; the slope until it stops
+  --every=auto          rebalances the simulation when it pays; or N: steps between two
+                        rebalances; or several numbers separated by commas, in the same rounds
+  --cost=learned        also compares weights from learned costs with counting in simulations;
+                        default with the default methods, otherwise --cost=count
 """
 
 from __future__ import annotations

@@ -17,8 +17,8 @@ void set_piece(const DensityPiece& piece, double weight, std::size_t axis, Patch
     patch.weight = weight;
 }
 
-/// Gives a density along an axis to the patches from `first` on, which all belong to one cell. Each
-/// patch is replaced by one patch for each piece of the density.
+/// Divides the patches from `first` on, which belong to one cell, by a density along an axis. Each
+/// patch is replaced by one patch for every piece of the density.
 void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis,
             std::span<const DensityPiece> pieces) {
     const std::size_t last = patches.size();

@@ -22,8 +22,8 @@ namespace rrcb::c {
 
 namespace {
 
-/// Value of `needs` by which the Fortran module reports that radii do not fit the points;
-/// `num_parts` is then the number of radii.
+/// The Fortran module passes this value as `needs` if the numbers of radii and points differ. It
+/// passes the number of radii as `num_parts`.
 constexpr int wrong_radii = -1;
 
 void check_radii(const rrcb_ghost_options& from, LocalIndex num_points) {

@@ -123,8 +123,8 @@ def beam(cell: float) -> Tree:
 
 
 def fitted_rate(time: np.ndarray, value: np.ndarray, low: float, high: float) -> float:
-    """Returns the frequency of the cosine and sine that, with a constant, fit the values with the
-    least squares."""
+    """Fits a constant, a cosine and a sine of one frequency to the values by least squares. Returns
+    the frequency."""
 
     def rest(rate: float) -> float:
         columns = np.stack([np.ones_like(time), np.cos(rate * time), np.sin(rate * time)], axis=1)

@@ -30,8 +30,8 @@ int write_ranks(const PartMap& map, const rrcb::Part* parts, int num_parts, int*
     int count = 0;
     for (int i = 0; i < num_parts; ++i) {
         const rrcb::RankRange range = map.ranks_of(parts[i]);
-        // The ranks of ascending parts ascend as well, so only the last rank written can occur
-        // again.
+        // The ranks of ascending parts ascend as well. Ranks up to the last one written are
+        // therefore duplicates and are skipped.
         const int next = count == 0 ? 0 : ranks[count - 1] + 1;
         for (int r = std::max(range.first_rank, next); r < range.first_rank + range.count; ++r) {
             ranks[count++] = r;

@@ -81,8 +81,8 @@ struct PackedCuts {
 /// Which points become open, depending on the region of their part.
 enum class Opens { none, outside, inside };
 
-/// Converts a part to the mark that its open points have until they are copied, and such a mark to
-/// the part.
+/// Returns the mark of a part, which is negative. Open points have it in place of their part until
+/// they are copied. Applied to a mark, it returns the part.
 KOKKOS_INLINE_FUNCTION Part marked(Part part) {
     return no_part - 1 - part;
 }

@@ -18,7 +18,7 @@ MENU = {
               "docs/errors", "docs/hard_cases", "docs/teuchos",
               "SUPPORT"],
     "Reference": ["docs/parameters", "reference/cpp", "reference/c", "reference/fortran",
-                  "reference/python", "reference/names", "docs/stability", "CHANGELOG"],
+                  "reference/python", "reference/names", "docs/stability", "docs/migration", "CHANGELOG"],
     "Comparisons": ["comparisons/README", "comparisons/columns", "docs/design/paper"],
     "Design": ["docs/design/how_it_works", "docs/design/statistical_domain",
                "docs/design/many_ranks", "docs/design/rebalancing", "docs/performance",

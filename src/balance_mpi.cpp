@@ -312,16 +312,16 @@ Balance balance_over(MPI_Comm comm, const Points& points, const Options& options
 
 }  // namespace
 
-Balance balance(const Points& points, const Options& options, const Cuts& previous, MPI_Comm comm) {
+Balance balance(const Points& points, MPI_Comm comm, const Options& options, const Cuts& previous) {
     return balance_over(comm, points, options, previous);
 }
 
-void balance_into(Balance& result, const Points& points, const Options& options,
-                  const Cuts& previous, MPI_Comm comm) {
+void balance_into(Balance& result, const Points& points, MPI_Comm comm, const Options& options,
+                  const Cuts& previous) {
     result = balance_over(comm, points, options, previous, std::exchange(result.parts, {}));
 }
 
-Balance balance(PointPasses& points, const Options& options, const Cuts& previous, MPI_Comm comm) {
+Balance balance(PointPasses& points, MPI_Comm comm, const Options& options, const Cuts& previous) {
     Participant self = mpi::enter(comm, CallName::balance);
     const double start = MPI_Wtime();
     CheckedPasses checked(points);

@@ -100,7 +100,7 @@ class Loop {
         std::vector<double> weights;
         if (learns_) weights = model_.weights(particles_.rows(width()));
         const double start = MPI_Wtime();
-        rrcb::Points points = rrcb::interleaved_points(particles_.positions(), 2, weights);
+        rrcb::Points points(particles_.positions(), 2, weights);
         if (sees_x_only_) points.dimension = 1;
         zoltan_.use_points(points);
         zoltan_.free_lists();

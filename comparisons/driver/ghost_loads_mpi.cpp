@@ -35,7 +35,7 @@ void compare(const Cloud& cloud, MPI_Comm comm) {
         rrcb::Balance balance;
         for (int corrections = 0; corrections <= most_corrections; ++corrections) {
             const rrcb::Cuts previous = std::exchange(balance.cuts, {});
-            balance = rrcb::balance(workload.points(), options, previous, comm);
+            balance = rrcb::balance(workload.points(), comm, options, previous);
             const Ghosts ghosts = counter.count(balance.parts, num_parts);
             const std::vector<double> loads = loads_of(balance, ghosts, cost);
             print(Row()

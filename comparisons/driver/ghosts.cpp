@@ -91,7 +91,7 @@ std::vector<Part> by(const std::string& method, const Workload& workload, int nu
     if (read.options) {
         auto options = std::get<rrcb::Options>(*read.options);
         options.num_parts = num_parts;
-        return rrcb::balance(workload.points(), options, {}, MPI_COMM_SELF).parts;
+        return rrcb::balance(workload.points(), MPI_COMM_SELF, options).parts;
     }
     ZoltanParameters parameters = zoltan_parameters(read, Lists::parts);
     parameters.emplace_back("NUM_GLOBAL_PARTS", std::to_string(num_parts));

@@ -188,8 +188,8 @@ void add(const PaperOptions& options, ZoltanParameters& parameters) {
 
 rrcb::Balance balance(const OwnOptions& options, const rrcb::Points& points, MPI_Comm comm) {
     if (const auto* paper = std::get_if<PaperOptions>(&options))
-        return rrcb::balance_as_in_paper(points, *paper, comm);
-    return rrcb::balance(points, std::get<Options>(options), {}, comm);
+        return rrcb::balance_as_in_paper(points, comm, *paper);
+    return rrcb::balance(points, comm, std::get<Options>(options));
 }
 
 std::string method_names() {

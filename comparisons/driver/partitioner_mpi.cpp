@@ -47,10 +47,8 @@ void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR l
     const rrcb::Points& points = static_cast<const NumberedPoints*>(data)->points;
     const auto axes = static_cast<std::size_t>(num_axes);
     for (std::size_t a = 0; a < axes; ++a) {
-        const double* from = points.axes[a].data();
-        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-            result[i * axes + a] = from[local_ids[i] * points.stride];
-        }
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            result[i * axes + a] = points.coordinate(local_ids[i], static_cast<int>(a));
     }
     *code = ZOLTAN_OK;
 }
@@ -66,7 +64,7 @@ class ArraysPartitioner : public Partitioner {
 
     int partition() override {
         try {
-            balance_ = rrcb::balance(workload_.points(), options_, cuts_, comm_);
+            balance_ = rrcb::balance(workload_.points(), comm_, options_, cuts_);
             if (reuses_) cuts_ = balance_->cuts;
         } catch (const rrcb::Error&) {
             return ZOLTAN_FATAL;
@@ -217,8 +215,8 @@ mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
     return [zoltan, parameters](mpm::Positions positions, MPI_Comm comm) {
         if (!*zoltan) *zoltan = std::make_shared<ZoltanPartitioner>(parameters, Workload(), comm);
         const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
-        (*zoltan)->use_points(rrcb::column_points(
-            std::span(columns).first(static_cast<std::size_t>(positions.dimension))));
+        (*zoltan)->use_points(
+            rrcb::Points(std::span(columns).first(static_cast<std::size_t>(positions.dimension))));
         return decompose(*zoltan, comm);
     };
 }

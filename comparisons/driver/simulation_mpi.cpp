@@ -150,7 +150,7 @@ void TimedSimulation::record_step() {
         if (model_)
             model_->step(undecided_.seconds, undecided_.columns);
         else
-            controller_->step(undecided_.seconds, undecided_.points);
+            controller_->step({.load = undecided_.seconds, .weight = undecided_.points});
     };
     run_.decide_s += timed(decide, decisions_, comm_);
     undecided_ = {};
@@ -165,7 +165,7 @@ void TimedSimulation::rebalance() {
     std::uint64_t moved = 0;
     run_.balance_s += timed([&] { moved = simulation_->rebalance(*balancer_); }, balances_, comm_);
     MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_UINT64_T, MPI_SUM, comm_);
-    if (controller_) controller_->rebalanced(balances_.last_s(num_ranks_));
+    if (controller_) controller_->rebalanced({.cost = balances_.last_s(num_ranks_)});
     const auto num_points = static_cast<double>(std::max<std::int64_t>(1, run_.num_points));
     moved_lately_ = static_cast<double>(moved) / num_points;
     run_.moved_fraction += (moved_lately_ - run_.moved_fraction) / ++run_.rebalances;

@@ -23,9 +23,7 @@ struct Workload {
     bool weighted = false;            ///< is the same on every rank
     std::vector<double> weights;      ///< one per point if weighted, else empty
 
-    rrcb::Points points() const {
-        return rrcb::interleaved_points(coordinates, dimension, weights);
-    }
+    rrcb::Points points() const { return rrcb::Points(coordinates, dimension, weights); }
 };
 
 /// The distribution of the points over the ranks before they are balanced.

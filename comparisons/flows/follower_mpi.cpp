@@ -82,7 +82,7 @@ CallCounts Follower::go_on(const Workload& all) {
     }
     start_counting_traffic();
     rrcb::Balance balance =
-        rrcb::balance(mine.points(), options_, policy_.has_previous ? cuts_ : rrcb::Cuts{}, comm_);
+        rrcb::balance(mine.points(), comm_, options_, policy_.has_previous ? cuts_ : rrcb::Cuts{});
     cuts_ = std::move(balance.cuts);
     if (policy_.renumbers && !parts_.empty()) renumber(balance.parts, here);
     CallCounts counts{.messages = stop_counting_traffic().messages};

@@ -106,7 +106,7 @@ void run(const std::vector<std::string>& words) {
     const std::vector<Policy> chosen = policies(read_names(words[2]));
     // The first call duplicates the communicator. It must not be counted for the first flow.
     const std::vector<double> no_points;
-    rrcb::balance(rrcb::interleaved_points(no_points, 2), {}, {}, MPI_COMM_WORLD);
+    rrcb::balance(rrcb::Points(no_points, 2), MPI_COMM_WORLD);
     for (const std::string& name : words[1] == "all" ? flow_names() : read_names(words[1]))
         follow(make_flow(name), chosen, *num_parts);
 }

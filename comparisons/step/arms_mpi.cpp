@@ -43,7 +43,7 @@ Arm loop(const Flow& flow) {
     return {
         {"assign_all",
          [=](const Particles& p) {
-             state->balance.parts = rrcb::assign_all(state->balance.cuts, p.points(), comm);
+             state->balance.parts = rrcb::assign(state->balance.cuts, p.points(), comm);
          }},
         {"plan", [=](const Particles&) { state->plan = rrcb::plan(state->balance, comm); }},
         {"transfer",
@@ -53,7 +53,8 @@ Arm loop(const Flow& flow) {
          }},
         {"ghosts",
          [=](const Particles& p) {
-             state->near = rrcb::ghosts(state->balance.cuts, p.points(), {.radius = radius}, comm);
+             state->near =
+                 rrcb::ghost_plan(state->balance.cuts, p.points(), comm, {.radius = radius});
          }},
         {"fetch",
          [=](Particles& p) {
@@ -71,8 +72,8 @@ Arm loop(const Flow& flow) {
 Arm neighbours(const Flow& flow) {
     using rrcb::column;
     const auto near = std::make_shared<rrcb::Neighbours>(
-        flow.cuts(), rrcb::NeighbourOptions{.radius = flow.radius(), .travel = flow.travel()},
-        flow.comm());
+        flow.cuts(), flow.comm(),
+        rrcb::NeighbourOptions{.radius = flow.radius(), .travel = flow.travel()});
     const std::size_t width = static_cast<std::size_t>(flow.dimension());
     return {
         {"migrate",

@@ -45,7 +45,7 @@ Flow::Flow(int dimension, std::int64_t points_per_rank, MPI_Comm comm)
         }
         start_.ids.push_back(id);
     }
-    const rrcb::Balance balance = rrcb::balance(start_.points(), {}, {}, comm);
+    const rrcb::Balance balance = rrcb::balance(start_.points(), comm);
     cuts_ = balance.cuts;
     std::tie(start_.x, start_.v, start_.ids) = rrcb::transfer(
         rrcb::plan(balance, comm),

@@ -19,7 +19,7 @@ struct Particles {
 
     std::size_t size() const { return ids.size(); }
     std::size_t width() const { return static_cast<std::size_t>(dimension); }
-    rrcb::Points points() const { return rrcb::interleaved_points(x, dimension); }
+    rrcb::Points points() const { return rrcb::Points(x, dimension); }
 
     rrcb::Column<double> column(const std::vector<double>& values) const {
         return rrcb::column(values, width());

@@ -2,8 +2,8 @@
 // and fetches the points that are near the box of each rank.
 #include <rrcb/experimental/kokkos.hpp>
 #include <rrcb/ghosts.hpp>
+#include <rrcb/points.hpp>
 #include <rrcb/transfer.hpp>
-#include <rrcb/views.hpp>
 
 #include <cstdio>
 #include <numeric>
@@ -25,11 +25,11 @@ int main(int argc, char** argv) {
             });
 
         const Kokkos::DefaultExecutionSpace exec;
-        const auto balance = rrcb::experimental::balance(exec, x, rrcb::Options{}, MPI_COMM_WORLD);
-        const auto plan = rrcb::experimental::plan(exec, balance, MPI_COMM_WORLD);
+        const auto balance = rrcb::experimental::balance(exec, x, MPI_COMM_WORLD);
+        const auto by_rank = rrcb::experimental::points_by_rank(exec, balance, rank, num_ranks);
         // The positions are packed by rank on the device, and exchanged in the memory of the host.
         const Positions sorted("sorted", x.extent(0));
-        const auto order = plan.order;
+        const auto order = by_rank.order;
         Kokkos::parallel_for(
             x.extent(0), KOKKOS_LAMBDA(const int i) {
                 for (int a = 0; a < 2; ++a) sorted(i, a) = x(order(i), a);
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
         const auto leaving = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sorted);
         std::vector<int> sent(num_ranks), starts(num_ranks + 1), got(num_ranks),
             ends(num_ranks + 1);
-        for (const rrcb::RankCount& to : plan.counts)
+        for (const rrcb::RankCount& to : by_rank.counts)
             sent[to.rank] = 2 * static_cast<int>(to.count);
         MPI_Alltoall(sent.data(), 1, MPI_INT, got.data(), 1, MPI_INT, MPI_COMM_WORLD);
         std::partial_sum(sent.begin(), sent.end(), starts.begin() + 1);
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
         // Sends each point to the ranks whose boxes are near it. Reads the host's copy of the
         // positions.
         const rrcb::GhostPlan near =
-            rrcb::ghosts(balance.cuts, rrcb::view_points(here), {.radius = 0.02}, MPI_COMM_WORLD);
+            rrcb::ghost_plan(balance.cuts, rrcb::Points(here), MPI_COMM_WORLD, {.radius = 0.02});
         const std::span values(here.data(), here.span());
         const auto ghosts = rrcb::fetch(near, rrcb::column(values, 2), MPI_COMM_WORLD);
         if (rank == 0)

@@ -134,11 +134,12 @@ void agree(RCB& rcb) {
 }
 
 rrcb::Points points_of(int dimension, int n, double** x, const double* weights) {
-    rrcb::Points points{
-        .dimension = dimension, .count = static_cast<rrcb::LocalIndex>(n), .stride = 3};
+    rrcb::Points points;
+    points.dimension = dimension;
+    points.count = static_cast<rrcb::LocalIndex>(n);
+    points.stride = 3 * sizeof(double);
     if (n == 0) return points;
-    const std::size_t size = 3 * (points.count - 1) + 1;
-    for (int axis = 0; axis < dimension; ++axis) points.axes[axis] = {x[0] + axis, size};
+    for (int axis = 0; axis < dimension; ++axis) points.axes[axis] = x[0] + axis;
     if (weights != nullptr) points.weights = {weights, points.count};
     return points;
 }
@@ -201,7 +202,7 @@ bool answer(RCB& rcb, bool is_new, const rrcb::Points& points, const double* low
     const rrcb::Options options = options_of(points.dimension);
     rrcb::Cuts& cuts = balance.cuts;
     if (is_new || cuts.num_parts != rcb.nprocs || cuts.dimension != points.dimension) cuts = {};
-    rrcb::balance_into(balance, points, options, cuts, *rcb.world);
+    rrcb::balance_into(balance, points, *rcb.world, options, cuts);
     rrcb::Box box;
     std::copy(lower, lower + 3, box.lower.begin());
     std::copy(upper, upper + 3, box.upper.begin());

@@ -26,13 +26,13 @@ int main(int argc, char** argv) {
         for (int step = 0; step < 100; ++step) {
             if (step == 0 || controller.due()) {
                 const double start = MPI_Wtime();
-                const rrcb::Points points = rrcb::interleaved_points(positions, 2);
-                const rrcb::Balance balance = rrcb::balance(points, {}, cuts, comm);
+                const rrcb::Points points(positions, 2);
+                const rrcb::Balance balance = rrcb::balance(points, comm, {}, cuts);
                 const rrcb::Plan plan = rrcb::plan(balance, comm);
                 positions = rrcb::transfer(plan, rrcb::column(positions, 2), comm);
                 cuts = balance.cuts;
-                neighbours = rrcb::Neighbours(cuts, {.radius = radius, .travel = travel}, comm);
-                controller.rebalanced(balance.report, MPI_Wtime() - start);
+                neighbours = rrcb::Neighbours(cuts, comm, {.radius = radius, .travel = travel});
+                controller.rebalanced({.cost = MPI_Wtime() - start, .report = &balance.report});
             } else {
                 neighbours->migrate(rrcb::column(positions, 2));
             }
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
             pairs += sum_of(count_neighbours(positions, ghosts));  // your step
             move(positions);
             const double seconds = MPI_Wtime() - began;
-            controller.step(seconds, static_cast<double>(positions.size() / 2));
+            controller.step({.load = seconds, .weight = static_cast<double>(positions.size() / 2)});
         }
     }
     MPI_Allreduce(MPI_IN_PLACE, &pairs, 1, MPI_DOUBLE, MPI_SUM, comm);

@@ -57,19 +57,19 @@ int main(int argc, char** argv) {
         const rrcb::NeighbourOptions options{.radius = radius, .travel = travel};
         if (!run.cuts.empty()) {
             cuts = rrcb::load<rrcb::Cuts>(run.cuts);
-            neighbours = rrcb::Neighbours(cuts, options, comm);
+            neighbours = rrcb::Neighbours(cuts, comm, options);
         }
         std::vector<double> ghosts;
         for (; run.step < num_steps; ++run.step) {
             if (!neighbours || controller.due()) {
                 const std::vector<double> weights = model.weights(rows);
-                const rrcb::Points points = rrcb::interleaved_points(positions, 2, weights);
-                const rrcb::Balance balance = rrcb::balance(points, {}, cuts, comm);
+                const rrcb::Points points(positions, 2, weights);
+                const rrcb::Balance balance = rrcb::balance(points, comm, {}, cuts);
                 const rrcb::Plan plan = rrcb::plan(balance, comm);
                 positions = rrcb::transfer(plan, rrcb::column(positions, 2), comm);
                 cuts = balance.cuts;
-                neighbours = rrcb::Neighbours(cuts, options, comm);
-                controller.rebalanced(balance.report, cost);
+                neighbours = rrcb::Neighbours(cuts, comm, options);
+                controller.rebalanced({.cost = cost, .report = &balance.report});
                 ++run.rebalances;
             } else {
                 neighbours->migrate(rrcb::column(positions, 2));

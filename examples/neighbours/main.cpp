@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     MPI_Comm_size(comm, &num_ranks);
 
     const std::vector<double> given = catalogue(rank, num_ranks);
-    const rrcb::Balance balance = rrcb::balance(rrcb::interleaved_points(given, 2), {}, {}, comm);
+    const rrcb::Balance balance = rrcb::balance(rrcb::Points(given, 2), comm);
     const std::vector<double> here =
         rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(given, 2), comm);
 
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < here.size() / 2; ++i)
         radii.push_back(found[i * num_nearest + num_nearest - 1]);
     const rrcb::GhostPlan asked =
-        rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2), {.radii = radii}, comm);
+        rrcb::ghost_plan(balance.cuts, rrcb::Points(here, 2), comm, {.radii = radii});
     const std::vector<double> queries = rrcb::fetch(asked, rrcb::column(here, 2), comm);
     const std::vector<double> answers =
         rrcb::reply(asked, rrcb::column(nearest(here, queries), num_nearest), comm);

@@ -96,7 +96,7 @@ with controller, model:
     for step in range(int(first), num_steps):
         if cuts is None or controller.due:
             balance = rrcb.balance(x, weights=model.weights(columns), comm=comm, previous=cuts)
-            x = balance.distribute(x)
+            x = balance.transfer(x)
             cuts = balance.cuts
             near = rrcb.Neighbours(cuts, RADIUS, TRAVEL, comm=comm)
             controller.rebalanced(balance.report, COST)

@@ -59,8 +59,8 @@ def distribute(partition, box_size, data, coord_keys):
         parts = rrcb.balance(x, comm=partition.comm)
         partition.cuts = parts.cuts
     else:
-        parts = rrcb.assign_all(x, partition.cuts, partition.comm)
-    return parts.distribute(data)
+        parts = rrcb.assign(x, partition.cuts, partition.comm)
+    return parts.transfer(data)
 
 
 def overload(partition, box_size, data, overload_length, coord_keys):
@@ -71,7 +71,7 @@ def overload(partition, box_size, data, overload_length, coord_keys):
     """
     x = positions_of(box_size, data, coord_keys)
     length = overload_length / box_size
-    parts = rrcb.assign_all(x, partition.cuts, partition.comm)
+    parts = rrcb.assign(x, partition.cuts, partition.comm)
     # The box of a part, extended by the margin, is within this radius of the part.
     ghosts = parts.ghosts(x, length * math.sqrt(x.shape[1]) * (1 + 1e-12), period=1.0)
     images = ghosts.fetch_positions(x)

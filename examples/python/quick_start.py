@@ -19,7 +19,7 @@ x = rng.random((10_000, 2)) ** 2
 mass = rng.random(len(x))
 
 balance = rrcb.balance(x, weights=mass, comm=comm, tolerance=1.01)
-here = balance.distribute({"x": x, "mass": mass})
+here = balance.transfer({"x": x, "mass": mass})
 
 # The ghosts are copies of other ranks' points within 0.02 of this rank's box.
 ghosts = balance.ghosts(here["x"], radius=0.02)

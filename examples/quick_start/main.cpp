@@ -26,15 +26,15 @@ int main(int argc, char** argv) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     const std::vector<double> coordinates = squares_of(rank);
 
-    const rrcb::Points points = rrcb::interleaved_points(coordinates, 2);
-    const rrcb::Balance balance = rrcb::balance(points, {}, {}, MPI_COMM_WORLD);
+    const rrcb::Points points(coordinates, 2);
+    const rrcb::Balance balance = rrcb::balance(points, MPI_COMM_WORLD);
     const rrcb::Plan plan = rrcb::plan(balance, MPI_COMM_WORLD);
 
     // Columns of the points in this rank's box, and copies of others within 0.05 of it.
     const std::vector<double> here =
         rrcb::transfer(plan, rrcb::column(coordinates, 2), MPI_COMM_WORLD);
-    const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2),
-                                              {.radius = 0.05}, MPI_COMM_WORLD);
+    const rrcb::GhostPlan near =
+        rrcb::ghost_plan(balance.cuts, rrcb::Points(here, 2), MPI_COMM_WORLD, {.radius = 0.05});
     const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(here, 2), MPI_COMM_WORLD);
 
     const double moved = rrcb::moved_fraction(points, balance, MPI_COMM_WORLD);

@@ -21,17 +21,17 @@ Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
         if (2 * travelled >= skin) {  // otherwise the plan might miss pairs
             for (double& x : own.positions) x -= std::floor(x);
             // A denser particle has more pairs, so it weighs more.
-            const rrcb::Points points = rrcb::interleaved_points(own.positions, 2, own.densities);
+            const rrcb::Points points(own.positions, 2, own.densities);
             const bool is_due = step == 0 || controller.due();
-            if (is_due) balance = rrcb::balance(points, {}, balance.cuts, comm);
-            if (is_due) controller.rebalanced(balance.report, cost);
-            if (!is_due) balance.parts = rrcb::assign_all(balance.cuts, points, comm);
+            if (is_due) balance = rrcb::balance(points, comm, {}, balance.cuts);
+            if (is_due) controller.rebalanced({.cost = cost, .report = &balance.report});
+            if (!is_due) balance.parts = rrcb::assign(balance.cuts, points, comm);
             const auto columns = rrcb::columns(column(own.positions, 2), column(own.velocities, 2),
                                                column(own.numbers));
             std::tie(own.positions, own.velocities, own.numbers) =
                 rrcb::transfer(rrcb::plan(balance, comm), columns, comm);
-            near = rrcb::ghosts(balance.cuts, rrcb::interleaved_points(own.positions, 2),
-                                {.radius = reach + skin, .periodic = {{{0, 0}, {1, 1}}}}, comm);
+            near = rrcb::ghost_plan(balance.cuts, rrcb::Points(own.positions, 2), comm,
+                                    {.radius = reach + skin, .periodic = {{{0, 0}, {1, 1}}}});
             numbers = joined(own.numbers, rrcb::fetch(near, own.numbers, comm));
             travelled = 0;
         }
@@ -68,7 +68,8 @@ Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
         }
         MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
         travelled += time_step * fastest * std::sqrt(2);
-        controller.step(static_cast<double>(pairs.size()), static_cast<double>(count));
+        controller.step(
+            {.load = static_cast<double>(pairs.size()), .weight = static_cast<double>(count)});
     }
     return own;
 }

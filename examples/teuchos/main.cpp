@@ -23,8 +23,8 @@ std::vector<double> square_of(int rank) {
 void balance_by(const char* file, int rank) {
     const rrcb::Options options = rrcb::teuchos::options_from(rrcb::teuchos::read_parameters(file));
     const std::vector<double> coordinates = square_of(rank);
-    const rrcb::Points points = rrcb::interleaved_points(coordinates, 2);
-    const rrcb::Balance balance = rrcb::balance(points, options, {}, MPI_COMM_WORLD);
+    const rrcb::Points points(coordinates, 2);
+    const rrcb::Balance balance = rrcb::balance(points, MPI_COMM_WORLD, options);
     if (rank != 0) return;
     std::printf("%lld points in %d parts, imbalance %.4f\n",
                 static_cast<long long>(balance.report.details.num_points), balance.cuts.num_parts,

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
 
     const auto x = before.getLocalViewDevice(Tpetra::Access::ReadOnly);
     const Vectors::execution_space exec;
-    const auto balance = rrcb::experimental::balance(exec, x, rrcb::Options{}, MPI_COMM_WORLD);
+    const auto balance = rrcb::experimental::balance(exec, x, MPI_COMM_WORLD);
 
     // Only the ids of the nodes are sent to the ranks of their parts. An Import moves the other
     // data.

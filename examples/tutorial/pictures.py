@@ -69,7 +69,7 @@ def parts(steps, num_parts=4):
 
 def ghosts_of(rank, steps):
     balance = rrcb.balance(water_after(steps)[comm.rank :: comm.size], comm=comm)
-    own = balance.distribute(water_after(steps)[comm.rank :: comm.size])
+    own = balance.transfer(water_after(steps)[comm.rank :: comm.size])
     near = balance.ghosts(own, radius=RADIUS).fetch(own)
     everything, copies = comm.gather(own), comm.gather(near)
     if comm.rank > 0:
@@ -97,7 +97,7 @@ def history(policy):
                 own = everything[strip == comm.rank]
             elif cuts is None or policy == "balance in each step" or controller.due:
                 balance = rrcb.balance(own, comm=comm, previous=cuts)
-                own, cuts = balance.distribute(own), balance.cuts
+                own, cuts = balance.transfer(own), balance.cuts
                 neighbours = rrcb.Neighbours(cuts, RADIUS, TRAVEL, comm=comm)
                 controller.rebalanced(balance.report, 2000.0)
                 made.append(step)

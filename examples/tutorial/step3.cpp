@@ -14,8 +14,8 @@ int main(int argc, char** argv) {
     std::vector<double> own = rank == 0 ? column_of_water() : std::vector<double>{};
     Loads loads;
     for (int step = 0; step < num_steps; ++step) {
-        const rrcb::Points points = rrcb::interleaved_points(own, 2);
-        const rrcb::Balance balance = rrcb::balance(points, {}, {}, comm);
+        const rrcb::Points points(own, 2);
+        const rrcb::Balance balance = rrcb::balance(points, comm);
         own = rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(own, 2), comm);
         const std::vector<double> all = gathered(own, comm);
         const double pairs = count_pairs(own, all);

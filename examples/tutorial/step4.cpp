@@ -12,11 +12,11 @@ int main(int argc, char** argv) {
     std::vector<double> own = rank == 0 ? column_of_water() : std::vector<double>{};
     Loads loads;
     for (int step = 0; step < num_steps; ++step) {
-        const rrcb::Points points = rrcb::interleaved_points(own, 2);
-        const rrcb::Balance balance = rrcb::balance(points, {}, {}, comm);
+        const rrcb::Points points(own, 2);
+        const rrcb::Balance balance = rrcb::balance(points, comm);
         own = rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(own, 2), comm);
         const rrcb::GhostPlan near =
-            rrcb::ghosts(balance.cuts, rrcb::interleaved_points(own, 2), {.radius = radius}, comm);
+            rrcb::ghost_plan(balance.cuts, rrcb::Points(own, 2), comm, {.radius = radius});
         const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(own, 2), comm);
         const double pairs = count_pairs(own, own) + count_pairs(own, ghosts);
         move(own);

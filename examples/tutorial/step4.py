@@ -11,7 +11,7 @@ own = column_of_water() if comm.rank == 0 else np.empty((0, 2))
 loads = Loads()
 for step in range(NUM_STEPS):
     balance = rrcb.balance(own, comm=comm)
-    own = balance.distribute(own)
+    own = balance.transfer(own)
     ghosts = balance.ghosts(own, radius=RADIUS).fetch(own)
     pairs = count_pairs(own, own) + count_pairs(own, ghosts)
     move(own)

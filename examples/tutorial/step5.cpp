@@ -25,12 +25,12 @@ int main(int argc, char** argv) {
         std::vector<double> ghosts;
         for (int step = 0; step < num_steps; ++step) {
             if (step == 0 || controller.due()) {
-                const rrcb::Points points = rrcb::interleaved_points(own, 2);
-                const rrcb::Balance balance = rrcb::balance(points, {}, cuts, comm);
+                const rrcb::Points points(own, 2);
+                const rrcb::Balance balance = rrcb::balance(points, comm, {}, cuts);
                 own = rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(own, 2), comm);
                 cuts = balance.cuts;
-                neighbours = rrcb::Neighbours(cuts, {.radius = radius, .travel = travel}, comm);
-                controller.rebalanced(balance.report, cost);
+                neighbours = rrcb::Neighbours(cuts, comm, {.radius = radius, .travel = travel});
+                controller.rebalanced({.cost = cost, .report = &balance.report});
                 ++rebalances;
             } else {
                 neighbours->migrate(rrcb::column(own, 2));
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
             neighbours->fetch(rrcb::ghosts_of(ghosts), rrcb::column(own, 2));
             const double pairs = count_pairs(own, own) + count_pairs(own, ghosts);
             move(own);
-            controller.step(pairs);
+            controller.step({.load = pairs});
             loads.add(pairs, comm);
         }
     }

@@ -19,7 +19,7 @@ with rrcb.Controller(comm) as controller:
     for step in range(NUM_STEPS):
         if step == 0 or controller.due:
             balance = rrcb.balance(own, comm=comm, previous=cuts)
-            own = balance.distribute(own)
+            own = balance.transfer(own)
             cuts = balance.cuts
             neighbours = rrcb.Neighbours(cuts, RADIUS, TRAVEL, comm=comm)
             controller.rebalanced(balance.report, COST)

@@ -56,12 +56,12 @@ int main(int argc, char** argv) {
         std::vector<double> ghosts;
         for (int step = first; step < last; ++step) {
             if (step == first || controller.due()) {
-                const rrcb::Points points = rrcb::interleaved_points(own, 2);
-                const rrcb::Balance balance = rrcb::balance(points, {}, cuts, comm);
+                const rrcb::Points points(own, 2);
+                const rrcb::Balance balance = rrcb::balance(points, comm, {}, cuts);
                 own = rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(own, 2), comm);
                 cuts = balance.cuts;
-                neighbours = rrcb::Neighbours(cuts, {.radius = radius, .travel = travel}, comm);
-                controller.rebalanced(balance.report, 2000);
+                neighbours = rrcb::Neighbours(cuts, comm, {.radius = radius, .travel = travel});
+                controller.rebalanced({.cost = 2000, .report = &balance.report});
             } else {
                 neighbours->migrate(rrcb::column(own, 2));
             }
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
             neighbours->fetch(rrcb::ghosts_of(ghosts), rrcb::column(own, 2));
             const double pairs = count_pairs(own, own) + count_pairs(own, ghosts);
             move(own);
-            controller.step(pairs);
+            controller.step({.load = pairs});
             loads.add(pairs, comm);
         }
     }

@@ -28,7 +28,7 @@ with rrcb.Controller(comm) as controller:  # begins anew, as the ranks may be ot
     for step in range(first, last):
         if cuts is None or controller.due:
             balance = rrcb.balance(own, comm=comm, previous=cuts)
-            own = balance.distribute(own)
+            own = balance.transfer(own)
             cuts = balance.cuts
             neighbours = rrcb.Neighbours(cuts, RADIUS, TRAVEL, comm=comm)
             controller.rebalanced(balance.report, 2000.0)

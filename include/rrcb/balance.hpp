@@ -52,35 +52,36 @@ struct Balance {
 
 /// Divides the points of all ranks into parts of equal, or given relative, weight. No point moves.
 ///
-///     balance = rrcb::balance(points, {}, balance.cuts, comm);  // one part per rank
+///     const rrcb::Balance now = rrcb::balance(points, comm);  // one part per rank
+///     const rrcb::Balance next = rrcb::balance(points, comm, options, now.cuts);
 ///
 /// Collective. The same input on the same ranks gives bit-identical results.
 /// @param points   of this rank, which may have none; the dimension must be the same on every rank
+/// @param comm     is duplicated by the first call; the duplicate is freed together with it
 /// @param options  must be the same on every rank
 /// @param previous cuts of an earlier call; ignored if empty, or if num_parts is 0 and ranks differ
-/// @param comm     is duplicated by the first call; the duplicate is freed together with it
 /// @return the cuts, the part of each point of this rank and a report
 /// Throws the same Error on every rank: for unusable coordinates, weights or arrays, options that
 /// are out of range or differ between ranks, `previous` of another dimension or num_parts, limits
 /// without room for the parts, or ranks that round differently. Cost: a pass over the points, a
 /// gathering of cells, a broadcast, and a reduction for each round of counting; if `previous` is
 /// kept, a pass, a reduction and a broadcast. See docs/design/how_it_works.md.
-RRCB_API Balance balance(const Points& points, const Options& options, const Cuts& previous,
-                         MPI_Comm comm);
+RRCB_API Balance balance(const Points& points, MPI_Comm comm, const Options& options = {},
+                         const Cuts& previous = {});
 
 /// Replaces a result as balance() would, and reuses the memory of its parts. Collective.
 ///
 /// @param result   has no parts if the call throws
 /// @param points   if there are as many as last time, no memory is allocated for each
+/// @param comm     as for balance()
 /// @param options  must be the same on every rank
 /// @param previous the same on every rank, or as each rank got them from a balance on `comm`; may
 /// be `result.cuts`. They are kept if the parts are within the tolerance, except with
 /// Refine::exact; new cuts prefer their axes. Limits may move cuts to axes other than those of
 /// Axes::order. Report::kept and the estimate are set only if the cuts are made anew
-/// @param comm     as for balance()
 /// Throws Error as balance().
-RRCB_API void balance_into(Balance& result, const Points& points, const Options& options,
-                           const Cuts& previous, MPI_Comm comm);
+RRCB_API void balance_into(Balance& result, const Points& points, MPI_Comm comm,
+                           const Options& options = {}, const Cuts& previous = {});
 
 /// Frees the buffers that calls on `comm` keep for later calls. Otherwise they are freed with
 /// `comm`.

@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 
 namespace rrcb {
 
@@ -21,10 +22,10 @@ class CostModel;
 ///     for (...) {
 ///         if (controller.due()) {
 ///             ...                                          // balance() and transfer()
-///             controller.rebalanced(balance.report, seconds);
+///             controller.rebalanced({.cost = seconds, .report = &balance.report});
 ///         }
 ///         ...                                              // a step of the simulation
-///         controller.step(seconds_of_work, points.count);
+///         controller.step({.load = seconds_of_work, .weight = points.count});
 ///     }
 ///
 /// docs/design/rebalancing.md explains the rule, which has no settings. The decision is the same on
@@ -45,46 +46,45 @@ class Controller {
     /// Takes over the state of another controller. Collective if this one still has a communicator.
     RRCB_API Controller& operator=(Controller&&) noexcept;
 
-    /// Records a step in which this rank's own work took `load`, without waiting for others.
-    /// Returns due().
-    ///
-    /// Collective, but it waits only for ranks that have not recorded the previous step. `load`
-    /// must be finite and not negative, in the unit of the costs of rebalanced(). If a rank gave an
-    /// illegal number or reported another number of rebalances, throws the same Error on every
-    /// rank, one call later, and in every later call; then make a new controller. An MPI error is
-    /// thrown on the rank on which it occurs. Call it in the same order as other functions with the
-    /// communicator of the constructor.
-    RRCB_API bool step(double load);
+    /// Work of one step on this rank.
+    struct Step {
+        double load = 0;  ///< time of this rank's own work, without waiting for others, in the unit
+                          ///< of the costs of rebalances; finite and not negative
+        /// Sum of the weights given to balance(), or the number of points if it got no weights. If
+        /// it is given, the load is smoothed: it counts as `weight` times the average cost of a
+        /// unit of weight on this rank, so that the noise of a clock is not mistaken for imbalance.
+        /// Give it with measured loads. If it is the number of points although there are weights,
+        /// the load is not smoothed.
+        std::optional<double> weight{};
+    };
 
-    /// Records a step and smooths the load; returns due(). Prefer it for measured loads.
+    /// Records a step; returns due().
     ///
-    ///     if (controller.step(seconds_of_work, sum_of_weights)) rebalance();  // your function
+    ///     if (controller.step({.load = seconds, .weight = weight})) rebalance();  // your function
     ///
-    /// Collective, and throws, as step(load). The smoothed load is `weight` times the average cost
-    /// of a unit of weight on this rank, so that the noise of a clock is not mistaken for
-    /// imbalance.
-    /// @param load   of this rank's own work, finite and not negative, in the unit of the costs
-    /// @param weight of this rank's points: the sum of the weights given to balance(), or their
-    /// number if it got no weights. If the number is given although there are weights, `load` is
-    /// not smoothed
-    RRCB_API bool step(double load, double weight);
+    /// Collective, but it waits only for ranks that have not recorded the previous step. If a rank
+    /// gave an illegal number or reported another number of rebalances, throws the same Error on
+    /// every rank, one call later, and in every later call; then make a new controller. An MPI
+    /// error is thrown on the rank on which it occurs. Call it in the same order as other functions
+    /// with the communicator of the constructor.
+    RRCB_API bool step(const Step& step);
 
     /// Returns whether to rebalance before the next step, according to the latest step(); false
     /// after rebalanced(). The result is the same on every rank. Not collective.
     RRCB_API bool due() const;
 
+    /// Cost of a rebalance on this rank.
+    struct Rebalance {
+        double cost = 0;  ///< time including the migration of the points, in the unit of the loads;
+                          ///< the largest of all ranks counts
+        /// Report of the balance, if there is one. No rebalance is due while heaviest load / mean
+        /// load is at most its least_imbalance.
+        const Report* report = nullptr;
+    };
+
     /// Records a rebalance since the last step, whether it was due or not. Call it on all ranks; it
     /// does not communicate.
-    ///
-    /// @param report of the balance: no rebalance is due while heaviest load / mean load is at most
-    /// its ReportDetails::least_imbalance
-    /// @param cost   time of the rebalance on this rank, including the migration of the points, in
-    /// the unit of the loads; the largest of all ranks counts
-    RRCB_API void rebalanced(const Report& report, double cost);
-
-    /// Records a rebalance by a balancer without a report. Call it on all ranks; it does not
-    /// communicate.
-    RRCB_API void rebalanced(double cost);
+    RRCB_API void rebalanced(const Rebalance& rebalance);
 
   private:
     friend class experimental::CostModel;

@@ -54,7 +54,7 @@ struct Cuts {
     /// ranks.
     std::uint64_t group = 0;
     /// Hash of this rank's points of the balance, if at least one of them has to leave; otherwise
-    /// 0. By it ghosts() recognizes points that were not transferred.
+    /// 0. By it ghost_plan() recognizes points that were not transferred.
     std::uint64_t points = 0;
 
     /// Returns true for cuts that no balance has made, such as Cuts{}. Not collective.
@@ -120,7 +120,7 @@ RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 /// Throws the same Error on every rank: for NaN or infinite coordinates, points of another
 /// dimension than the cuts, cuts that are not a tree or differ between ranks, or lack of memory.
 /// Cost: local look-ups and one reduction.
-[[nodiscard]] RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points,
-                                                    MPI_Comm comm);
+[[nodiscard]] RRCB_API std::vector<Part> assign(const Cuts& cuts, const Points& points,
+                                                MPI_Comm comm);
 
 }  // namespace rrcb

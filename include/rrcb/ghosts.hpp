@@ -1,8 +1,8 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/points.hpp>
 #include <rrcb/transfer.hpp>
-#include <rrcb/views.hpp>
 
 #include <mpi.h>
 
@@ -29,9 +29,9 @@ using Shift = std::array<std::int32_t, 3>;
 
 /// Determines whose radius counts, if points have different radii.
 enum class Needs : std::int32_t {
-    sender,    ///< a rank needs the points whose radii reach one of its parts
-    receiver,  ///< it needs the points within the radius of a point of one of its parts
-    either     ///< it needs both: the points within the greater of two radii
+    scatter,   ///< a rank needs the points whose radii reach one of its parts
+    gather,    ///< a rank needs the points within the radius of one of its own points
+    symmetric  ///< a rank needs both: two points meet within the larger of their radii
 };
 
 /// Points to send and to receive as ghosts. Each list of ranks is in ascending order and contains a
@@ -50,7 +50,7 @@ struct GhostPlan {
     /// transfer. Set it to 0 if as many other points were transferred instead.
     std::uint64_t stamp = 0;
     double radius = std::numeric_limits<double>::quiet_NaN();  ///< as in the options
-    Needs needs = Needs::sender;                               ///< as in the options
+    Needs needs = Needs::scatter;                              ///< as in the options
     /// Memory that fetch() and similar functions keep for the next call. Copies of the plan share
     /// it. Reset it to free it.
     mutable std::shared_ptr<detail::KeptExchange> kept{};
@@ -62,11 +62,11 @@ struct GhostOptions {
     /// Cut-off radius of all points, in the unit of the coordinates; NaN: not given.
     double radius = std::numeric_limits<double>::quiet_NaN();
     /// One radius for each point instead; for contacts of spheres, give the diameters. By default
-    /// the radii of senders count (see `needs`): if two points on different ranks are nearer than
-    /// the larger of their radii, the point with the larger radius is a ghost on the other point's
-    /// rank; the other point need not be a ghost. To meet each pair once, use ghost g of point p
-    /// only if radius(g) > radius(p), or if the radii are equal and id(g) > id(p). An id is any
-    /// number of a point that is the same on all ranks.
+    /// the radii of the points sent count (see `needs`): if two points on different ranks are
+    /// nearer than the larger of their radii, the point with the larger radius is a ghost on the
+    /// other point's rank; the other point need not be a ghost. To meet each pair once, use ghost g
+    /// of point p only if radius(g) > radius(p), or if the radii are equal and id(g) > id(p). An id
+    /// is any number of a point that is the same on all ranks.
     std::optional<std::span<const double>> radii{};
     /// Periodic box that contains all points: [lower, upper) along each axis with finite ends.
     /// Along axes with infinite ends it is not periodic. Wrap positions first; a point on an upper
@@ -77,17 +77,17 @@ struct GhostOptions {
     std::optional<Box> periodic{};
     /// Ranks of each part, for example after a remap(), if they are not those of ranks_of_part().
     std::optional<std::span<const RankRange>> ranks_of_parts{};
-    /// Determines whose radii count. With the radii of receivers a part gets two sets of points:
+    /// Determines whose radii count. Except with Needs::scatter a part gets two sets of points:
     /// those within its largest radius of the box of its points that have more than half this
     /// radius, and those within its largest other radius of the box of its other points. Cost: a
     /// pass of counts, two reductions, one of which has up to 14 doubles for each part, and two
     /// passes over the points.
-    Needs needs = Needs::sender;
+    Needs needs = Needs::scatter;
 };
 
 /// Finds from the cuts the points that other ranks need. Collective.
 ///
-///     const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, points, {.radius = 0.1}, comm);
+///     const rrcb::GhostPlan near = rrcb::ghost_plan(balance.cuts, points, comm, {.radius = 0.1});
 ///
 /// A rank needs the points of others whose distance from the closed region of one of its parts is
 /// at most the radius, plus round-off. If points are outside the regions of their rank, as members
@@ -100,8 +100,8 @@ struct GhostOptions {
 /// rank, a radius that is not finite, negative or above 100 periods, a position outside the
 /// periodic box, options or cuts that differ between ranks, another communicator, or no memory.
 /// Cost: as plan(); a periodic box adds a pass of counts, and `needs` adds what is written there.
-RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
-                          MPI_Comm comm);
+RRCB_API GhostPlan ghost_plan(const Cuts& cuts, const Points& points, MPI_Comm comm,
+                              const GhostOptions& options);
 
 /// Moves fetched positions of ghosts to those of their images. Does nothing without a periodic box.
 /// If rounding leaves an image in [lower, upper), it is moved to the next number outside. Not
@@ -194,7 +194,7 @@ template <std::ranges::contiguous_range Structs, class Member, class... Others>
 void apply_shifts(const GhostPlan& plan, Structs& ghosts, Member first, Others... others) {
     static_assert(!std::is_const_v<std::remove_reference_t<decltype(*std::ranges::data(ghosts))>>,
                   "the ghosts are moved and cannot be const");
-    detail::apply_shifts(plan, member_points(ghosts, first, others...));
+    detail::apply_shifts(plan, Points(ghosts, first, others...));
 }
 
 /// Returns columns of the ghosts of this rank. Collective.
@@ -205,7 +205,7 @@ void apply_shifts(const GhostPlan& plan, Structs& ghosts, Member first, Others..
 /// radii, it contains all pairs within the true radii until a point has moved by s / 2; do not wrap
 /// positions until then. If the columns have the same types as before and no transfer was made
 /// since, ranks only exchange messages with the ranks in the plan, and throw as Neighbours does.
-/// @param plan    from ghosts()
+/// @param plan    from ghost_plan()
 /// @param columns one entry, or `components`, for each of plan.num_points points
 /// @param comm    of the plan
 /// @param limits  as for transfer()
@@ -224,7 +224,7 @@ template <class Columns>
 ///
 /// Ghosts with `radii` are queries: each point is sent to the ranks of all parts that its ball
 /// touches.
-/// @param plan          from ghosts()
+/// @param plan          from ghost_plan()
 /// @param ghost_columns one entry, or `components`, for each ghost, in the order of fetch()
 /// @param comm          of the plan
 /// @param limits        as for transfer()
@@ -240,7 +240,7 @@ template <class GhostColumns>
 /// Returns columns of the points, to which the values of their ghosts on other ranks have been
 /// added, such as forces. This is the reverse of fetch(). Collective.
 ///
-/// @param plan          from ghosts()
+/// @param plan          from ghost_plan()
 /// @param ghost_columns for each ghost as many numbers as `columns` have for each point, in the
 /// order of fetch()
 /// @param columns       numbers of the same types for each of plan.num_points points

@@ -20,7 +20,7 @@ inline constexpr std::uint64_t no_group = std::numeric_limits<std::uint64_t>::ma
 enum class GroupPlace {
     centre,  ///< centre of weight, or mean position if all weights are 0. Depends on the
              ///< distribution over the ranks only by rounding. In a periodic box, unwrap each group
-             ///< for groups() and wrap its points again for ghosts(), or use first_point
+             ///< for groups() and wrap its points again for ghost_plan(), or use first_point
     first_point  ///< exact position of the first point on the lowest rank that has points of the
                  ///< group; may change with the distribution over the ranks
 };
@@ -39,7 +39,7 @@ struct Groups {
 
     /// Returns a view of this rank's groups as points, for balance(). The groups must outlive the
     /// view. Not collective.
-    Points points() const& { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const& { return Points(coordinates, dimension, weights); }
     Points points() const&& = delete;
 };
 
@@ -47,7 +47,7 @@ struct Groups {
 ///
 /// Balance groups.points() in place of the points; a group that is heavier than a part stays in one
 /// part. Then fetch(groups, balance.parts, comm) returns the parts of the points, for plan().
-/// Between rebalances call assign_all() instead of balance().
+/// Between rebalances call assign() instead of balance().
 /// @param points of this rank
 /// @param keys   one for each point; no_group for a point that is in no group
 /// @param comm   of the ranks with points

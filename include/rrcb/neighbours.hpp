@@ -31,9 +31,9 @@ struct NeighbourOptions {
     std::optional<Box> periodic{};
     /// Ranks of each part, for example after a remap(), if they are not those of ranks_of_part().
     std::optional<std::span<const RankRange>> ranks_of_parts{};
-    /// Determines whose radii count, see Needs. With the radii of receivers, find_ghosts()
+    /// Determines whose radii count, see Needs. Except with Needs::scatter, find_ghosts()
     /// exchanges a message with each neighbour.
-    Needs needs = Needs::sender;
+    Needs needs = Needs::scatter;
 };
 
 /// Entries that ranks have in common, for example nodes of a mesh at the faces of parts.
@@ -86,18 +86,7 @@ inline Points positions_of(const Points& points) {
 
 template <Scalar T>
 Points positions_of(const Column<T>& column) {
-    Points points{.dimension = static_cast<int>(column.components), .stride = column.components};
-    if (column.components < 1 || column.components > max_dimension) return points;
-    points.count = column.values.size() / column.components;
-    for (std::size_t a = 0; a < column.components; ++a) {
-        const std::span<const T> axis =
-            points.count == 0 ? column.values : column.values.subspan(a);
-        if constexpr (std::is_same_v<T, double>)
-            points.axes[a] = axis;
-        else
-            points.float_axes[a] = axis;
-    }
-    return points;
+    return Points(column.values, static_cast<int>(column.components));
 }
 
 /// Returns a column without its type. Only a writable column has a result.
@@ -141,7 +130,7 @@ ByteColumn resizable_column(Array&& array) {
 /// The ranks near this one, for the exchanges in each step of a simulation. A call sends one
 /// message to each neighbour; only the constructor is collective.
 ///
-///     rrcb::Neighbours neighbours(balance.cuts, {.radius = r, .travel = t}, comm);
+///     rrcb::Neighbours neighbours(balance.cuts, comm, {.radius = r, .travel = t});
 ///     ...                                                // in each step:
 ///     neighbours.migrate(column(x, 3), column(v, 3), ids);
 ///     neighbours.find_ghosts(column(x, 3));
@@ -161,10 +150,10 @@ class Neighbours {
     /// @param options distances, periodic box, ranks of the parts
     /// @param comm    of the balance, or a congruent one
     /// Throws the same Error on every rank: for distances that are negative or not finite, a
-    /// periodic box that ghosts() would refuse, options or cuts that differ between ranks, another
-    /// communicator, or lack of memory. Cost: a pass over the parts, one pass of counts, and a
-    /// reduction.
-    RRCB_API Neighbours(const Cuts& cuts, const NeighbourOptions& options, MPI_Comm comm);
+    /// periodic box that ghost_plan() would refuse, options or cuts that differ between ranks,
+    /// another communicator, or lack of memory. Cost: a pass over the parts, one pass of counts,
+    /// and a reduction.
+    RRCB_API Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& options);
     /// Frees the memory. Does not communicate.
     RRCB_API ~Neighbours();
     /// Takes over the state of another object, which may then only be destroyed or assigned to. Not
@@ -177,7 +166,7 @@ class Neighbours {
     /// that arrive, in place. Exchanges messages with all neighbours.
     ///
     ///     neighbours.migrate(column(x, 3), column(v, 3), ids);
-    ///     neighbours.migrate(member_points(particles, &Particle::position), particles);
+    ///     neighbours.migrate(Points(particles, &Particle::position), particles);
     ///
     /// Arriving points, in ascending order of ranks, take the places of those that left, and then
     /// places at the end; places left over are filled from the end. All other points keep their
@@ -202,9 +191,9 @@ class Neighbours {
         }
     }
 
-    /// Finds the points that other ranks need as ghosts, as the function ghosts() does. They are in
-    /// the lists that the member ghosts() returns. Sends no messages, except with Needs::receiver
-    /// or either.
+    /// Finds the points that other ranks need as ghosts, as the function ghost_plan() does. They
+    /// are in the lists that the member ghost_plan() returns. Sends no messages, except with
+    /// Needs::gather or symmetric.
     ///
     /// Call it on every rank after migrate() and before fetch(). To keep ghosts for several steps,
     /// give radii with a skin, and call neither migrate() nor find_ghosts() until the skin is used
@@ -214,7 +203,7 @@ class Neighbours {
     /// that radius
     /// Throws Error on this rank, and on the neighbours in their next exchange: for a point that is
     /// so far outside the parts of this rank that ranks other than neighbours need it, and as
-    /// ghosts().
+    /// ghost_plan().
     template <class Positions>
     void find_ghosts(const Positions& positions,
                      const std::optional<std::span<const double>>& radii = {}) {
@@ -230,7 +219,8 @@ class Neighbours {
     ///     neighbours.fetch(rrcb::ghosts_of(ghost_x, ghost_ids), column(x, 3), ids);
     ///
     /// Ghosts are in the order of fetch(plan, ...): in ascending order of ranks. Positions of
-    /// images are those of their points until you call apply_shifts(neighbours.ghosts(), ghost_x).
+    /// images are those of their points until you call apply_shifts(neighbours.ghost_plan(),
+    /// ghost_x).
     /// @param ghosts  a different array for each column
     /// @param columns of the points that find_ghosts() got, with the same types on every rank
     /// Throws Error as described above: for columns that do not fit the points or the columns of
@@ -297,7 +287,7 @@ class Neighbours {
     /// Returns the lists of find_ghosts() with the stamp of a plan: `send` and `send_indices`, and
     /// after the first fetch() also `receive` and `shifts`. They are valid until the next call. Not
     /// collective.
-    RRCB_API const GhostPlan& ghosts() const;
+    RRCB_API const GhostPlan& ghost_plan() const;
 
     /// Returns the ranks of the neighbours, ascending. Not collective.
     RRCB_API std::span<const int> ranks() const;

@@ -52,7 +52,7 @@ struct PaperOptions {
 /// Throws the same Error on every rank, as balance(). Cost: two reductions, one gathering of all
 /// cells (with PaperDomain::points, of all points), and two broadcasts; rank 0 stores all points
 /// that are drawn or gathered.
-RRCB_API Balance balance_as_in_paper(const Points& points, const PaperOptions& options,
-                                     MPI_Comm comm);
+RRCB_API Balance balance_as_in_paper(const Points& points, MPI_Comm comm,
+                                     const PaperOptions& options = {});
 
 }  // namespace rrcb

@@ -38,27 +38,27 @@ inline std::vector<std::byte> save(const Controller& controller) {
     return detail::Restart::save(controller);
 }
 
-/// Restores a saved state: Cuts, which is not collective, or a Controller, which is.
+/// Restores a Controller. Collective.
 ///
 ///     std::vector<std::byte> state = rrcb::save(controller);  // to be written by one rank
 ///     controller = rrcb::load<rrcb::Controller>(state, comm);
 ///
 /// On the same number of ranks, a controller continues with bit-identical results; on another
-/// number it starts anew. Cuts keep their number of parts; on another number of ranks balance()
-/// ignores them, unless Options::num_parts is that number of parts.
+/// number it starts anew.
 /// @param bytes from save(), the same on every rank, in either byte order
-/// @param comm  as for the constructors; ignored for Cuts
-/// Throws Error if the bytes are truncated, of another kind, or from a newer version. Collective
-/// calls throw it on every rank.
+/// @param comm  as for the constructors
+/// Throws Error on every rank if the bytes are truncated, of another kind, or from a newer version.
 template <class State>
-[[nodiscard]] State load(std::span<const std::byte> bytes, MPI_Comm comm) {
+requires(!std::is_same_v<State, Cuts>) [[nodiscard]] State
+    load(std::span<const std::byte> bytes, MPI_Comm comm) {
     if constexpr (std::is_same_v<State, Controller>)
         return detail::Restart::load_controller(bytes, comm);
-    if constexpr (std::is_same_v<State, Cuts>) return detail::load_cuts(bytes);
 }
 
 /// Restores cuts. Not collective.
 ///
+/// They keep their number of parts; on another number of ranks balance() ignores them, unless
+/// Options::num_parts is that number of parts. Throws Error as above.
 /// @param bytes as above
 template <class State>
 requires std::is_same_v<State, Cuts>

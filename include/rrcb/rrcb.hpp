@@ -16,4 +16,3 @@
 #include <rrcb/restart.hpp>
 #include <rrcb/transfer.hpp>
 #include <rrcb/version.hpp>
-#include <rrcb/views.hpp>

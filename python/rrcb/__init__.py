@@ -1,7 +1,7 @@
 """Parallel load balancing of particles by reduced recursive coordinate bisection.
 
     balance = rrcb.balance(x, comm=comm)
-    data = balance.distribute({"x": x, "mass": mass})
+    data = balance.transfer({"x": x, "mass": mass})
     ghosts = balance.ghosts(data["x"], radius=0.1)
     x_of_ghosts = ghosts.fetch_positions(data["x"])
 
@@ -9,7 +9,7 @@ The calls are collective over the communicator. An error raises the same rrcb.Er
 """
 
 from . import _library, experimental as experimental
-from ._balance import Balance, Distribution, Plan, Report, assign_all, balance, balanced_sizes, plan
+from ._balance import Balance, Distribution, Plan, Report, assign, balance, balanced_sizes, plan
 from ._controller import Controller
 from ._cuts import Cuts
 from ._ghosts import Ghosts
@@ -28,7 +28,7 @@ __all__ = [
     "Neighbours",
     "Plan",
     "Report",
-    "assign_all",
+    "assign",
     "balance",
     "balanced_sizes",
     "build_info",

@@ -67,7 +67,7 @@ class Plan:
         """The part of each point of this rank, as read-only int32."""
         return self._parts
 
-    def distribute(self, data: Any) -> Any:
+    def transfer(self, data: Any) -> Any:
         """Returns data with a row for each point that belongs on this rank. Collective.
 
         `data` has a row for each assigned point. It is an array, a dict or a tuple of arrays, or a
@@ -92,7 +92,7 @@ class Plan:
 
 
 class Distribution(Plan):
-    """Parts of this rank's points, with the cuts; made by assign_all(), balance() and remap()."""
+    """Parts of this rank's points, with the cuts; made by assign(), balance() and remap()."""
 
     numbers: Array | None = None  #: after remap(), the number of each part of the cuts
 
@@ -137,13 +137,13 @@ class Distribution(Plan):
     def _weighed(self, weights: Any) -> Points:
         return Points(np.zeros((len(self.parts), self.cuts.dimension)), weights)
 
-    def ghosts(self, x: Any, radius: Any, period: Any = None, needs: str = "sender") -> Ghosts:
+    def ghosts(self, x: Any, radius: Any, period: Any = None, needs: str = "scatter") -> Ghosts:
         """Finds the points that other ranks need within a radius. Collective.
 
-        `x` are the positions on this rank after distribute(); positions before it are refused.
+        `x` are the positions on this rank after transfer(); positions before it are refused.
         `radius` is a number, or an array with a radius for each point, within which other ranks
-        need the point. With `needs` "receiver" it is the radius within which the point needs
-        others, with "either" it is both (docs/loop.md). `period` is the length of a periodic box
+        need the point. With `needs` "gather" it is the radius within which the point needs
+        others, with "symmetric" it is both (docs/loop.md). `period` is the length of a periodic box
         that begins at 0, as one number or one for each axis (infinity: not periodic), or the
         corners (lower, upper) of the box.
         """
@@ -218,7 +218,7 @@ def plan(parts: Any, num_parts: int | None = None, comm: MPI.Comm | None = None)
     """Plans a move of points to the ranks of any parts. Collective over `comm`.
 
     `parts` has the part of each point of this rank, from 0 to num_parts - 1. By default `num_parts`
-    is the number of ranks, so that part p is on rank p. The result's distribute() moves columns.
+    is the number of ranks, so that part p is on rank p. The result's transfer() moves columns.
     """
     chosen = communicator(comm)
     own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())
@@ -246,7 +246,7 @@ def parts_in(given: Any, count: int | None = None) -> Array:
     return np.ascontiguousarray(numbers, dtype=np.int32)
 
 
-def assign_all(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) -> Distribution:
+def assign(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) -> Distribution:
     """Assigns points to parts by earlier cuts, without balancing. Collective over `comm`."""
     chosen = communicator(comm)
     own = c.OwnedHandle("balancer_create_fortran", "balancer_destroy", chosen.py2f())

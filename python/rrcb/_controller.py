@@ -91,10 +91,8 @@ class Controller(Owner):
         """
         communicator(self._comm)
         due = ctypes.c_int()
-        if weight is None:
-            c.call("controller_step", self._own, number(load), due)
-        else:
-            c.call("controller_step_weight", self._own, number(load), number(weight), due)
+        given = None if weight is None else ctypes.c_double(number(weight))
+        c.call("controller_step", self._own, number(load), given, due)
         return bool(due.value)
 
     def rebalanced(self, report: Report | None, cost: float) -> None:

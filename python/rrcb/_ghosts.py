@@ -12,7 +12,7 @@ from . import _library as c
 from ._agreement import communicator, prepare, together
 from ._arrays import NUMBERS, Array, Columns, Points, axes_of, copied, move, numbers_in, pointer
 
-NEEDS = ("sender", "receiver", "either")
+NEEDS = ("scatter", "gather", "symmetric")
 
 
 class Ghosts:
@@ -34,7 +34,7 @@ class Ghosts:
         x: Any,
         radius: Any,
         period: Any,
-        needs: str = "sender",
+        needs: str = "scatter",
         numbers: Array | None = None,
     ) -> None:
         def local() -> tuple[Points, c.GhostOptions, Array, Array | None]:
@@ -63,7 +63,7 @@ class Ghosts:
     def fetch(self, data: Any) -> Any:
         """Returns a row of data for each ghost, in the form of `data`. Collective.
 
-        `data` has a row for each point of this rank, as for Balance.distribute().
+        `data` has a row for each point of this rank, as for Balance.transfer().
         """
         return self._fetch(data, lambda: None)
 
@@ -77,7 +77,7 @@ class Ghosts:
     def reply(self, data: Any) -> Any:
         """Returns rows that the ranks of the ghosts send back, such as answers. Collective.
 
-        `data` has a row for each ghost of this rank, as for Balance.distribute(). The result has a
+        `data` has a row for each ghost of this rank, as for Balance.transfer(). The result has a
         row for each entry of `sent`, in the order of np.concatenate([*ghosts.sent.values()]).
         """
         rows = sum(map(len, self.sent.values()))

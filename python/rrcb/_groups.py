@@ -20,7 +20,7 @@ class Groups:
 
         molecules = rrcb.groups(x, keys, comm=comm)
         balance = rrcb.balance(molecules.x, molecules.weights, comm)
-        here = molecules.distribution(balance).distribute({"x": x, "key": keys})
+        here = molecules.distribution(balance).transfer({"x": x, "key": keys})
     """
 
     x: Array  #: positions of the groups of this rank, (m, d)
@@ -41,7 +41,7 @@ class Groups:
     def fetch(self, data: Any) -> Any:
         """Returns for each point the data of its group, in the form of `data`. Collective.
 
-        `data` has a row for each group of this rank, as for Balance.distribute().
+        `data` has a row for each group of this rank, as for Balance.transfer().
         """
 
         def local() -> Columns:

@@ -141,14 +141,6 @@ def text(value: bytes | None) -> str:
 library = load()
 
 
-def in_python(message: str) -> str:
-    """Returns a text of the library with the names that functions have in Python."""
-    for name, here in (("the transfer", "distribute()"), ("transfer", "distribute"),
-                       ("transferred", "distributed")):
-        message = re.sub(rf"\b{name}\b", here, message)
-    return message
-
-
 def call(function: str, *arguments: Any) -> None:
     """Calls a function of the library; raises Error unless it returns 0."""
     for argument in arguments:
@@ -156,7 +148,7 @@ def call(function: str, *arguments: Any) -> None:
             argument.require_alive()
     code = getattr(library, "rrcb_" + function)(*arguments)
     if code:
-        raise Error(in_python(text(library.rrcb_last_error())), CODES[min(code, len(CODES) - 1)])
+        raise Error(text(library.rrcb_last_error()), CODES[min(code, len(CODES) - 1)])
 
 
 def saved(function: str, handle: Handle) -> bytes:

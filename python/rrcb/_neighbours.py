@@ -42,7 +42,7 @@ class Neighbours:
         radius: float = 0.0,
         travel: float = 0.0,
         period: Any = None,
-        needs: str = "sender",
+        needs: str = "scatter",
         comm: MPI.Comm | None = None,
     ) -> None:
         own_comm = cuts.comm if comm is None and isinstance(cuts, Distribution) else comm
@@ -109,7 +109,7 @@ class Neighbours:
         """Finds the points that other ranks need. Call it on every rank after migrate(), before fetch().
 
         `radius` has a number for each point, at most the radius of these neighbours, which is the
-        default. Sends no messages, except with `needs` "receiver" or "either".
+        default. Sends no messages, except with `needs` "gather" or "symmetric".
         """
 
         def local() -> tuple[None, tuple[Any, ...]]:
@@ -124,7 +124,7 @@ class Neighbours:
     def fetch(self, data: Any) -> Any:
         """Returns a row of data for each ghost, in the form of `data`.
 
-        `data` has a row for each point of this rank, as for Plan.distribute(). Exchanges messages
+        `data` has a row for each point of this rank, as for Plan.transfer(). Exchanges messages
         with all neighbours.
         """
 

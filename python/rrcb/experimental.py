@@ -182,7 +182,7 @@ def verify(
 
     `x` are the positions on this rank. `sample` is the maximum number of points, over all ranks,
     whose neighbours are searched. `radius` is the true radius, if the ghosts have a skin. `ids` are
-    numbers of the points, and `ids_before` those of this rank's points before distribute().
+    numbers of the points, and `ids_before` those of this rank's points before transfer().
     """
     seen, kept = c.Verification(), []
 

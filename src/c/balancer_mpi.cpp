@@ -59,19 +59,18 @@ int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* pa
 }
 
 int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
-    return guarded_together(
-        CallName::assign_all, balancer, [&](const auto& own, Participant& self) {
-            rrcb::Points positions;
-            self.attempt([&] {
-                require_cuts(own);
-                positions = rrcb::c::points_of(points);
-                rrcb::c::require_array(positions.count, parts, "parts");
-            });
-            const std::vector<rrcb::Part> found = rrcb::assign_all(own.cuts, positions, self);
-            std::ranges::copy(found, parts);
-            own.lower_count(positions.count);
-            own.cuts.points =
-                rrcb::hash_if_leaving(positions, found, own.cuts.num_parts,
-                                      rrcb::mpi::rank_of(self.comm), rrcb::mpi::size_of(self.comm));
+    return guarded_together(CallName::assign, balancer, [&](const auto& own, Participant& self) {
+        rrcb::Points positions;
+        self.attempt([&] {
+            require_cuts(own);
+            positions = rrcb::c::points_of(points);
+            rrcb::c::require_array(positions.count, parts, "parts");
         });
+        const std::vector<rrcb::Part> found = rrcb::assign(own.cuts, positions, self);
+        std::ranges::copy(found, parts);
+        own.lower_count(positions.count);
+        own.cuts.points =
+            rrcb::hash_if_leaving(positions, found, own.cuts.num_parts,
+                                  rrcb::mpi::rank_of(self.comm), rrcb::mpi::size_of(self.comm));
+    });
 }

@@ -120,12 +120,12 @@ void rrcb_controller_destroy(rrcb_controller** controller) {
     rrcb::c::destroy(controller);
 }
 
-int rrcb_controller_step(rrcb_controller* controller, double load, int* due) {
-    return guarded(controller, [&](auto& own) { store(own.controller->step(load), due); });
-}
-
-int rrcb_controller_step_weight(rrcb_controller* controller, double load, double weight, int* due) {
-    return guarded(controller, [&](auto& own) { store(own.controller->step(load, weight), due); });
+int rrcb_controller_step(rrcb_controller* controller, double load, const double* weight, int* due) {
+    return guarded(controller, [&](auto& own) {
+        rrcb::Controller::Step step{.load = load};
+        if (weight != nullptr) step.weight = *weight;
+        store(own.controller->step(step), due);
+    });
 }
 
 int rrcb_controller_due(const rrcb_controller* controller, int* due) {
@@ -145,7 +145,7 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
             known.details.total_weight = given.total_weight;
             known.details.all_weights_zero = given.all_weights_zero != 0;
         }
-        own.controller->rebalanced(known, cost);
+        own.controller->rebalanced({.cost = cost, .report = &known});
     });
 }
 

@@ -60,7 +60,7 @@ void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
         kept.read(given_options, points.count, own);
     });
     made->comm = own.comm;
-    made->plan = rrcb::ghosts(own.cuts, points, kept.options, self);
+    made->plan = rrcb::ghost_plan(own.cuts, points, kept.options, self);
     *ghosts = made.release();
 }
 
@@ -140,9 +140,10 @@ using rrcb::c::guarded_together;
 
 int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
                        const rrcb_ghost_options* options, rrcb_ghosts** ghosts) {
-    return guarded_together(CallName::ghosts, balancer, [&](const auto& own, Participant& self) {
-        rrcb::c::make_ghosts(own, points, options, ghosts, self);
-    });
+    return guarded_together(CallName::ghost_plan, balancer,
+                            [&](const auto& own, Participant& self) {
+                                rrcb::c::make_ghosts(own, points, options, ghosts, self);
+                            });
 }
 
 void rrcb_ghosts_destroy(rrcb_ghosts** ghosts) {

@@ -52,7 +52,7 @@ std::unique_ptr<rrcb_neighbours> make(const rrcb_balancer& own, const rrcb_neigh
         self.throw_failed_message();
     }
     made->comm = own.comm;
-    made->all.emplace(own.cuts, kept.options, own.comm);
+    made->all.emplace(own.cuts, own.comm, kept.options);
     return made;
 }
 
@@ -234,7 +234,7 @@ int rrcb_neighbours_fetch(rrcb_neighbours* neighbours, size_t num_columns,
     const auto read = [&](const rrcb_neighbours& own) {
         rrcb::c::require_array(num_columns, columns, "columns");
         held = rrcb::c::held_arrays(ghosts, num_columns, "ghosts");
-        fetched = rrcb::c::arrays_in(held, columns, own.all->ghosts().num_points);
+        fetched = rrcb::c::arrays_in(held, columns, own.all->ghost_plan().num_points);
     };
     return with_neighbours(CallName::fetch_of_neighbours, neighbours, read,
                            [&](Neighbours& all) { Access::fetch(all, fetched); });
@@ -244,7 +244,7 @@ int rrcb_neighbours_accumulate(rrcb_neighbours* neighbours, size_t num_columns,
                                const rrcb_column* columns) {
     std::vector<rrcb::detail::SumColumn> sums;
     const auto read = [&](const rrcb_neighbours& own) {
-        const rrcb::GhostPlan& ghosts = own.all->ghosts();
+        const rrcb::GhostPlan& ghosts = own.all->ghost_plan();
         sums =
             rrcb::c::sums_of(columns, num_columns, rrcb::total(ghosts.receive), ghosts.num_points);
     };
@@ -264,16 +264,16 @@ int rrcb_neighbours_sum(rrcb_neighbours* neighbours, const rrcb_shared_entries* 
                            [&](Neighbours& all) { Access::sum(all, entries, sums); });
 }
 
-int rrcb_neighbours_ghosts(const rrcb_neighbours* neighbours, rrcb_ghost_plan* plan) {
+int rrcb_neighbours_ghost_plan(const rrcb_neighbours* neighbours, rrcb_ghost_plan* plan) {
     return guarded(neighbours, [&](const auto& own) {
         rrcb::c::require_sized(plan, "plan");
-        rrcb::c::copy_out(rrcb::c::view_of(own.all->ghosts()), plan);
+        rrcb::c::copy_out(rrcb::c::view_of(own.all->ghost_plan()), plan);
     });
 }
 
 int rrcb_neighbours_apply_shifts(const rrcb_neighbours* neighbours, const rrcb_points* positions) {
     return guarded(neighbours, [&](const auto& own) {
-        rrcb::detail::apply_shifts(own.all->ghosts(), rrcb::c::points_of(positions));
+        rrcb::detail::apply_shifts(own.all->ghost_plan(), rrcb::c::points_of(positions));
     });
 }
 

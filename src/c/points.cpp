@@ -43,16 +43,6 @@ void check_fortran(const rrcb_points& from) {
     }
 }
 
-/// Sets the coordinates, which have the type T.
-template <class T, std::size_t N>
-void set_axes(const rrcb_points& from, Points& points, std::array<std::span<const T>, N>& axes) {
-    for (int axis = 0; axis < points.dimension; ++axis) {
-        require_array(points.count, from.axes[axis], "coordinates");
-        axes[axis] = {static_cast<const T*>(from.axes[axis]),
-                      (points.count - 1) * points.stride + 1};
-    }
-}
-
 }  // namespace
 
 Points points_of(const rrcb_points* given) {
@@ -70,11 +60,12 @@ Points points_of(const rrcb_points* given) {
         reject("count and stride exceed the memory; count is the number of points of this rank");
     if (from.stride < bytes || from.stride % bytes != 0)
         reject("the stride must be in bytes, a multiple of the size of a coordinate");
-    points.stride = from.stride / bytes;
-    if (from.type == RRCB_FLOAT)
-        set_axes(from, points, points.float_axes);
-    else
-        set_axes(from, points, points.axes);
+    points.type = from.type == RRCB_FLOAT ? ScalarType::float32 : ScalarType::float64;
+    points.stride = from.stride;
+    for (int axis = 0; axis < points.dimension; ++axis) {
+        require_array(points.count, from.axes[axis], "coordinates");
+        points.axes[axis] = from.axes[axis];
+    }
     points.weights = view(from.weights, points.count);
     return points;
 }

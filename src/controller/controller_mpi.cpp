@@ -212,24 +212,19 @@ Controller::~Controller() = default;
 Controller::Controller(Controller&&) noexcept = default;
 Controller& Controller::operator=(Controller&&) noexcept = default;
 
-bool Controller::step(double load) {
+bool Controller::step(const Step& step) {
     const NonStop arithmetic;
     State& state = State::of(*this);
     state.begin_step(CallName::controller_step);
     state.finish();
-    state.start({load, load});
-    return state.is_due;
-}
-
-bool Controller::step(double load, double weight) {
-    const NonStop arithmetic;
-    State& state = State::of(*this);
-    state.begin_step(CallName::controller_step);
-    state.finish();
-    const bool is_legal = is_amount(load) && is_amount(weight);
-    double smoothed = is_legal ? state.point_cost.smoothed(load, weight) : -1;
-    if (is_legal && state.counts_points) smoothed = load;
-    state.start({load, smoothed, weight});
+    if (!step.weight) {
+        state.start({step.load, step.load});
+        return state.is_due;
+    }
+    const bool is_legal = is_amount(step.load) && is_amount(*step.weight);
+    double smoothed = is_legal ? state.point_cost.smoothed(step.load, *step.weight) : -1;
+    if (is_legal && state.counts_points) smoothed = step.load;
+    state.start({step.load, smoothed, *step.weight});
     return state.is_due;
 }
 
@@ -237,12 +232,9 @@ bool Controller::due() const {
     return State::of(*this).is_due;
 }
 
-void Controller::rebalanced(const Report& report, double cost) {
-    State::of(*this).report(cost, report.details);
-}
-
-void Controller::rebalanced(double cost) {
-    State::of(*this).report(cost, {});
+void Controller::rebalanced(const Rebalance& rebalance) {
+    State::of(*this).report(
+        rebalance.cost, rebalance.report != nullptr ? rebalance.report->details : ReportDetails{});
 }
 
 }  // namespace rrcb

@@ -249,17 +249,12 @@ module rrcb_c_functions
       integer(c_size_t), value :: components
       type(c_ptr), value :: values, sums
     end function
-    integer(c_int) function c_controller_step(handle, load, due) bind(c, name="rrcb_controller_step")
+    integer(c_int) function c_controller_step(handle, load, weight, due) &
+      bind(c, name="rrcb_controller_step")
       import
       type(c_ptr), value :: handle
       real(c_double), value :: load
-      integer(c_int), intent(inout) :: due
-    end function
-    integer(c_int) function c_controller_step_weight(handle, load, weight, due) &
-      bind(c, name="rrcb_controller_step_weight")
-      import
-      type(c_ptr), value :: handle
-      real(c_double), value :: load, weight
+      type(c_ptr), value :: weight
       integer(c_int), intent(inout) :: due
     end function
     integer(c_int) function c_controller_rebalanced(handle, report, cost) &

@@ -50,7 +50,7 @@ module rrcb_c_neighbours
       integer(c_size_t), value :: num_entries, num_columns
       type(c_column), intent(in) :: columns(*)
     end function
-    integer(c_int) function c_neighbours_ghosts(handle, plan) bind(c, name="rrcb_neighbours_ghosts")
+    integer(c_int) function c_neighbours_ghost_plan(handle, plan) bind(c, name="rrcb_neighbours_ghost_plan")
       import
       type(c_ptr), value :: handle
       type(c_ghost_plan), intent(inout) :: plan

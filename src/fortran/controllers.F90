@@ -64,7 +64,7 @@ contains
     real(c_double), intent(in) :: load
     integer, intent(out), optional :: error
     integer(c_int) :: due
-    call settle(c_controller_step(self%handle, load, due), error)
+    call settle(c_controller_step(self%handle, load, c_null_ptr, due), error)
   end subroutine
 
   !> Records a step and smooths the load; prefer it for measured loads. Collective.
@@ -73,10 +73,11 @@ contains
   !> number
   subroutine controller_step_weight(self, load, weight, error)
     class(rrcb_controller), intent(inout) :: self
-    real(c_double), intent(in) :: load, weight
+    real(c_double), intent(in) :: load
+    real(c_double), intent(in), target :: weight
     integer, intent(out), optional :: error
     integer(c_int) :: due
-    call settle(c_controller_step_weight(self%handle, load, weight, due), error)
+    call settle(c_controller_step(self%handle, load, c_loc(weight), due), error)
   end subroutine
 
   !> Returns whether to rebalance before the next step; false for a controller that was not created.

@@ -38,7 +38,7 @@ contains
   !> @param lower          lower end of a periodic box
   !> @param upper          upper end of the box
   !> @param ranks_of_parts the ranks of part p at p + 1; by default those of rrcb_ranks_of_part
-  !> @param needs          whose radii count: rrcb_needs_sender by default, _receiver or _either
+  !> @param needs          whose radii count: rrcb_needs_scatter by default, _gather or _symmetric
   subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts, needs)
     class(rrcb_ghosts), intent(inout), target :: self
     class(rrcb_balancer), intent(in) :: balancer

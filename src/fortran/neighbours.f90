@@ -26,7 +26,7 @@ module rrcb_neighbour_lists
     procedure :: fetch
     procedure :: accumulate
     procedure :: sum => sum_shared
-    procedure :: ghosts
+    procedure :: ghost_plan
     procedure :: ranks
     generic :: apply_shifts => shift_doubles, shift_reals, shift_points
     procedure, private :: shift_doubles, shift_reals, shift_points
@@ -41,7 +41,7 @@ contains
   !> @param lower          lower end of a periodic box
   !> @param upper          upper end of the box
   !> @param ranks_of_parts the ranks of part p at p + 1; by default those of rrcb_ranks_of_part
-  !> @param needs          whose radii count: rrcb_needs_sender by default, _receiver or _either
+  !> @param needs          whose radii count: rrcb_needs_scatter by default, _gather or _symmetric
   subroutine create(self, balancer, error, radius, travel, lower, upper, ranks_of_parts, needs)
     class(rrcb_neighbours), intent(inout), target :: self
     class(rrcb_balancer), intent(in) :: balancer
@@ -114,7 +114,7 @@ contains
     integer :: k
     in_c = arrays_in_c(ghosts)
     from = c_null_ptr
-    code = c_neighbours_ghosts(self%handle, plan)
+    code = c_neighbours_ghost_plan(self%handle, plan)
     do k = 1, min(size(columns), size(ghosts))
       if (columns(k)%type /= in_c(k)%type .or. columns(k)%components /= in_c(k)%components) cycle
       if (columns(k)%num_from >= plan%num_points) from(k) = columns(k)%from
@@ -130,7 +130,7 @@ contains
     integer, intent(out), optional :: error
     type(c_ghost_plan) :: plan
     integer(c_int) :: code
-    code = c_neighbours_ghosts(self%handle, plan)
+    code = c_neighbours_ghost_plan(self%handle, plan)
     call settle(c_neighbours_accumulate(self%handle, size(columns, kind=c_size_t), &
       columns_in_c(columns, plan%num_ghosts, plan%num_points)), error)
   end subroutine
@@ -162,12 +162,12 @@ contains
   end subroutine
 
   !> Copies the lists of the ghosts. Not collective.
-  subroutine ghosts(self, plan, error)
+  subroutine ghost_plan(self, plan, error)
     class(rrcb_neighbours), intent(in) :: self
     type(rrcb_ghost_plan), intent(inout) :: plan
     integer, intent(out), optional :: error
     type(c_ghost_plan) :: from
-    call settle(c_neighbours_ghosts(self%handle, from), error)
+    call settle(c_neighbours_ghost_plan(self%handle, from), error)
     call copy_lists(from, plan)
   end subroutine
 

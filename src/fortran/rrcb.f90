@@ -8,8 +8,8 @@
 !> `mpif.h` and `use mpi`, or the type of `use mpi_f08` if MPI has that module.
 module rrcb
   use rrcb_types, only: rrcb_ok, rrcb_invalid_argument, rrcb_out_of_memory, rrcb_mpi_error, &
-    rrcb_internal_error, rrcb_float, rrcb_double, rrcb_needs_sender, rrcb_needs_receiver, &
-    rrcb_needs_either, rrcb_points, rrcb_interleaved_points, &
+    rrcb_internal_error, rrcb_float, rrcb_double, rrcb_needs_scatter, rrcb_needs_gather, &
+    rrcb_needs_symmetric, rrcb_points, rrcb_interleaved_points, &
     rrcb_column_points, rrcb_column, rrcb_cut, rrcb_cuts, rrcb_report, rrcb_plan_lists, rrcb_ghost_plan, rrcb_rank_range, &
     rrcb_transfer_report, rrcb_remap_report
   use rrcb_functions, only: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, &

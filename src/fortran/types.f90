@@ -10,7 +10,7 @@ module rrcb_types
     rrcb_mpi_error = 3, rrcb_internal_error = 4
   integer(c_int), parameter, public :: rrcb_float = 3, rrcb_double = 4
   !> Determines whose radius counts if points have different radii.
-  integer(c_int), parameter, public :: rrcb_needs_sender = 0, rrcb_needs_receiver = 1, rrcb_needs_either = 2
+  integer(c_int), parameter, public :: rrcb_needs_scatter = 0, rrcb_needs_gather = 1, rrcb_needs_symmetric = 2
   integer(c_int), parameter, public :: type_int32 = 1, type_int64 = 2
   integer(c_int), parameter :: type_byte = 5
   !> Types for points whose arrays do not fit together, see src/c/points.cpp; calls with them fail

@@ -24,7 +24,7 @@ void join_cuts(std::span<Cut> tree, Participant& self) {
     }
 }
 
-std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self) {
+std::vector<Part> assign(const Cuts& cuts, const Points& points, Participant& self) {
     std::vector<Part> parts;
     std::uint64_t bits_of_cuts = 0;
     self.attempt([&] {
@@ -38,9 +38,9 @@ std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant
     return parts;
 }
 
-std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm user) {
-    Participant self = mpi::enter(user, CallName::assign_all);
-    std::vector<Part> parts = assign_all(cuts, points, self);
+std::vector<Part> assign(const Cuts& cuts, const Points& points, MPI_Comm user) {
+    Participant self = mpi::enter(user, CallName::assign);
+    std::vector<Part> parts = assign(cuts, points, self);
     self.throw_failed_message();
     return parts;
 }

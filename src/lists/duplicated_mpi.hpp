@@ -22,7 +22,7 @@ namespace rrcb {
 /// Holds errors back.
 void join_cuts(std::span<Cut> tree, Participant& self);
 
-std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self);
+std::vector<Part> assign(const Cuts& cuts, const Points& points, Participant& self);
 
 Plan plan(std::span<const Part> parts, int num_parts, Participant& self);
 
@@ -34,8 +34,8 @@ void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
 void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns,
                    Participant& self);
 
-GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
-                 Participant& self);
+GhostPlan ghost_plan(const Cuts& cuts, const Points& points, const GhostOptions& options,
+                     Participant& self);
 // These return true if all messages of the same columns fit into the limits, each as one piece.
 bool move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);

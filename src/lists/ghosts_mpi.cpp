@@ -139,7 +139,7 @@ class Neighbourhood {
     const PartReaches* reaches() const { return request_.reaches ? &*request_.reaches : nullptr; }
     const PeriodicImages* images() const { return request_.images ? &*request_.images : nullptr; }
     double greatest_of_senders() const {
-        return request_.radii.needs == Needs::receiver ? -infinity : request_.radii.greatest();
+        return request_.radii.needs == Needs::gather ? -infinity : request_.radii.greatest();
     }
 
     /// Calls visit with the dimension as a compile-time constant, so that loops over the axes are
@@ -254,8 +254,8 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
 
 }  // namespace
 
-GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
-                 Participant& self) {
+GhostPlan ghost_plan(const Cuts& cuts, const Points& points, const GhostOptions& options,
+                     Participant& self) {
     GhostRequest request{
         points,
         {options.radius, options.radii, options.needs},
@@ -272,10 +272,10 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
     return plan;
 }
 
-GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
-                 MPI_Comm comm) {
-    Participant self = mpi::enter(comm, CallName::ghosts);
-    return ghosts(cuts, points, options, self);
+GhostPlan ghost_plan(const Cuts& cuts, const Points& points, MPI_Comm comm,
+                     const GhostOptions& options) {
+    Participant self = mpi::enter(comm, CallName::ghost_plan);
+    return ghost_plan(cuts, points, options, self);
 }
 
 }  // namespace rrcb

@@ -43,7 +43,7 @@ Shared shared(const char* name, double value) {
 
 }  // namespace
 
-Neighbours::Neighbours(const Cuts& cuts, const NeighbourOptions& options, MPI_Comm comm) {
+Neighbours::Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& options) {
     Participant self = mpi::enter(comm, CallName::neighbours);
     std::vector<int> near;
     std::uint64_t bits_of_cuts = 0;
@@ -81,7 +81,7 @@ Neighbours::State& Neighbours::State::of(const Neighbours& neighbours) {
     return *neighbours.state_;
 }
 
-const GhostPlan& Neighbours::ghosts() const {
+const GhostPlan& Neighbours::ghost_plan() const {
     return State::of(*this).ghosts;
 }
 

@@ -2,6 +2,7 @@
 
 #include "arithmetic/infinity.hpp"
 #include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/detail/mix.hpp>
 
@@ -114,15 +115,12 @@ void apply_shifts_to(std::span<T> positions, const GhostPlan& plan) {
 
 /// Moves the positions in a view along one axis.
 template <class T>
-void apply_shifts_along(std::span<const T> axis, int number, std::size_t stride,
-                        const GhostPlan& plan) {
-    require(axis.size() > (plan.shifts.size() - 1) * stride,
-            "coordinate arrays must reach to the last ghost");
+void apply_shifts_along(const Points& positions, int axis, const GhostPlan& plan) {
     // A view of points is const, but the caller's arrays are not.
-    auto* x = const_cast<T*>(axis.data());
+    auto* x = static_cast<T*>(const_cast<void*>(positions.axes[axis]));
     for (const Shift& shift : plan.shifts) {
-        *x = image_outside(*x, plan.periodic, number, shift[number]);
-        x += &shift == &plan.shifts.back() ? 0 : stride;
+        *x = image_outside(*x, plan.periodic, axis, shift[axis]);
+        x += &shift == &plan.shifts.back() ? 0 : positions.stride / sizeof(T);
     }
 }
 
@@ -131,11 +129,12 @@ void apply_shifts_along(std::span<const T> axis, int number, std::size_t stride,
 void detail::apply_shifts(const GhostPlan& plan, const Points& positions) {
     if (plan.shifts.empty()) return;
     require(positions.count == plan.shifts.size(), "positions must have an entry for each ghost");
+    check_layout(positions);
     for (int a = 0; a < positions.dimension; ++a) {
-        if (positions.has_floats())
-            apply_shifts_along(positions.float_axes[a], a, positions.stride, plan);
+        if (positions.type == ScalarType::float32)
+            apply_shifts_along<float>(positions, a, plan);
         else
-            apply_shifts_along(positions.axes[a], a, positions.stride, plan);
+            apply_shifts_along<double>(positions, a, plan);
     }
 }
 

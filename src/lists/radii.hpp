@@ -18,7 +18,7 @@ namespace rrcb {
 struct Radii {
     double same = 0;
     std::optional<std::span<const double>> each{};
-    Needs needs = Needs::sender;
+    Needs needs = Needs::scatter;
 
     double of(LocalIndex point) const { return each ? (*each)[point] : same; }
 
@@ -28,17 +28,17 @@ struct Radii {
     }
 
     /// Returns whether parts need other points within radii of their own points.
-    bool are_of_receivers() const { return needs != Needs::sender; }
+    bool are_of_receivers() const { return needs != Needs::scatter; }
     /// Returns the distance within which other ranks need a point because of the radius of that
     /// point.
     double of_sender(LocalIndex point) const {
-        return needs == Needs::receiver ? -infinity : of(point);
+        return needs == Needs::gather ? -infinity : of(point);
     }
 
     void check(LocalIndex num_points) const {
         const auto is_usable = [](double radius) { return std::isfinite(radius) && radius >= 0; };
-        require(needs >= Needs::sender && needs <= Needs::either,
-                "needs must be sender, receiver or either");
+        require(needs >= Needs::scatter && needs <= Needs::symmetric,
+                "needs must be scatter, gather or symmetric");
         if (!each)
             return require(
                 is_usable(same),

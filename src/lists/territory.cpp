@@ -35,8 +35,8 @@ Territory::Territory(const Cuts& cuts, const NeighbourOptions& options, int rank
     check_tree(cuts);
     require(is_distance(options.radius) && is_distance(options.travel),
             "radius and travel must be finite, 0 or more");
-    require(options.needs >= Needs::sender && options.needs <= Needs::either,
-            "needs must be sender, receiver or either");
+    require(options.needs >= Needs::scatter && options.needs <= Needs::symmetric,
+            "needs must be scatter, gather or symmetric");
     if (has_ranks_) {
         ranks_of_parts_.assign(options.ranks_of_parts->begin(), options.ranks_of_parts->end());
         require(ranks_of_parts_.size() == static_cast<std::size_t>(cuts.num_parts),

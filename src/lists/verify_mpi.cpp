@@ -110,7 +110,7 @@ struct VerifyRequest {
         std::vector<Sample> samples(count * static_cast<std::size_t>(num_ranks));
         auto own = samples.begin() + static_cast<std::ptrdiff_t>(count) * rank;
         for (const LocalIndex i : chosen)
-            *own++ = {points.position(i), radii.needs == Needs::sender ? -infinity : radii.of(i)};
+            *own++ = {points.position(i), radii.needs == Needs::scatter ? -infinity : radii.of(i)};
         return samples;
     }
 
@@ -119,7 +119,7 @@ struct VerifyRequest {
     Outgoing<Neighbour> neighbours_of(std::span<const Sample> samples, std::size_t num_each,
                                       int rank) const {
         const CellList cells(points);
-        const double greatest = radii.needs == Needs::receiver ? -infinity : radii.greatest();
+        const double greatest = radii.needs == Needs::gather ? -infinity : radii.greatest();
         Outgoing<Neighbour> found;
         for (std::size_t k = 0; k < samples.size(); ++k) {
             const Sample& sample = samples[k];
@@ -242,7 +242,7 @@ void compare_ids(const VerifyOptions& options, bool has_before, Verification& se
         for (std::size_t k = num_now; k < keys.size(); ++k) values[num_sums * k + 1] = 1;
         places.resize(keys.size());
     });
-    const Groups ids = groups(interleaved_points(places, 1), keys, GroupPlace::first_point, self);
+    const Groups ids = groups(Points(places, 1), keys, GroupPlace::first_point, self);
     const std::vector<double> sums_here = sums(ids, values, num_sums, self);
     std::vector<double> of_ids;
     const std::array columns{detail::byte_column(column(sums_here, num_sums), of_ids)};
@@ -302,8 +302,8 @@ Verification verify(const GhostPlan& plan, const Points& points, const VerifyOpt
     return seen;
 }
 
-Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,
-                    MPI_Comm user) {
+Verification verify(const GhostPlan& plan, const Points& points, MPI_Comm user,
+                    const VerifyOptions& options) {
     Participant self = mpi::enter(user, CallName::verify);
     Verification seen = verify(plan, points, options, self);
     self.throw_alone();

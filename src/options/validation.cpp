@@ -24,51 +24,6 @@ std::string tally(std::size_t bad) {
            " on this rank)";
 }
 
-/// Returns true if `axes` are interleaved in one array.
-template <class Axes>
-bool are_interleaved(const Points& points, const Axes& axes) {
-    const auto dimension = static_cast<std::size_t>(points.dimension);
-    if (points.stride != dimension) return false;
-    for (std::size_t a = 1; a < dimension; ++a)
-        if (axes[a].data() != axes[0].data() + a) return false;
-    return true;
-}
-
-template <class Axes>
-void check_axes(const Points& points, const Axes& axes) {
-    constexpr const char* left_over =
-        "the length of the coordinate array must be a multiple of the dimension";
-    const auto dimension = static_cast<std::size_t>(points.dimension);
-    if (points.count == 0) {
-        require(points.stride > dimension || axes[0].empty(), left_over);
-        return;
-    }
-    const bool interleaved = dimension > 1 && are_interleaved(points, axes);
-    require(!interleaved || axes[0].size() <= points.count * dimension, left_over);
-    for (std::size_t a = 0; a < dimension; ++a) {
-        const std::size_t size = axes[a].size();
-        require(points.stride > 1 || size == points.count,
-                "coordinate arrays must all have the same length");
-        require(size > 0 && (size - 1) / points.stride >= points.count - 1,
-                "coordinate arrays must reach to the last point, (count - 1) * stride");
-    }
-}
-
-/// Throws Error if the arrays of coordinates do not fit the dimension and number of the points.
-/// Coordinates may be NaN or infinite.
-void check_coordinates(const Points& points) {
-    check_dimension(points.dimension, "points");
-    require(points.stride >= 1,
-            "the stride of the points must be at least 1, and the same along all axes, as their "
-            "length");
-    if (points.has_floats()) {
-        require(points.axes[0].empty(), "give coordinates in axes or float_axes, not in both");
-        check_axes(points, points.float_axes);
-    } else {
-        check_axes(points, points.axes);
-    }
-}
-
 /// Returns true if the number of cuts in the tree fits the number of parts and the shape.
 bool has_its_cuts(const Cuts& cuts) {
     return cuts.num_parts >= 1 && cuts.shape.group_size >= 1 &&
@@ -192,7 +147,7 @@ void check_tree(const Cuts& cuts) {
 void check_positions(const Points& positions, const Cuts& cuts) {
     check_tree(cuts);
     require(positions.dimension == cuts.dimension, "positions must have the dimension of the cuts");
-    check_coordinates(positions);
+    check_layout(positions);
 }
 
 bool set_min_width(Options& options, const std::vector<double>& numbers) {
@@ -262,9 +217,37 @@ void reject_coordinates(const Points& points) {
     reject("coordinate of point " + first + " is NaN or infinite" + tally(bad));
 }
 
+std::size_t scalar_bytes(const Points& points) {
+    return points.type == ScalarType::float32 ? sizeof(float) : sizeof(double);
+}
+
 bool is_interleaved(const Points& points) {
-    return points.has_floats() ? are_interleaved(points, points.float_axes)
-                               : are_interleaved(points, points.axes);
+    const std::size_t bytes = scalar_bytes(points);
+    const auto dimension = static_cast<std::size_t>(points.dimension);
+    if (points.stride != dimension * bytes) return false;
+    for (std::size_t a = 1; a < dimension; ++a)
+        if (points.axes[a] != static_cast<const std::byte*>(points.axes[0]) + a * bytes)
+            return false;
+    return true;
+}
+
+void check_layout(const Points& points) {
+    check_dimension(points.dimension, "points");
+    require(points.type == ScalarType::float64 || points.type == ScalarType::float32,
+            "the type of the points must be ScalarType::float64 or float32");
+    require(points.stride != detail::left_over,
+            "the length of the coordinate array must be a multiple of the dimension");
+    require(points.stride != detail::unequal,
+            "coordinate arrays must all have the same length and a positive stride");
+    const std::size_t bytes = scalar_bytes(points);
+    require(points.stride % bytes == 0 && (points.stride > 0 || points.count < 2),
+            "the stride of the points must be in bytes, a multiple of the size of a coordinate, "
+            "and not 0");
+    require(points.count <= PTRDIFF_MAX / std::max(points.stride, bytes),
+            "count and stride exceed the memory; count is the number of points of this rank");
+    for (int a = 0; a < points.dimension; ++a)
+        require(points.count == 0 || points.axes[static_cast<std::size_t>(a)] != nullptr,
+                "coordinates must be there on each axis; an entry of axes is null");
 }
 
 void check_dimension(int dimension, const char* name) {
@@ -302,7 +285,7 @@ void reject_weights(const Points& points) {
 }
 
 void check_lengths(const Points& points) {
-    check_coordinates(points);
+    check_layout(points);
     require(points.weights.empty() || points.weights.size() == points.count,
             "weights must hold one entry per point, or none for unit weights");
 }

@@ -46,6 +46,13 @@ Box check_points(const Points& points);
 /// Returns true if all coordinates are interleaved in one array that contains nothing else.
 bool is_interleaved(const Points& points);
 
+/// Returns the size of a coordinate in bytes.
+std::size_t scalar_bytes(const Points& points);
+
+/// Throws Error if the coordinates do not fit the dimension and number of the points. They may be
+/// NaN or infinite.
+void check_layout(const Points& points);
+
 /// Throws Error with `name` unless the dimension is 1, 2 or 3.
 void check_dimension(int dimension, const char* name);
 

@@ -119,7 +119,7 @@ void bisect_domain(const Contribution& all, const PaperOptions& options,
 
 }  // namespace
 
-Balance balance_as_in_paper(const Points& points, const PaperOptions& options, MPI_Comm comm) {
+Balance balance_as_in_paper(const Points& points, MPI_Comm comm, const PaperOptions& options) {
     Participant self = mpi::enter(comm, CallName::balance_as_in_paper);
     return balance_as_in_paper(points, options, self);
 }

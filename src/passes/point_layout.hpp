@@ -33,12 +33,12 @@ struct StridedLayout {
 };
 
 template <int Dimension, class Scalar, class Visit>
-decltype(auto) visit_layout_of(const std::array<std::span<const Scalar>, max_dimension>& arrays,
-                               std::size_t stride, Visit&& visit) {
+decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
+    const std::size_t stride = points.stride / sizeof(Scalar);
     std::array<const Scalar*, Dimension> axes;
     bool is_interleaved = stride == Dimension;
     for (std::size_t a = 0; a < Dimension; ++a) {
-        axes[a] = arrays[a].data();
+        axes[a] = static_cast<const Scalar*>(points.axes[a]);
         is_interleaved = is_interleaved && axes[a] == axes[0] + a;
     }
     if (stride == 1) return visit(ColumnLayout<Dimension, Scalar>{axes});
@@ -48,9 +48,8 @@ decltype(auto) visit_layout_of(const std::array<std::span<const Scalar>, max_dim
 
 template <int Dimension, class Visit>
 decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
-    if (points.has_floats())
-        return visit_layout_of<Dimension>(points.float_axes, points.stride, visit);
-    return visit_layout_of<Dimension>(points.axes, points.stride, visit);
+    if (points.type == ScalarType::float32) return visit_layout_of<Dimension, float>(points, visit);
+    return visit_layout_of<Dimension, double>(points, visit);
 }
 
 /// Calls visit(layout) with the layout of `points`: columns, interleaved, or any other stride.

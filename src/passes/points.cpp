@@ -104,95 +104,35 @@ Box box_of_strided(const Scalar* values, LocalIndex count, std::size_t stride) {
 }
 
 template <class Scalar>
-Box box_of_axes(const Points& points,
-                const std::array<std::span<const Scalar>, max_dimension>& axes) {
-    const auto values = [&](std::size_t axis, LocalIndex count) {
-        return std::span(axes[axis].data(), count);
+Box box_of_axes(const Points& points) {
+    const std::size_t stride = points.stride / sizeof(Scalar);
+    const auto axis_of = [&](std::size_t axis) {
+        return static_cast<const Scalar*>(points.axes[axis]);
     };
     if (is_interleaved(points))
-        return box_of_values(values(0, points.count * points.stride), points.stride);
+        return box_of_values(std::span(axis_of(0), points.count * stride), stride);
     Box box;
     for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
-        const Box axis = points.stride == 1
-                             ? box_of_values(values(a, points.count), 1)
-                             : box_of_strided(axes[a].data(), points.count, points.stride);
+        const Box axis = stride == 1 ? box_of_values(std::span(axis_of(a), points.count), 1)
+                                     : box_of_strided(axis_of(a), points.count, stride);
         box.lower[a] = axis.lower[0];
         box.upper[a] = axis.upper[0];
     }
     return box;
 }
 
-/// Throws Error if the arrays are too short for the points.
-void check_reach(const Points& points) {
-    check_dimension(points.dimension, "points");
-    require(points.stride >= 1, "the stride of the points must be at least 1");
-    for (int a = 0; a < points.dimension; ++a) {
-        const std::size_t size =
-            points.has_floats() ? points.float_axes[a].size() : points.axes[a].size();
-        require(points.count == 0 || (size > 0 && (size - 1) / points.stride >= points.count - 1),
-                "coordinate arrays must reach to the last point, (count - 1) * stride");
-    }
-}
-
-template <class Scalar>
-void interleave(std::span<const Scalar> coordinates, Points& points,
-                std::array<std::span<const Scalar>, max_dimension>& axes) {
-    if (points.dimension < 1 || points.dimension > max_dimension) return;
-    points.stride = static_cast<std::size_t>(points.dimension);
-    points.count = coordinates.size() / points.stride;
-    for (std::size_t a = 0; a < points.stride && a <= coordinates.size(); ++a)
-        axes[a] = coordinates.subspan(a);
-}
-
-template <class Scalar>
-void set_columns(std::span<const std::span<const Scalar>> columns, Points& points,
-                 std::array<std::span<const Scalar>, max_dimension>& axes) {
-    points.dimension = static_cast<int>(columns.size());
-    if (columns.empty() || columns.size() > max_dimension) return;
-    points.count = columns[0].size();
-    std::copy(columns.begin(), columns.end(), axes.begin());
-}
-
 }  // namespace
-
-Points interleaved_points(std::span<const double> coordinates, int dimension,
-                          std::span<const double> weights) {
-    Points points{.dimension = dimension, .weights = weights};
-    interleave(coordinates, points, points.axes);
-    return points;
-}
-
-Points detail::interleaved_floats(std::span<const float> coordinates, int dimension,
-                                  std::span<const double> weights) {
-    Points points{.dimension = dimension, .weights = weights};
-    interleave(coordinates, points, points.float_axes);
-    return points;
-}
-
-Points column_points(std::span<const std::span<const double>> columns,
-                     std::span<const double> weights) {
-    Points points{.weights = weights};
-    set_columns(columns, points, points.axes);
-    return points;
-}
-
-Points column_points(std::span<const std::span<const float>> columns,
-                     std::span<const double> weights) {
-    Points points{.weights = weights};
-    set_columns(columns, points, points.float_axes);
-    return points;
-}
 
 Box bounding_box(const Points& points) {
     const NonStop arithmetic;
-    check_reach(points);
+    check_layout(points);
     return box_of(points);
 }
 
 Box box_of(const Points& points) {
     if (points.count == 0) return {};
-    return points.has_floats() ? box_of_axes(points, points.float_axes)
-                               : box_of_axes(points, points.axes);
+    return points.type == ScalarType::float32 ? box_of_axes<float>(points)
+                                              : box_of_axes<double>(points);
 }
 
 }  // namespace rrcb

@@ -16,13 +16,8 @@ namespace {
 Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
     Points range = points;
     range.count = last - first;
-    const std::size_t begin = first * points.stride;
-    for (int a = 0; a < points.dimension; ++a) {
-        if (points.has_floats())
-            range.float_axes[a] = points.float_axes[a].subspan(begin);
-        else
-            range.axes[a] = points.axes[a].subspan(begin);
-    }
+    for (const void*& axis : range.axes)
+        if (axis != nullptr) axis = static_cast<const std::byte*>(axis) + first * points.stride;
     return range;
 }
 

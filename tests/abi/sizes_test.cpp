@@ -206,7 +206,7 @@ TEST_F(Sizes, of_options_leave_members_at_their_defaults) {
     };
     options.needs = 99;
     ASSERT_EQ(find(page_.copy(options, sizeof options - 8)), RRCB_OK) << rrcb_last_error();
-    options.needs = RRCB_NEEDS_SENDER;
+    options.needs = RRCB_NEEDS_SCATTER;
     expect_checked(options, find, "RRCB_GHOST_OPTIONS_INIT");
 
     rrcb_neighbour_options distances = RRCB_NEIGHBOUR_OPTIONS_INIT;
@@ -219,7 +219,7 @@ TEST_F(Sizes, of_options_leave_members_at_their_defaults) {
     };
     distances.needs = 99;
     ASSERT_EQ(meet(page_.copy(distances, sizeof distances - 8)), RRCB_OK) << rrcb_last_error();
-    distances.needs = RRCB_NEEDS_SENDER;
+    distances.needs = RRCB_NEEDS_SCATTER;
     expect_checked(distances, meet, "RRCB_NEIGHBOUR_OPTIONS_INIT");
     const rrcb_transfer_limits limits = RRCB_TRANSFER_LIMITS_INIT;
     const auto transfer = [&](const rrcb_transfer_limits* given) {

@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
 
     std::vector<double> x;
     for (int i = 0; rank == 0 && i < 300; ++i) x.push_back(i);
-    const rrcb::Points points = rrcb::interleaved_points(x, 1);
-    const rrcb::Balance balance = rrcb::balance(points, {}, {}, MPI_COMM_WORLD);
+    const rrcb::Points points(x, 1);
+    const rrcb::Balance balance = rrcb::balance(points, MPI_COMM_WORLD);
     const std::vector<double> weights = rrcb::part_weights(points, balance, MPI_COMM_WORLD);
 
     const bool even = weights == std::vector<double>{100, 100, 100};

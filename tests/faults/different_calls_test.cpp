@@ -35,13 +35,13 @@ struct Input {
                 const double x = step * (40 * rank() + i);
                 coordinates.push_back(x - static_cast<int>(x));
             }
-        points = interleaved_points(coordinates, 2);
+        points = Points(coordinates, 2);
         for (int r = 0; r < num_ranks(); ++r) ranks.push_back({r, 1});
         for (std::uint64_t i = 0; i < 40; ++i) keys.push_back(i / 2);
-        balanced = balance(points, {}, {}, world);
+        balanced = balance(points, world);
         balanced.cuts.points = 0;  // the points stay where they are
         lists = plan(balanced, world);
-        near = ghosts(balanced.cuts, points, {.radius = 0.1}, world);
+        near = ghost_plan(balanced.cuts, points, world, {.radius = 0.1});
         clusters = groups(points, keys, world);
         of_ghosts.resize(total_of(near.receive));
     }
@@ -69,12 +69,13 @@ struct NamedCall {
 /// Every collective function. Steps wait for those before, so two of them wait for all ranks.
 std::vector<NamedCall> all_calls() {
     return {
-        {"balance", [](Input& in) { balance(in.points, {}, {}, world); }},
-        {"balance_as_in_paper", [](Input& in) { balance_as_in_paper(in.points, {}, world); }},
+        {"balance", [](Input& in) { balance(in.points, world); }},
+        {"balance_as_in_paper", [](Input& in) { balance_as_in_paper(in.points, world); }},
         {"plan", [](Input& in) { plan(in.balanced, world); }},
         {"remap", [](Input& in) { remap(in.balanced.parts, in.ranks, world); }},
         {"transfer", [](Input& in) { transfer(in.lists, column(in.coordinates, 2), world); }},
-        {"ghosts", [](Input& in) { ghosts(in.balanced.cuts, in.points, {.radius = 0.1}, world); }},
+        {"ghost_plan",
+         [](Input& in) { ghost_plan(in.balanced.cuts, in.points, world, {.radius = 0.1}); }},
         {"fetch", [](Input& in) { fetch(in.near, column(in.coordinates, 2), world); }},
         {"accumulate",
          [](Input& in) {
@@ -83,7 +84,7 @@ std::vector<NamedCall> all_calls() {
          }},
         {"reply", [](Input& in) { static_cast<void>(reply(in.near, in.of_ghosts, world)); }},
         {"verify",
-         [](Input& in) { experimental::verify(in.near, in.points, {.sample = 5}, world); }},
+         [](Input& in) { experimental::verify(in.near, in.points, world, {.sample = 5}); }},
         {"groups", [](Input& in) { groups(in.points, in.keys, world); }},
         {"fetch of groups",
          [](Input& in) { fetch(in.clusters, column(in.clusters.weights), world); }},
@@ -91,10 +92,10 @@ std::vector<NamedCall> all_calls() {
          [](Input& in) { sums(in.clusters, std::vector<double>(in.points.count, 1.0), world); }},
         {"part_weights", [](Input& in) { part_weights(in.points, in.balanced, world); }},
         {"moved_fraction", [](Input& in) { moved_fraction(in.points, in.balanced, world); }},
-        {"assign_all", [](Input& in) { assign_all(in.balanced.cuts, in.points, world); }},
+        {"assign", [](Input& in) { assign(in.balanced.cuts, in.points, world); }},
         {"Controller::step",
          [](Input& in) {
-             for (int k = 0; k < 3; ++k) in.controller->step(1);
+             for (int k = 0; k < 3; ++k) in.controller->step({.load = 1});
          }},
         {"CostModel::step",
          [](Input& in) {
@@ -106,7 +107,7 @@ std::vector<NamedCall> all_calls() {
          [](Input&) {
              experimental::CostModel{world, 1};
          }},
-        {"rrcb_balancer_create (Python: balance, assign_all)",
+        {"rrcb_balancer_create (Python: balance, assign)",
          [](Input&) {
              rrcb_balancer* made = nullptr;
              if (rrcb_balancer_create(world, &made) != RRCB_OK)
@@ -147,21 +148,21 @@ TEST_F(DifferentCalls, get_an_error_on_every_rank_that_names_them_and_the_next_c
             in.make_controllers();
             expect_difference(others, odd, static_cast<int>(i % 2), in);
             ASSERT_FALSE(HasFatalFailure() || HasNonfatalFailure()) << others.name << odd.name;
-            EXPECT_EQ(balance(in.points, {}, {}, world).parts, in.balanced.parts);
+            EXPECT_EQ(balance(in.points, world).parts, in.balanced.parts);
         }
 }
 
 TEST_F(DifferentCalls, end_the_controllers_that_were_made_before) {
     Input in;
     in.make_controllers();
-    for (int k = 0; k < 3; ++k) in.controller->step(1);
+    for (int k = 0; k < 3; ++k) in.controller->step({.load = 1});
     EXPECT_THROW(rank() == 1 ? (void)plan(in.balanced, world)
                              : (void)part_weights(in.points, in.balanced, world),
                  Error);
-    const auto step = [&] { in.controller->step(1); };
+    const auto step = [&] { in.controller->step({.load = 1}); };
     test::expect_same_error(step, "rank 1 calls plan", ErrorCode::mpi);
     test::expect_same_error(step, "make another controller", ErrorCode::mpi);
-    EXPECT_EQ(balance(in.points, {}, {}, world).parts, in.balanced.parts);
+    EXPECT_EQ(balance(in.points, world).parts, in.balanced.parts);
 }
 
 TEST_F(DifferentCalls, are_found_although_a_step_was_left_out_before) {
@@ -169,8 +170,8 @@ TEST_F(DifferentCalls, are_found_although_a_step_was_left_out_before) {
     in.make_controllers();
     test::expect_same_error(
         [&] {
-            if (rank() != 1) in.controller->step(1);
-            balance(in.points, {}, {}, world);
+            if (rank() != 1) in.controller->step({.load = 1});
+            balance(in.points, world);
         },
         "rank 0 calls Controller::step, rank 1 calls balance", ErrorCode::mpi);
 }
@@ -181,9 +182,9 @@ TEST_F(DifferentCalls, are_not_suspected_of_ranks_that_are_late) {
         std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
         EXPECT_EQ(plan(in.balanced, world).import_parts, in.lists.import_parts);
         std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
-        EXPECT_EQ(balance(in.points, {}, {}, world).parts, in.balanced.parts);
+        EXPECT_EQ(balance(in.points, world).parts, in.balanced.parts);
         std::this_thread::sleep_for(std::chrono::milliseconds(rank() == late ? 60 : 0));
-        EXPECT_EQ(assign_all(in.balanced.cuts, in.points, world), in.balanced.parts);
+        EXPECT_EQ(assign(in.balanced.cuts, in.points, world), in.balanced.parts);
     }
 }
 

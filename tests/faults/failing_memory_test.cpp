@@ -47,10 +47,10 @@ std::vector<double> cloud_here(int dimension) {
 /// Balances again and again by `options`, from `previous` if given.
 void fail_in_balance(const Options& options, const Cuts* previous = nullptr,
                      const std::vector<double>& coordinates = cloud_here(2)) {
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     const auto call = [&] {
-        return previous ? balance(points, options, *previous, MPI_COMM_WORLD)
-                        : balance(points, options, {}, MPI_COMM_WORLD);
+        return previous ? balance(points, MPI_COMM_WORLD, options, *previous)
+                        : balance(points, MPI_COMM_WORLD, options);
     };
     const std::vector<Part> expected = call().parts;
     fail_in(call, [&](const Balance& result) { EXPECT_EQ(result.parts, expected); });
@@ -67,10 +67,10 @@ TEST(FailingMemory, in_estimated_cuts) {
 
 TEST(FailingMemory, in_cuts_of_the_paper) {
     const std::vector<double> coordinates = cloud_here(2);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     for (const PaperDomain domain : {PaperDomain::sampled, PaperDomain::points}) {
         PaperOptions options{.num_parts = 6, .domain = domain};
-        const auto call = [&] { return balance_as_in_paper(points, options, MPI_COMM_WORLD); };
+        const auto call = [&] { return balance_as_in_paper(points, MPI_COMM_WORLD, options); };
         const std::vector<Part> expected = call().parts;
         fail_in(call, [&](const Balance& result) { EXPECT_EQ(result.parts, expected); });
     }
@@ -95,9 +95,7 @@ TEST(FailingMemory, in_parts_that_many_ranks_make) {
 
 TEST(FailingMemory, in_cuts_from_an_earlier_call) {
     const std::vector<double> coordinates = cloud_here(2);
-    const Cuts good =
-        balance(interleaved_points(coordinates, 2), refining(Refine::exact), {}, MPI_COMM_WORLD)
-            .cuts;
+    const Cuts good = balance(Points(coordinates, 2), MPI_COMM_WORLD, refining(Refine::exact)).cuts;
     Cuts moved = good;
     for (Cut& cut : moved.tree) cut.at[static_cast<std::size_t>(cut.axis)] += 0.05;
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
@@ -113,8 +111,8 @@ TEST(FailingMemory, in_cuts_made_by_many_ranks) {
     options.num_parts = 9;
     options.imbalance_tolerance = 1.5;
     std::vector<double> coordinates = cloud_here(2);
-    const Points points = interleaved_points(coordinates, 2);
-    Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
+    const Points points(coordinates, 2);
+    Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
     cuts.points = 0;  // the points stay where they are
     for (double& x : coordinates) x = 1 - x;
     fail_in_balance(options, &cuts, coordinates);
@@ -122,9 +120,11 @@ TEST(FailingMemory, in_cuts_made_by_many_ranks) {
     fail_in_balance(options, &cuts, coordinates);
     std::vector<Part> expected(points.count);
     assign(cuts, points, expected);
-    fail_in([&] { return assign_all(cuts, points, MPI_COMM_WORLD); },
+    fail_in([&] { return assign(cuts, points, MPI_COMM_WORLD); },
             [&](const std::vector<Part>& parts) { EXPECT_EQ(parts, expected); });
-    const auto ghosts_here = [&] { return ghosts(cuts, points, {.radius = 0.2}, MPI_COMM_WORLD); };
+    const auto ghosts_here = [&] {
+        return ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = 0.2});
+    };
     const GhostPlan near = ghosts_here();
     fail_in(ghosts_here,
             [&](const GhostPlan& found) { EXPECT_EQ(found.send_indices, near.send_indices); });
@@ -132,7 +132,7 @@ TEST(FailingMemory, in_cuts_made_by_many_ranks) {
 
 TEST(FailingMemory, in_groups) {
     const std::vector<double> coordinates = cloud_here(2);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     std::vector<std::uint64_t> keys;
     for (LocalIndex i = 0; i < points.count; ++i) keys.push_back(i / 3);
     const auto groups_here = [&] { return groups(points, keys, MPI_COMM_WORLD); };
@@ -150,10 +150,10 @@ TEST(FailingMemory, in_groups) {
 TEST(FailingMemory, in_earlier_cuts_that_move) {
     Options options{.num_parts = 2, .imbalance_tolerance = 1.1};
     const std::vector<double> coordinates = cloud_here(2);
-    const Points points = interleaved_points(coordinates, 2);
-    Cuts moved = balance(points, options, {}, MPI_COMM_WORLD).cuts;
+    const Points points(coordinates, 2);
+    Cuts moved = balance(points, MPI_COMM_WORLD, options).cuts;
     moved.tree[0].at[static_cast<std::size_t>(moved.tree[0].axis)] += 0.12;
-    ASSERT_GT(balance(points, options, moved, MPI_COMM_WORLD).report.details.rounds, 1);
+    ASSERT_GT(balance(points, MPI_COMM_WORLD, options, moved).report.details.rounds, 1);
     fail_in_balance(options, &moved, coordinates);
 }
 
@@ -217,7 +217,7 @@ TEST(FailingMemory, in_new_part_numbers) {
 
 TEST(FailingMemory, in_the_weights_of_the_parts) {
     const std::vector<double> coordinates = cloud_here(2);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     const std::vector<Part> parts(points.count, rank());
     fail_in([&] { return part_weights(points, parts, num_ranks(), MPI_COMM_WORLD); },
             [](const std::vector<double>& weights) { EXPECT_EQ(weights[0], 120); });
@@ -236,12 +236,12 @@ TEST(FailingMemory, in_columns_that_move) {
 
 TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
     const std::vector<double> coordinates = cloud_here(2);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     Options options{.num_parts = 2 * num_ranks()};
-    Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
     cuts.points = 0;  // the points stay where they are
     const auto call = [&] {
-        const GhostPlan lists = ghosts(cuts, points, {.radius = 0.1}, MPI_COMM_WORLD);
+        const GhostPlan lists = ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = 0.1});
         const std::vector<double> near = fetch(lists, column(coordinates, 2), MPI_COMM_WORLD);
         return accumulate(lists, column(near, 2), column(coordinates, 2), MPI_COMM_WORLD);
     };
@@ -257,7 +257,7 @@ TEST(FailingMemory, in_a_cost_model_whose_controller_goes_on) {
             made.second.emplace(controller, 3);
             return made;
         } catch (const std::exception&) {
-            for (int step = 0; step < 3; ++step) controller.step(1);
+            for (int step = 0; step < 3; ++step) controller.step({.load = 1});
             throw;
         }
     };
@@ -313,8 +313,8 @@ void fail_locally(const char* name, Call&& call) {
 TEST(FailingMemory, in_functions_of_one_rank) {
     experimental::CostModel model(MPI_COMM_WORLD, 2);
     const std::vector<double> coordinates = cloud_here(2);
-    const Points points = interleaved_points(coordinates, 2);
-    const Cuts cuts = balance(points, refining(Refine::exact), {}, MPI_COMM_WORLD).cuts;
+    const Points points(coordinates, 2);
+    const Cuts cuts = balance(points, MPI_COMM_WORLD, refining(Refine::exact)).cuts;
     const Box box = bounding_box(points);
     const SupportMesh mesh = make_support_mesh(box, 2, 4);
     const std::vector<CellMoments> cells = cell_moments(points, mesh);

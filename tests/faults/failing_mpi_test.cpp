@@ -21,7 +21,7 @@ bool has_no_lists(const Outcome& outcome) {
 
 struct Cloud : Program {
     Cloud() { zoltan_test::scatter_points(*this, 200); }
-    Points points() const { return interleaved_points(coordinates, dimension); }
+    Points points() const { return Points(coordinates, dimension); }
 };
 
 /// Counts the calls of a run in which none fails, then fails each of them on all ranks.
@@ -89,12 +89,12 @@ void expect_errors(const std::function<void()>& run) {
 TEST(FailingMpi, reaches_the_caller_of_balance_as_an_error_that_names_the_call) {
     const Cloud cloud;
     const Points points = cloud.points();
-    expect_errors([&] { balance(points, Options{}, {}, MPI_COMM_WORLD); });
-    const Cuts good = balance(points, Options{}, {}, MPI_COMM_WORLD).cuts;
+    expect_errors([&] { balance(points, MPI_COMM_WORLD); });
+    const Cuts good = balance(points, MPI_COMM_WORLD).cuts;
     Cuts moved = good;
     for (Cut& cut : moved.tree) cut.at[static_cast<std::size_t>(cut.axis)] *= 0.9;
     for (const Cuts& previous : {good, moved})
-        expect_errors([&] { balance(points, Options{}, previous, MPI_COMM_WORLD); });
+        expect_errors([&] { balance(points, MPI_COMM_WORLD, Options{}, previous); });
 }
 
 TEST(FailingMpi, reaches_the_caller_of_a_method_of_the_paper) {
@@ -102,7 +102,7 @@ TEST(FailingMpi, reaches_the_caller_of_a_method_of_the_paper) {
     PaperOptions options;
     for (const PaperDomain domain : {PaperDomain::sampled, PaperDomain::points}) {
         options.domain = domain;
-        expect_errors([&] { balance_as_in_paper(cloud.points(), options, MPI_COMM_WORLD); });
+        expect_errors([&] { balance_as_in_paper(cloud.points(), MPI_COMM_WORLD, options); });
     }
 }
 
@@ -129,10 +129,10 @@ TEST(FailingMpi, reaches_the_caller_of_what_moves_columns) {
     const Plan lists = plan_of_all_pairs();
     const std::vector<int> values(lists.num_points);
     expect_errors([&] { transfer(lists, values, MPI_COMM_WORLD); });
-    Cuts cuts = balance(cloud.points(), Options{}, {}, MPI_COMM_WORLD).cuts;
+    Cuts cuts = balance(cloud.points(), MPI_COMM_WORLD).cuts;
     cuts.points = 0;  // the points stay where they are
-    expect_errors([&] { ghosts(cuts, cloud.points(), {.radius = 0.1}, MPI_COMM_WORLD); });
-    const GhostPlan near = ghosts(cuts, cloud.points(), {.radius = 0.1}, MPI_COMM_WORLD);
+    expect_errors([&] { ghost_plan(cuts, cloud.points(), MPI_COMM_WORLD, {.radius = 0.1}); });
+    const GhostPlan near = ghost_plan(cuts, cloud.points(), MPI_COMM_WORLD, {.radius = 0.1});
     const std::vector<int> colours(near.num_points);
     expect_errors([&] {
         near.kept.reset();
@@ -182,7 +182,7 @@ TEST(FailingMpi, of_one_message_of_a_plan_leaves_no_rank_waiting_and_the_next_is
 void expect_error_of(int rank, long message, const Points& points, const Options& options) {
     mpi_layer::fail_message(rank == test::rank() ? message : 0);
     try {
-        balance(points, options, {}, MPI_COMM_WORLD);
+        balance(points, MPI_COMM_WORLD, options);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::mpi);
@@ -197,7 +197,7 @@ void fail_each_message_of_each_rank(const Options& options, long step) {
     const Cloud cloud;
     const Points points = cloud.points();
     mpi_layer::fail_message(0);
-    balance(points, options, {}, MPI_COMM_WORLD);
+    balance(points, MPI_COMM_WORLD, options);
     const long mine = mpi_layer::counted_messages();
     for (int rank = 0; rank < num_ranks(); ++rank) {
         long num_messages = mine;
@@ -209,7 +209,7 @@ void fail_each_message_of_each_rank(const Options& options, long step) {
             SCOPED_TRACE("rank " + std::to_string(rank) + ", message " + std::to_string(message));
             expect_error_of(rank, message, points, options);
             mpi_layer::fail_message(0);
-            balance(points, options, {}, MPI_COMM_WORLD);
+            balance(points, MPI_COMM_WORLD, options);
         }
     }
 }
@@ -245,22 +245,22 @@ void expect_errors_where_messages_fail(const std::function<void()>& call) {
 TEST(FailingMpi, of_one_rank_while_earlier_cuts_are_kept_reaches_its_caller) {
     const Cloud cloud;
     const Points points = cloud.points();
-    const Cuts cuts = balance(points, {}, {}, MPI_COMM_WORLD).cuts;
+    const Cuts cuts = balance(points, MPI_COMM_WORLD).cuts;
     expect_errors_where_messages_fail(
-        [&] { EXPECT_EQ(balance(points, {}, cuts, MPI_COMM_WORLD).report.details.rounds, 1); });
+        [&] { EXPECT_EQ(balance(points, MPI_COMM_WORLD, {}, cuts).report.details.rounds, 1); });
 }
 
 TEST(FailingMpi, of_one_rank_in_a_remap_or_look_up_reaches_its_caller) {
     const Cloud cloud;
     const Options options{.tuning = {.central_parts = 2}};
-    const Balance made = balance(cloud.points(), options, {}, MPI_COMM_WORLD);
+    const Balance made = balance(cloud.points(), MPI_COMM_WORLD, options);
     std::vector<RankRange> ranks;
     for (int rank = 0; rank < num_ranks(); ++rank) ranks.push_back({rank, 1});
     expect_errors_where_messages_fail(
         [&] { EXPECT_EQ(remap(made.parts, ranks, MPI_COMM_WORLD).numbers.size(), ranks.size()); });
     if (num_ranks() > 4) return;
     expect_errors_where_messages_fail(
-        [&] { EXPECT_EQ(assign_all(made.cuts, cloud.points(), MPI_COMM_WORLD), made.parts); });
+        [&] { EXPECT_EQ(assign(made.cuts, cloud.points(), MPI_COMM_WORLD), made.parts); });
 }
 
 /// Options by which many ranks make the parts.
@@ -275,7 +275,7 @@ TEST(FailingMpi, of_one_rank_while_many_make_the_parts_reaches_the_callers_of_al
 
 TEST(FailingMpi, of_all_ranks_while_many_make_the_parts_reaches_their_callers) {
     const Cloud cloud;
-    expect_errors([&] { balance(cloud.points(), wide(), {}, MPI_COMM_WORLD); });
+    expect_errors([&] { balance(cloud.points(), MPI_COMM_WORLD, wide()); });
 }
 
 TEST(FailingMpi, makes_zoltan_create_give_a_handle_that_refuses_rrcb) {

@@ -16,14 +16,14 @@ class KeptPlans : public testing::Test {
     KeptPlans() {
         const std::vector<double> all = test::uniform_cloud(400, 2, 3);
         Options options{.num_parts = num_ranks()};
-        const Balance whole = balance(interleaved_points(all, 2), options, {}, MPI_COMM_SELF);
+        const Balance whole = balance(Points(all, 2), MPI_COMM_SELF, options);
         for (std::size_t i = 0; i < 400; ++i) {
             if (whole.parts[i] != rank()) continue;
             x_.insert(x_.end(), {all[2 * i], all[2 * i + 1]});
             ids_.push_back(static_cast<int>(i));
         }
-        plan_ = ghosts(whole.cuts, interleaved_points(x_, 2),
-                       {.radius = 0.1, .periodic = Box{{0, 0, 0}, {1, 1, 1}}}, world);
+        plan_ = ghost_plan(whole.cuts, Points(x_, 2), world,
+                           {.radius = 0.1, .periodic = Box{{0, 0, 0}, {1, 1, 1}}});
     }
 
     static long collectives_of(const std::function<void()>& call) {

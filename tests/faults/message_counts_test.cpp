@@ -31,8 +31,8 @@ Counts counts_of(const std::function<void()>& call) {
 class MessageCounts : public testing::Test {
   protected:
     std::vector<double> x{0.1 + rank(), 0.2, 0.3 + rank(), 0.4, 0.7 * rank(), 0.1};
-    Points points = interleaved_points(x, 2);
-    Balance made = balance(points, {}, {}, world);
+    Points points = Points(x, 2);
+    Balance made = balance(points, world);
 
     void expect_agreement(long num_collectives, const std::function<void()>& call) {
         const auto [collectives, messages] = counts_of(call);
@@ -44,8 +44,8 @@ class MessageCounts : public testing::Test {
 TEST_F(MessageCounts, of_a_meeting_that_agrees_are_those_of_a_reduction) {
     expect_agreement(1, [&] { part_weights(points, made, world); });
     expect_agreement(1, [&] { moved_fraction(points, made, world); });
-    expect_agreement(0, [&] { assign_all(made.cuts, points, world); });
-    expect_agreement(0, [&] { balance(points, {}, made.cuts, world); });
+    expect_agreement(0, [&] { assign(made.cuts, points, world); });
+    expect_agreement(0, [&] { balance(points, world, {}, made.cuts); });
     expect_agreement(2, [&] { Controller{world}; });
 }
 

@@ -47,7 +47,7 @@ TEST(NeighbourCounts, of_a_step) {
                                   .radius = dimension == 2 ? 0.014 : 0.07,
                                   .travel = 0.005};
         NeighbourRun<double> run(input);
-        Neighbours neighbours(run.cuts(), run.options(), MPI_COMM_WORLD);
+        Neighbours neighbours(run.cuts(), MPI_COMM_WORLD, run.options());
         Arrays arrays;
         arrays.v.resize(run.x().size());
         Counts moving;

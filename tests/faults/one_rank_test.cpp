@@ -37,7 +37,7 @@ int code_of_balance(MPI_Comm comm) {
         test::uniform_cloud(50, 2, static_cast<unsigned>(rank() + 1));
     try {
         Options options{.refine = Refine::exact};
-        balance(interleaved_points(coordinates, 2), options, {}, comm);
+        balance(Points(coordinates, 2), comm, options);
         return ok;
     } catch (const Error& error) {
         return static_cast<int>(error.code());

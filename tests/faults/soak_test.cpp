@@ -49,7 +49,7 @@ struct Holding {
         }
     }
 
-    Points points() const { return interleaved_points(coordinates, 2, weights); }
+    Points points() const { return Points(coordinates, 2, weights); }
 
     std::size_t count = 0;
     int num_parts = 1;
@@ -110,21 +110,21 @@ Options options_of(const Round& round) {
 }
 
 void balances(const Round& round, MPI_Comm comm, Answer& answer) {
-    answer << balance(round.mine.points(), options_of(round), {}, comm);
+    answer << balance(round.mine.points(), comm, options_of(round));
 }
 
 void balances_as_in_paper(const Round& round, MPI_Comm comm, Answer& answer) {
     PaperOptions options{
         .num_parts = round.num_parts(),
         .domain = round.drawn() % 2 == 0 ? PaperDomain::sampled : PaperDomain::points};
-    answer << balance_as_in_paper(round.mine.points(), options, comm);
+    answer << balance_as_in_paper(round.mine.points(), comm, options);
 }
 
 void balances_twice(const Round& round, MPI_Comm comm, Answer& answer) {
     const Options options = options_of(round);
     const Points points = round.mine.points();
-    const Balance first = balance(points, options, {}, comm);
-    answer << first << balance(points, options, first.cuts, comm);
+    const Balance first = balance(points, comm, options);
+    answer << first << balance(points, comm, options, first.cuts);
 }
 
 void plans(const Round& round, MPI_Comm comm, Answer& answer) {
@@ -152,10 +152,10 @@ void moves(const Round& round, MPI_Comm comm, Answer& answer) {
 
 void fetches_ghosts(const Round& round, MPI_Comm comm, Answer& answer) {
     const Points points = round.mine.points();
-    Cuts cuts = balance(points, options_of(round), {}, comm).cuts;
+    Cuts cuts = balance(points, comm, options_of(round)).cuts;
     cuts.points = 0;  // the points stay where they are
     const double radius = std::ldexp(static_cast<double>(round.drawn() % 8), -4);
-    const GhostPlan lists = ghosts(cuts, points, {.radius = radius}, comm);
+    const GhostPlan lists = ghost_plan(cuts, points, comm, {.radius = radius});
     answer << lists.send << lists.send_indices
            << fetch(lists, numbers_here(round), comm, limits_of(round));
 }

@@ -299,7 +299,7 @@ program module_test
   call ghosts%destroy()
   ! Rank 0 needs two points of the next part, which needs none.
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, &
-    radii=moved_weights*merge(1, 0, rank == 0), needs=rrcb_needs_receiver)
+    radii=moved_weights*merge(1, 0, rank == 0), needs=rrcb_needs_gather)
   call expect(error == rrcb_ok, "ghosts within radii of receivers")
   call ghosts%get_plan(ghost_plan, error)
   call expect(ghost_plan%num_ghosts == merge(2, 0, rank == 0), "number of ghosts within radii of receivers")

@@ -118,7 +118,7 @@ contains
     call expect(error == rrcb_ok, "fetch")
     call arrays(1)%give(ghost_x)
     call arrays(2)%give(ghost_ids)
-    call neighbours%ghosts(lists)
+    call neighbours%ghost_plan(lists)
     call expect(lists%num_ghosts == plan%num_ghosts, "number of ghosts")
     call expect(all(lists%send_indices == plan%send_indices), "points to send")
     call expect(all(lists%shifts == plan%shifts), "shifts")

@@ -27,8 +27,8 @@ struct Request {
     std::optional<rrcb::PaperOptions> paper;
 
     rrcb::Balance divide(const rrcb::Points& points) const {
-        return paper ? rrcb::balance_as_in_paper(points, *paper, MPI_COMM_SELF)
-                     : rrcb::balance(points, own, {}, MPI_COMM_SELF);
+        return paper ? rrcb::balance_as_in_paper(points, MPI_COMM_SELF, *paper)
+                     : rrcb::balance(points, MPI_COMM_SELF, own);
     }
 };
 
@@ -82,7 +82,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     for (double& x : coordinates) x = input.take<double>();
     for (double& w : weights) w = input.take<double>();
     try {
-        check(rrcb::interleaved_points(coordinates, dimension, weights), request);
+        check(rrcb::Points(coordinates, dimension, weights), request);
     } catch (const rrcb::Error& error) {
         expect(error.code() == rrcb::ErrorCode::invalid_argument, "the caller's mistake");
     }

@@ -15,8 +15,8 @@ TEST(Distributions, without_arrays_on_ranks_without_points) {
     Points nothing;
     nothing.dimension = 2;
     const std::vector<double> x{0, 1, 2, 3};
-    const Points points = rank() == 0 ? interleaved_points(x, 2) : nothing;
-    const Balance result = balance(points, Options{}, {}, MPI_COMM_WORLD);
+    const Points points = rank() == 0 ? Points(x, 2) : nothing;
+    const Balance result = balance(points, MPI_COMM_WORLD);
     EXPECT_EQ(result.parts.size(), rank() == 0 ? 2u : 0u);
     EXPECT_EQ(result.report.details.num_points, 2);
 }

@@ -109,9 +109,9 @@ TEST(Errors, a_domain_that_differs_on_any_rank) {
         PaperOptions options;
         if (rank() == faulty) options.domain = PaperDomain::points;
         test::expect_same_error(
-            [&] { balance_as_in_paper(share.points(), options, MPI_COMM_WORLD); },
+            [&] { balance_as_in_paper(share.points(), MPI_COMM_WORLD, options); },
             "domain differs between rank 0 and rank " + std::to_string(std::max(1, faulty)));
-        const Balance next = balance_as_in_paper(share.points(), {}, MPI_COMM_WORLD);
+        const Balance next = balance_as_in_paper(share.points(), MPI_COMM_WORLD);
         EXPECT_EQ(next.report.details.num_points, 200);
     }
 }
@@ -119,12 +119,12 @@ TEST(Errors, a_domain_that_differs_on_any_rank) {
 TEST(Errors, a_tree_of_earlier_cuts_that_differs_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> x{0.5 + rank(), 1.25 + rank()};
-    const Points points = interleaved_points(x, 1);
-    Cuts cuts = balance(points, Options{}, {}, MPI_COMM_WORLD).cuts;
+    const Points points(x, 1);
+    Cuts cuts = balance(points, MPI_COMM_WORLD).cuts;
     const Cuts same = cuts;
     if (is_last_rank()) cuts.tree[0].at[0] += 1;
-    EXPECT_THROW(balance(points, {}, cuts, MPI_COMM_WORLD), Error);
-    EXPECT_EQ(balance(points, {}, same, MPI_COMM_WORLD).parts.size(), 2u);
+    EXPECT_THROW(balance(points, MPI_COMM_WORLD, {}, cuts), Error);
+    EXPECT_EQ(balance(points, MPI_COMM_WORLD, {}, same).parts.size(), 2u);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ void check(const Cloud& cloud, const Method& method, int count, int num_parts) {
     }
     if (!method.keeps_good_cuts() || imbalance > asked_tolerance) return;
     const Share settled = migrated(cloud, all, num_parts);
-    const Balance kept = balance(settled.points(), options, result.cuts, MPI_COMM_WORLD);
+    const Balance kept = balance(settled.points(), MPI_COMM_WORLD, options, result.cuts);
     EXPECT_EQ(count_moves(settled, kept.parts, all), 0);
 }
 

@@ -41,10 +41,10 @@ inline Balance balance(const Points& points, const Method& method, Options optio
     if (method.paper) {
         PaperOptions paper{.num_parts = options.num_parts, .part_sizes = options.part_sizes};
         paper.domain = *method.paper;
-        return balance_as_in_paper(points, paper, comm);
+        return balance_as_in_paper(points, comm, paper);
     }
     options.refine = method.refine;
-    return rrcb::balance(points, options, {}, comm);
+    return rrcb::balance(points, comm, options);
 }
 
 /// One part per rank; one rank alone makes five, so that it has something to divide.

@@ -17,14 +17,13 @@ TEST(Positions, that_coincide_are_told_in_the_report) {
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         options.refine = refine;
         const Share one_place = scattered_share(find_cloud("coincident"));
-        const Report report = balance(one_place.points(), options, {}, MPI_COMM_WORLD).report;
+        const Report report = balance(one_place.points(), MPI_COMM_WORLD, options).report;
         EXPECT_EQ(report.imbalance, 4);
         EXPECT_EQ(report.details.coincident_cuts,
                   2);  // of all points, and of the half that holds them
         const Share lattice = scattered_share(find_cloud("lattice"));
-        EXPECT_EQ(
-            balance(lattice.points(), options, {}, MPI_COMM_WORLD).report.details.coincident_cuts,
-            0);
+        EXPECT_EQ(balance(lattice.points(), MPI_COMM_WORLD, options).report.details.coincident_cuts,
+                  0);
     }
 }
 
@@ -39,7 +38,7 @@ TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
     };
     const Share share = scattered_share(cloud);
     Options options{.num_parts = 4, .refine = Refine::none, .tuning = {.support_mesh = 1}};
-    const Balance blind = balance(share.points(), options, {}, MPI_COMM_WORLD);
+    const Balance blind = balance(share.points(), MPI_COMM_WORLD, options);
     const auto weights = part_weights(share.points(), blind.parts, 4, MPI_COMM_WORLD);
     EXPECT_NEAR(blind.report.details.estimated_imbalance, 1, 1e-9);
     EXPECT_TRUE(std::isnan(blind.report.imbalance));
@@ -47,7 +46,7 @@ TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
 
     options.refine = Refine::tolerance;
     options.imbalance_tolerance = asked_tolerance;
-    const Report report = balance(share.points(), options, {}, MPI_COMM_WORLD).report;
+    const Report report = balance(share.points(), MPI_COMM_WORLD, options).report;
     EXPECT_NEAR(report.details.estimated_imbalance, 1, 1e-9);
     EXPECT_LE(report.imbalance, asked_tolerance);
     EXPECT_GT(report.details.rounds, 1);
@@ -63,10 +62,10 @@ TEST(Positions, of_equal_extents_stay_in_their_parts_from_call_to_call) {
         Options options{.num_parts = num_parts};
         const Cloud& cloud = find_cloud(name);
         const Share share = scattered_share(cloud);
-        const Balance first = balance(share.points(), options, {}, MPI_COMM_WORLD);
+        const Balance first = balance(share.points(), MPI_COMM_WORLD, options);
         const auto parts = join_parts(share, first.parts, 600, num_parts);
         const Share settled = migrated(cloud, parts, num_parts);
-        const Balance second = balance(settled.points(), options, {}, MPI_COMM_WORLD);
+        const Balance second = balance(settled.points(), MPI_COMM_WORLD, options);
         EXPECT_LE(count_moves(settled, second.parts, parts), 30) << name << " of 600";
     }
 }
@@ -74,13 +73,13 @@ TEST(Positions, of_equal_extents_stay_in_their_parts_from_call_to_call) {
 TEST(Positions, outside_every_earlier_box_are_divided_from_earlier_cuts) {
     const Share earlier = scattered_share(find_cloud("spiral"));
     Options options{.num_parts = parts_for(num_ranks())};
-    const Cuts cuts = balance(earlier.points(), options, {}, MPI_COMM_WORLD).cuts;
+    const Cuts cuts = balance(earlier.points(), MPI_COMM_WORLD, options).cuts;
     for (const double distance : {-1e7, 3e3, 1e150}) {
         Share later = earlier;
         for (double& x : later.coordinates) x = distance + std::abs(distance) * 1e-3 * x;
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             options.refine = refine;
-            const Balance result = balance(later.points(), options, cuts, MPI_COMM_WORLD);
+            const Balance result = balance(later.points(), MPI_COMM_WORLD, options, cuts);
             for (LocalIndex i = 0; i < result.parts.size(); ++i)
                 ASSERT_EQ(result.parts[i], part_of(result.cuts, later.points().position(i)));
             const auto weights =

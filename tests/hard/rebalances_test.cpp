@@ -21,15 +21,15 @@ TEST(Rebalances, hold_what_they_held) {
     Options options{.num_parts = 5};
     expect_constant_resources([&](int step) {
         coordinates = moving_cloud(step);
-        const Points points = interleaved_points(coordinates, 2, weights);
+        const Points points(coordinates, 2, weights);
         const bool reuses = step % 3 == 1;
         options.refine = step % 2 == 0 ? Refine::tolerance : Refine::exact;
-        const Balance result = reuses ? balance(points, options, cuts, MPI_COMM_WORLD)
-                                      : balance(points, options, {}, MPI_COMM_WORLD);
+        const Balance result = reuses ? balance(points, MPI_COMM_WORLD, options, cuts)
+                                      : balance(points, MPI_COMM_WORLD, options);
         cuts = result.cuts;
         plan(result.parts, options.num_parts, MPI_COMM_WORLD);
         PaperOptions paper{.domain = step % 5 == 2 ? PaperDomain::sampled : PaperDomain::points};
-        balance_as_in_paper(points, paper, MPI_COMM_WORLD);
+        balance_as_in_paper(points, MPI_COMM_WORLD, paper);
         part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD);
     });
 }
@@ -39,7 +39,7 @@ TEST(Rebalances, leave_nothing_on_a_communicator_that_is_freed) {
     const auto balance_once = [&](MPI_Comm given) {
         MPI_Comm comm = MPI_COMM_NULL;
         MPI_Comm_dup(given, &comm);
-        balance(interleaved_points(coordinates, 2), {}, {}, comm);
+        balance(Points(coordinates, 2), comm);
         MPI_Comm_free(&comm);
     };
     balance_once(MPI_COMM_WORLD);

@@ -72,8 +72,8 @@ TEST_P(HardCloud, gives_the_cuts_of_one_rank_where_all_points_go_to_the_root) {
     all.coordinates = of_all_ranks(mine.coordinates);
     all.weights = of_all_ranks(mine.weights);
     PaperOptions options{.num_parts = parts_for(num_ranks()), .domain = PaperDomain::points};
-    const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
-    const Balance alone = balance_as_in_paper(all.points(), options, MPI_COMM_SELF);
+    const Balance result = balance_as_in_paper(mine.points(), MPI_COMM_WORLD, options);
+    const Balance alone = balance_as_in_paper(all.points(), MPI_COMM_SELF, options);
     EXPECT_TRUE(same_bits(numbers_of(result.cuts), numbers_of(alone.cuts)));
     EXPECT_EQ(result.report.details.num_points, alone.report.details.num_points);
 }

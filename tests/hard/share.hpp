@@ -14,7 +14,7 @@ struct Share {
     std::vector<double> coordinates;
     std::vector<double> weights;  ///< empty when every point weighs 1
 
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const { return Points(coordinates, dimension, weights); }
 };
 
 enum class Layout {

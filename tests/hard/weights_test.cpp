@@ -10,7 +10,7 @@ INSTANTIATE_TEST_SUITE_P(Weights, HardCloud, testing::ValuesIn(names_of(clouds_h
                          name_of);
 
 Report report_of(const Cloud& cloud, const Options& options) {
-    return balance(scattered_share(cloud).points(), options, {}, MPI_COMM_WORLD).report;
+    return balance(scattered_share(cloud).points(), MPI_COMM_WORLD, options).report;
 }
 
 /// No Zoltan weight, a float, is of this size.

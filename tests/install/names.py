@@ -13,7 +13,7 @@ from symbols import bare
 
 # Functions in C++ under another name in C.
 RENAMED = {
-    "ghosts": "rrcb_ghosts_create",
+    "ghost_plan": "rrcb_ghosts_create",
     "fetch": "rrcb_ghosts_fetch",
     "reply": "rrcb_ghosts_reply",
     "accumulate": "rrcb_ghosts_accumulate",
@@ -29,12 +29,10 @@ ONLY_CPP = {
     "column": "rrcb_column is a struct",
     "columns": "an array of rrcb_column",
     "transfer_in_place": "changes the length of vectors",
-    "member_points": "rrcb_points has a stride in bytes",
-    "view_points": "takes the views of C++ libraries",
     "is_above": "rrcb_part_of descends by it",
     "TreeShape": "for those who descend themselves",
     "ghosts_of": "an array of rrcb_column",
-    "Points": "shorthands for members of a struct",
+    "Points": "rrcb_points is a struct",
     "RankRange": "a shorthand for members of a struct",
     "AxisOrder": "axes.order is for C++ only",
     "Cuts": "rrcb_get_cuts fails without cuts",
@@ -46,15 +44,14 @@ ONLY_C = {
     "rrcb_get_cuts", "rrcb_get_plan", "rrcb_get_report", "rrcb_ghosts_destroy",
     "rrcb_ghosts_get_plan", "rrcb_groups_destroy",
     "rrcb_groups_fetch",  # an overload
-    "rrcb_neighbours_apply_shifts",  # of its ghosts()
+    "rrcb_neighbours_apply_shifts",  # of its ghost_plan()
+    "rrcb_interleaved_points", "rrcb_column_points",  # constructors of Points
+    "rrcb_assign_all",  # an overload of assign
     "rrcb_last_error",  # the text of an Error
-    "rrcb_controller_step_weight",  # an overload
     "rrcb_controller_save", "rrcb_controller_load",
 }
 # Functions in C that are no procedure of their own in Fortran.
-NOT_FORTRAN = {
-    "rrcb_controller_step_weight": "a specific procedure of step",
-}
+NOT_FORTRAN = {}
 # Procedures of Fortran alone.
 ONLY_FORTRAN = {"rrcb_array%take", "rrcb_array%give"}  # C reads its struct
 # Functions in C that Fortran does not call, but has as its own.
@@ -62,18 +59,17 @@ OWN_OF_FORTRAN = {"rrcb_interleaved_points", "rrcb_column_points"}
 # Functions in Python with another name, or as a method.
 PYTHON = {
     "assign": "Cuts.part_of", "part_of": "Cuts.part_of",
-    "box_of": "Cuts.boxes", "transfer": "Plan.distribute",
-    "ghosts": "Distribution.ghosts", "fetch": "Ghosts.fetch", "reply": "Ghosts.reply",
+    "box_of": "Cuts.boxes", "transfer": "Plan.transfer",
+    "ghost_plan": "Distribution.ghosts", "fetch": "Ghosts.fetch", "reply": "Ghosts.reply",
     "accumulate": "Ghosts.accumulate",
     "apply_shifts": "Ghosts.fetch_positions",
     "sums": "Groups.sums", "remap": "Distribution.remap", "save": "Cuts.save",
     "load": "Cuts.load", "part_weights": "Distribution.part_weights",
     "moved_fraction": "Distribution.moved_fraction", "Groups::points": "Groups.x",
-    "Neighbours::ghosts": "Neighbours.sent", "version": "__version__",
+    "Neighbours::ghost_plan": "Neighbours.sent", "version": "__version__",
 }
 NOT_PYTHON = {
     "Neighbours::~Neighbours": "freed with the object",
-    "interleaved_points": "arrays are given", "column_points": "arrays are given",
     "bounding_box": "numpy has it", "imbalance": "numpy has it",
     "load_unbalance_percent": "numpy has it", "worst_load_unbalance_percent": "numpy has it",
     "ranks_of_part": "remap() and ghosts() apply it",

@@ -22,7 +22,7 @@ Cloud cloud_of_rank(int dimension, bool is_weighted, bool is_lattice) {
 template <class T, class Layout>
 auto balance_views(const Cloud& cloud, const Options& options, const Cuts& previous) {
     return experimental::balance(Device(), view_of<T, Layout>(cloud), on_device(cloud.weights),
-                                 options, previous, MPI_COMM_WORLD);
+                                 MPI_COMM_WORLD, options, previous);
 }
 
 void expect_same_cuts(const Cuts& cuts, const Cuts& expected) {
@@ -37,7 +37,7 @@ void expect_same_cuts(const Cuts& cuts, const Cuts& expected) {
 template <class T, class Layout>
 void expect_exact_cuts_of_the_host(const Cloud& cloud, Coincident coincident) {
     Options options{.num_parts = 7, .refine = Refine::exact, .coincident = coincident};
-    const Balance expected = balance(cloud.points(), options, {}, MPI_COMM_WORLD);
+    const Balance expected = balance(cloud.points(), MPI_COMM_WORLD, options);
     std::vector<int> axes;
     for (const Cut& cut : expected.cuts.tree) axes.push_back(cut.axis);
     options.axes.order = AxisOrder::given(axes);
@@ -97,14 +97,13 @@ TEST(KokkosBalance, reuses_its_memory) {
     const Cloud cloud = cloud_of_rank(2, true, false);
     const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
     const auto weights = on_device(cloud.weights);
-    const auto expected =
-        experimental::balance(Device(), x, weights, Options{}, {}, MPI_COMM_WORLD);
+    const auto expected = experimental::balance(Device(), x, MPI_COMM_WORLD, weights);
     const std::vector<Part> expected_parts = on_host(expected.parts);
     auto found = expected;
     const Part* const parts = found.parts.data();
     for (const Cuts& previous : {Cuts{}, expected.cuts}) {
-        experimental::balance_into(found, Device(), x, weights, Options{}, previous,
-                                   MPI_COMM_WORLD);
+        experimental::balance_into(found, Device(), x, weights, MPI_COMM_WORLD, Options{},
+                                   previous);
         expect_same_cuts(found.cuts, expected.cuts);
         EXPECT_EQ(on_host(found.parts), expected_parts);
         EXPECT_EQ(found.parts.data(), parts);
@@ -113,9 +112,8 @@ TEST(KokkosBalance, reuses_its_memory) {
     const std::pair<std::size_t, std::size_t> half(0, cloud.count() / 2);
     const auto fewer = Kokkos::subview(x, half, Kokkos::ALL);
     const auto lighter = Kokkos::subview(weights, half);
-    const auto of_fewer =
-        experimental::balance(Device(), fewer, lighter, Options{}, {}, MPI_COMM_WORLD);
-    experimental::balance_into(found, Device(), fewer, lighter, Options{}, {}, MPI_COMM_WORLD);
+    const auto of_fewer = experimental::balance(Device(), fewer, MPI_COMM_WORLD, lighter);
+    experimental::balance_into(found, Device(), MPI_COMM_WORLD, fewer, lighter);
     EXPECT_EQ(on_host(found.parts), on_host(of_fewer.parts));
     EXPECT_EQ(found.parts.data(), parts);
 }
@@ -123,10 +121,10 @@ TEST(KokkosBalance, reuses_its_memory) {
 TEST(KokkosBalance, reads_points_without_weights) {
     const Cloud cloud = cloud_of_rank(3, false, false);
     const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
-    const auto found = experimental::balance(Device(), x, Options{}, MPI_COMM_WORLD);
+    const auto found = experimental::balance(Device(), x, MPI_COMM_WORLD);
     const auto axis = [&](int a) { return Kokkos::subview(x, Kokkos::ALL, a); };
-    const auto of_axes = experimental::balance(Device(), std::array{axis(0), axis(1), axis(2)},
-                                               Options{}, Cuts{}, MPI_COMM_WORLD);
+    const auto of_axes =
+        experimental::balance(Device(), std::array{axis(0), axis(1), axis(2)}, MPI_COMM_WORLD);
     expect_same_cuts(of_axes.cuts, found.cuts);
 }
 
@@ -191,7 +189,7 @@ TEST(KokkosBalance, copies_little_and_rarely_waits) {
         const auto traffic_to = [&](Refine refine) {
             const Options options{.num_parts = 8, .refine = refine};
             return traffic_of(
-                [&] { experimental::balance(Device(), x, weights, options, {}, MPI_COMM_WORLD); });
+                [&] { experimental::balance(Device(), x, weights, MPI_COMM_WORLD, options); });
         };
         // Summary, with weights also their sum; sample; moments; parts.
         const int steps = is_weighted ? 5 : 4;

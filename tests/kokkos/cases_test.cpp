@@ -87,8 +87,8 @@ struct Answer {
 template <class T, class Layout>
 Answer answer(const Case& test, const Cuts& previous) {
     const auto found = experimental::balance(Device(), view_of<T, Layout>(test.cloud),
-                                             on_device(test.cloud.weights), test.options, previous,
-                                             MPI_COMM_WORLD);
+                                             on_device(test.cloud.weights), MPI_COMM_WORLD,
+                                             test.options, previous);
     return {found.cuts, found.report, on_host(found.parts)};
 }
 

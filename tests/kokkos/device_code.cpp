@@ -7,7 +7,7 @@ using Weights = Kokkos::View<double*, Device>;
 using Result = rrcb::experimental::KokkosBalance<Device::memory_space>;
 
 template void rrcb::experimental::balance_into(Result&, const Device&, const Positions&,
-                                               const Weights&, const rrcb::Options&,
-                                               const rrcb::Cuts&, MPI_Comm);
-template auto rrcb::experimental::plan(const Device&, const Result&, MPI_Comm)
-    -> rrcb::experimental::KokkosPlan<Device::memory_space>;
+                                               const Weights&, MPI_Comm, const rrcb::Options&,
+                                               const rrcb::Cuts&);
+template auto rrcb::experimental::points_by_rank(const Device&, const Result&, int, int)
+    -> rrcb::experimental::KokkosPointsByRank<Device::memory_space>;

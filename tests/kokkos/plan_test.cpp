@@ -16,13 +16,14 @@ TEST(Plan, lists_points_by_rank) {
                              balance.parts);
         const std::vector<Part> parts = on_host(balance.parts);
         const Plan expected = plan(parts, num_parts, MPI_COMM_WORLD);
-        const experimental::KokkosPlan<Memory> found =
-            experimental::plan(Device(), balance, MPI_COMM_WORLD);
+        const experimental::KokkosPointsByRank<Memory> found =
+            experimental::points_by_rank(Device(), balance, rank(), num_ranks());
         std::vector<int> ranks(cloud.count(), rank());
         for (std::size_t k = 0; k < expected.export_indices.size(); ++k)
             ranks[expected.export_indices[k]] = expected.export_ranks[k];
         EXPECT_EQ(on_host(found.ranks), ranks);
-        EXPECT_EQ(on_host(experimental::destinations(Device(), balance, MPI_COMM_WORLD)), ranks);
+        EXPECT_EQ(on_host(experimental::destinations(Device(), balance, rank(), num_ranks())),
+                  ranks);
         std::vector<LocalIndex> order(cloud.count());
         std::iota(order.begin(), order.end(), LocalIndex{0});
         std::ranges::stable_sort(order, {}, [&](LocalIndex i) { return ranks[i]; });
@@ -38,8 +39,8 @@ TEST(Plan, lists_points_by_rank) {
 
 TEST(Plan, of_no_points_is_empty) {
     const experimental::KokkosBalance<Memory> balance{{.dimension = 2, .tree = {}}, {}, {}, {}};
-    const experimental::KokkosPlan<Memory> found =
-        experimental::plan(Device(), balance, MPI_COMM_WORLD);
+    const experimental::KokkosPointsByRank<Memory> found =
+        experimental::points_by_rank(Device(), balance, rank(), num_ranks());
     EXPECT_TRUE(found.counts.empty());
     EXPECT_EQ(found.order.extent(0), 0u);
 }

@@ -19,10 +19,7 @@ TEST(Uninitialized, is_an_error_on_all_ranks) {
                            Kokkos::MemoryTraits<Kokkos::Unmanaged>>
             x(values.data(), 3);
         expect_same_error(
-            [&] {
-                experimental::balance(Kokkos::DefaultHostExecutionSpace(), x, Options{},
-                                      MPI_COMM_WORLD);
-            },
+            [&] { experimental::balance(Kokkos::DefaultHostExecutionSpace(), x, MPI_COMM_WORLD); },
             "Kokkos is not initialized; call Kokkos::initialize()");
     }
     if (rank() != 1) Kokkos::finalize();

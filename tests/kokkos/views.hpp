@@ -37,7 +37,7 @@ struct Cloud {
     std::vector<double> weights{};
 
     LocalIndex count() const { return x.size() / static_cast<std::size_t>(dimension); }
-    Points points() const { return interleaved_points(x, dimension, weights); }
+    Points points() const { return Points(x, dimension, weights); }
 };
 
 /// Points in the unit cube whose coordinates floats hold; some are coincident, many are aligned.

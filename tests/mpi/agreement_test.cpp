@@ -21,10 +21,10 @@ class Agreement : public testing::Test {
 
     /// Every rank gets the same text, which holds `expected`, and the next call works.
     void expect_error(const Points& points, const Options& options, const std::string& expected) {
-        test::expect_same_error([&] { balance(points, options, {}, MPI_COMM_WORLD); }, expected);
+        test::expect_same_error([&] { balance(points, MPI_COMM_WORLD, options); }, expected);
 
         const std::vector<double> fine{0.5, 1.5};
-        EXPECT_EQ(balance(interleaved_points(fine, 1), {}, {}, MPI_COMM_WORLD).parts.size(), 2u);
+        EXPECT_EQ(balance(Points(fine, 1), MPI_COMM_WORLD).parts.size(), 2u);
     }
 
     bool last() const { return rank_ == num_ranks_ - 1; }
@@ -38,7 +38,7 @@ TEST_F(Agreement, on_a_coordinate_that_is_no_number) {
     for (const double bad : {nan, infinity, -infinity}) {
         std::vector<double> x{0, 1, 2, 3, 4, 5};
         if (last()) x[3] = x[5] = bad;
-        expect_error(interleaved_points(x, 2), {},
+        expect_error(Points(x, 2), {},
                      last_rank() +
                          "coordinate of point 1 on axis 1 is NaN or infinite (2 such "
                          "values on this rank)");
@@ -48,49 +48,39 @@ TEST_F(Agreement, on_a_coordinate_that_is_no_number) {
 TEST_F(Agreement, on_weights_whose_sum_overflows) {
     const std::vector<double> x{0, 1};
     const std::vector<double> weights(2, last() ? 1e308 : 1.0);
-    expect_error(interleaved_points(x, 1, weights), {}, last_rank() + "the sum of the weights");
+    expect_error(Points(x, 1, weights), {}, last_rank() + "the sum of the weights");
 }
 
 TEST_F(Agreement, on_weights_whose_sum_over_the_ranks_overflows) {
     const std::vector<double> x{0};
     const std::vector<double> weights{1.7e308};
-    if (num_ranks_ > 1)
-        expect_error(interleaved_points(x, 1, weights), {}, "weights of all ranks overflows");
+    if (num_ranks_ > 1) expect_error(Points(x, 1, weights), {}, "weights of all ranks overflows");
 }
 
 TEST_F(Agreement, on_arrays_that_do_not_fit) {
     const std::vector<double> x(last() ? 5 : 4);
-    expect_error(interleaved_points(x, 2), {}, "multiple of the dimension");
+    expect_error(Points(x, 2), {}, "multiple of the dimension");
     const std::vector<double> y(last() ? 1 : 2);
-    expect_error(interleaved_points(y, 2), {}, "multiple of the dimension");
+    expect_error(Points(y, 2), {}, "multiple of the dimension");
     const std::vector<double> weights(last() ? 1 : 2);
     const std::vector<double> z(4);
-    expect_error(interleaved_points(z, 2, weights), {}, "one entry per point");
+    expect_error(Points(z, 2, weights), {}, "one entry per point");
 }
 
-TEST_F(Agreement, on_coordinates_that_end_before_the_last_point) {
+TEST_F(Agreement, on_columns_of_other_lengths_and_strides) {
     const std::vector<double> x(12);
-    const std::vector<double> y(10);
-    Points points;
-    points.dimension = 2;
-    points.count = 4;
-    for (const std::size_t stride : {2u, 3u, 5u}) {
-        points.stride = stride;
-        const std::size_t needed = 3 * stride + 1;
-        points.axes = {std::span(x).first(std::min<std::size_t>(12, needed)),
-                       std::span(y).first(std::min<std::size_t>(10, needed))};
-        if (last() && stride < 4) points.axes[1] = points.axes[1].first(needed - 1);
-        const std::string who = stride < 4 ? last_rank() : "rank 0: ";
-        expect_error(points, {}, who + "coordinate arrays must reach to the last point");
-    }
-    points.stride = 0;
-    expect_error(points, {}, "rank 0: the stride of the points must be at least 1");
+    const std::vector<double> y(last() ? 11 : 12);
+    const std::vector<std::span<const double>> columns{x, y};
+    expect_error(Points(columns), {}, "coordinate arrays must all have the same length");
+    Points points(x, 2);
+    points.stride = last() ? 0 : points.stride;
+    expect_error(points, {}, last_rank() + "the stride of the points must be in bytes");
 }
 
 TEST_F(Agreement, on_a_dimension_out_of_range) {
     const std::vector<double> x(12);
-    expect_error(interleaved_points(x, last() ? 4 : 3), {}, "1, 2 or 3 dimensions");
-    expect_error(interleaved_points(x, last() ? 0 : 2), {}, "1, 2 or 3 dimensions");
+    expect_error(Points(x, last() ? 4 : 3), {}, "1, 2 or 3 dimensions");
+    expect_error(Points(x, last() ? 0 : 2), {}, "1, 2 or 3 dimensions");
 }
 
 TEST_F(Agreement, on_options_out_of_range) {
@@ -98,7 +88,7 @@ TEST_F(Agreement, on_options_out_of_range) {
     const auto with = [&](auto change, const std::string& expected) {
         Options options;
         change(options);
-        expect_error(interleaved_points(x, 1), options, "rank 0: " + expected);
+        expect_error(Points(x, 1), options, "rank 0: " + expected);
     };
     with([](Options& o) { o.num_parts = -1; }, "num_parts");
     with([](Options& o) { o.tuning.support_mesh = 5000; },
@@ -134,7 +124,7 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
     const auto with = [&](auto change, const std::string& name) {
         Options options;
         if (last()) change(options);
-        expect_error(interleaved_points(x, 1), options,
+        expect_error(Points(x, 1), options,
                      name + " differs between rank 0 and rank " + std::to_string(num_ranks_ - 1));
     };
     with([](Options& o) { o.num_parts = 99; }, "num_parts");
@@ -148,7 +138,7 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
     with([&](Options& o) { o.part_sizes.assign(static_cast<std::size_t>(num_ranks_), 2.0); },
          "part_sizes");
     const std::vector<double> empty;
-    expect_error(interleaved_points(empty, last() ? 2 : 3), {}, "dimension differs");
+    expect_error(Points(empty, last() ? 2 : 3), {}, "dimension differs");
 }
 
 TEST_F(Agreement, on_weights_given_on_some_ranks) {
@@ -157,32 +147,32 @@ TEST_F(Agreement, on_weights_given_on_some_ranks) {
     const std::vector<double> weights{2};
     const std::vector<Part> parts(1);
     const std::vector<std::uint64_t> keys(1);
-    const Points points = last() ? interleaved_points(x, 2) : interleaved_points(x, 2, weights);
+    const Points points = last() ? Points(x, 2) : Points(x, 2, weights);
     const std::string expected = "whether points have weights differs between rank 0 and rank " +
                                  std::to_string(num_ranks_ - 1) + "; give one for each point";
     const MPI_Comm comm = MPI_COMM_WORLD;
     expect_error(points, {}, expected);
-    const Cuts cuts = balance(interleaved_points(x, 2), {}, {}, comm).cuts;
-    test::expect_same_error([&] { balance(points, {}, cuts, comm); }, expected);
-    test::expect_same_error([&] { balance_as_in_paper(points, {}, comm); }, expected);
+    const Cuts cuts = balance(Points(x, 2), comm).cuts;
+    test::expect_same_error([&] { balance(points, comm, {}, cuts); }, expected);
+    test::expect_same_error([&] { balance_as_in_paper(points, comm); }, expected);
     test::expect_same_error([&] { part_weights(points, parts, 1, comm); }, expected);
     test::expect_same_error([&] { moved_fraction(points, parts, 1, comm); }, expected);
     test::expect_same_error([&] { (void)groups(points, keys, comm); }, expected);
 
-    const Points none{.dimension = 2};
-    EXPECT_EQ(balance(last() ? none : points, {}, {}, comm).report.details.total_weight,
+    const Points none({}, 2);
+    EXPECT_EQ(balance(last() ? none : points, comm).report.details.total_weight,
               2 * (num_ranks_ - 1));
 }
 
 TEST_F(Agreement, on_earlier_cuts_that_do_not_fit) {
     const std::vector<double> x{0, 1, 2, 3};
     Options options{.num_parts = 3};
-    const Cuts cuts = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD).cuts;
+    const Cuts cuts = balance(Points(x, 2), MPI_COMM_WORLD, options).cuts;
     options.num_parts = last() ? 4 : 3;
-    EXPECT_THROW(balance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance(Points(x, 2), MPI_COMM_WORLD, options, cuts), Error);
     options.num_parts = 3;
-    EXPECT_THROW(balance(interleaved_points(x, 1), options, cuts, MPI_COMM_WORLD), Error);
-    EXPECT_EQ(balance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD).parts.size(), 2u);
+    EXPECT_THROW(balance(Points(x, 1), MPI_COMM_WORLD, options, cuts), Error);
+    EXPECT_EQ(balance(Points(x, 2), MPI_COMM_WORLD, options, cuts).parts.size(), 2u);
 }
 
 }  // namespace

@@ -65,10 +65,10 @@ Division division_by(int ranks, const Cloud& cloud, const Options& options, unsi
             if (static_cast<int>(random() % static_cast<unsigned>(ranks) / (deal % 2 + 1)) ==
                 rank())
                 mine.append(cloud, i);
-        const Balance made = balance(
-            interleaved_points(mine.coordinates, mine.dimension, mine.weights), options, {}, comm);
+        const Balance made =
+            balance(Points(mine.coordinates, mine.dimension, mine.weights), comm, options);
         division.parts.resize(cloud.size());
-        assign(made.cuts, interleaved_points(cloud.coordinates, cloud.dimension), division.parts);
+        assign(made.cuts, Points(cloud.coordinates, cloud.dimension), division.parts);
         for (const Cut& cut : made.cuts.tree)
             for (const double at : cut.at)
                 division.cuts.push_back(std::bit_cast<std::uint64_t>(at));

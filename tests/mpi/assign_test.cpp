@@ -31,8 +31,8 @@ void expect_located(const Cuts& cuts) {
     const int count = rank() % 3 == 2 ? 0 : 40 * rank() + 10;
     for (int i = 0; i < count * cuts.dimension; ++i)
         coordinates.push_back(static_cast<double>(engine() % 19) / 2 - 4.5);
-    const Points points = interleaved_points(coordinates, cuts.dimension);
-    const std::vector<Part> parts = assign_all(cuts, points, MPI_COMM_WORLD);
+    const Points points(coordinates, cuts.dimension);
+    const std::vector<Part> parts = assign(cuts, points, MPI_COMM_WORLD);
     ASSERT_EQ(parts.size(), points.count);
     for (LocalIndex i = 0; i < points.count; ++i)
         EXPECT_EQ(parts[i], part_of(cuts, points.position(i)));
@@ -46,7 +46,7 @@ TEST(AssignTogether, finds_the_parts_of_positions_anywhere) {
 
 /// Expects an Error with this text on every rank, after which the next call works.
 void expect_refusal(const std::string& text, const Cuts& cuts, const Points& points) {
-    test::expect_same_error([&] { assign_all(cuts, points, MPI_COMM_WORLD); }, text);
+    test::expect_same_error([&] { assign(cuts, points, MPI_COMM_WORLD); }, text);
     expect_located(random_cuts(2, 9));
 }
 
@@ -56,10 +56,10 @@ TEST(AssignTogether, refuses_what_one_rank_gives_wrong_on_all) {
     const std::vector<double> x{0, is_last_rank() ? std::nan("") : 1, 0};
     const std::span<const double> some(x);
     expect_refusal(last + "coordinate of point 0 on axis 1 is NaN", right,
-                   interleaved_points(some.first(2), 2));
-    const Points none = interleaved_points(some.first(0), 2);
+                   Points(some.first(2), 2));
+    const Points none(some.first(0), 2);
     expect_refusal(last + "positions must have the dimension", right,
-                   interleaved_points(some.first(0), is_last_rank() ? 3 : 2));
+                   Points(some.first(0), is_last_rank() ? 3 : 2));
     const auto spoiled = [&](auto&& spoil) {
         Cuts cuts = right;
         if (is_last_rank()) spoil(cuts);
@@ -75,7 +75,7 @@ TEST(AssignTogether, refuses_what_one_rank_gives_wrong_on_all) {
 }
 
 TEST(AssignTogether, refuses_cuts_that_are_no_tree) {
-    const Points none = interleaved_points(std::span<const double>(), 2);
+    const Points none(std::span<const double>(), 2);
     for (const int dimension : {-1, 0, 4, 9})
         expect_refusal("cuts must have 1, 2 or 3 dimensions", {dimension, 1, {}}, none);
     expect_refusal("the tree must hold", {2, 0, {}}, none);

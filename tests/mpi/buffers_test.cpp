@@ -41,7 +41,7 @@ struct Cloud {
     explicit Cloud(std::size_t count, int dimension = 2, bool weighted = false)
         : coordinates(test::uniform_cloud(count, dimension, 7 + static_cast<unsigned>(rank()))) {
         if (weighted) weights.assign(count, 1.5);
-        points = interleaved_points(coordinates, dimension, weights);
+        points = Points(coordinates, dimension, weights);
     }
 
     std::vector<double> coordinates;
@@ -66,14 +66,14 @@ void expect_same(const Balance& a, const Balance& b) {
 /// and lists of the points near cuts.
 void expect_no_memory(const Cloud& cloud, const Options& options, bool reuses,
                       long most_bytes_a_point = 3) {
-    Balance result = balance(cloud.points, options, {}, MPI_COMM_WORLD);
+    Balance result = balance(cloud.points, MPI_COMM_WORLD, options);
     Balance first;
     for (int k = 0; k < 10; ++k) {
         const Cost cost = cost_of([&] {
             if (reuses)
-                balance_into(result, cloud.points, options, result.cuts, MPI_COMM_WORLD);
+                balance_into(result, cloud.points, MPI_COMM_WORLD, options, result.cuts);
             else
-                balance_into(result, cloud.points, options, {}, MPI_COMM_WORLD);
+                balance_into(result, cloud.points, MPI_COMM_WORLD, options);
         });
         if (k == 0) {
             first = result;
@@ -123,7 +123,7 @@ TEST(Buffers, need_little_for_many_parts) {
     constexpr long most_bytes_a_part = 650;
     Options options = options_of(Refine::tolerance);
     options.num_parts = 10000 * num_ranks();
-    const Cost cost = cost_of([&] { balance(cloud.points, options, {}, MPI_COMM_WORLD); });
+    const Cost cost = cost_of([&] { balance(cloud.points, MPI_COMM_WORLD, options); });
     EXPECT_LE(cost.bytes, most_bytes_a_part * options.num_parts);
     RecordProperty("bytes_a_part", static_cast<int>(cost.bytes / options.num_parts));
 }
@@ -135,8 +135,8 @@ TEST(Buffers, follow_the_number_of_points) {
         for (const Refine refine : {Refine::tolerance, Refine::exact}) {
             MPI_Comm fresh = MPI_COMM_NULL;
             MPI_Comm_dup(MPI_COMM_WORLD, &fresh);
-            balance_into(result, cloud.points, options_of(refine), {}, MPI_COMM_WORLD);
-            expect_same(result, balance(cloud.points, options_of(refine), {}, fresh));
+            balance_into(result, cloud.points, MPI_COMM_WORLD, options_of(refine));
+            expect_same(result, balance(cloud.points, fresh, options_of(refine)));
             MPI_Comm_free(&fresh);
         }
     }
@@ -146,14 +146,14 @@ TEST(Buffers, belong_to_a_communicator) {
     const Cloud large(many);
     const Cloud small(many / 8);
     const Options options = options_of(Refine::exact);
-    const Balance of_large = balance(large.points, options, {}, MPI_COMM_WORLD);
-    const Balance of_small = balance(small.points, options, {}, MPI_COMM_WORLD);
+    const Balance of_large = balance(large.points, MPI_COMM_WORLD, options);
+    const Balance of_small = balance(small.points, MPI_COMM_WORLD, options);
     const test::HeldMemory before;
     MPI_Comm other = MPI_COMM_NULL;
     MPI_Comm_dup(MPI_COMM_WORLD, &other);
     for (int k = 0; k < 3; ++k) {
-        expect_same(balance(large.points, options, {}, MPI_COMM_WORLD), of_large);
-        expect_same(balance(small.points, options, {}, other), of_small);
+        expect_same(balance(large.points, MPI_COMM_WORLD, options), of_large);
+        expect_same(balance(small.points, other, options), of_small);
     }
     MPI_Comm_free(&other);
     test::expect_no_growth(before, 6);
@@ -162,28 +162,28 @@ TEST(Buffers, belong_to_a_communicator) {
 TEST(Buffers, survive_a_call_that_fails) {
     const Cloud cloud(many);
     const Options options = options_of(Refine::exact);
-    Balance result = balance(cloud.points, options, {}, MPI_COMM_WORLD);
+    Balance result = balance(cloud.points, MPI_COMM_WORLD, options);
     const Balance first = result;
     Cloud unusable(many);
     if (rank() == num_ranks() - 1)
         unusable.coordinates[5] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(balance_into(result, unusable.points, options, {}, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance_into(result, unusable.points, MPI_COMM_WORLD, options), Error);
     EXPECT_TRUE(result.parts.empty());
     expect_no_memory(cloud, options, false);
-    balance_into(result, cloud.points, options, {}, MPI_COMM_WORLD);
+    balance_into(result, cloud.points, MPI_COMM_WORLD, options);
     expect_same(result, first);
 }
 
 TEST(Buffers, are_freed_when_asked) {
     const Cloud cloud(many);
     const Options options = options_of(Refine::exact);
-    const Balance first = balance(cloud.points, options, {}, MPI_COMM_WORLD);
+    const Balance first = balance(cloud.points, MPI_COMM_WORLD, options);
     const long before = memory_layer::live_bytes();
     release_buffers(MPI_COMM_WORLD);
     release_buffers(MPI_COMM_WORLD);
     EXPECT_LT(memory_layer::live_bytes(), before);
     EXPECT_GE(memory_layer::live_bytes(), before - 40L * static_cast<long>(2 * many));
-    expect_same(balance(cloud.points, options, {}, MPI_COMM_WORLD), first);
+    expect_same(balance(cloud.points, MPI_COMM_WORLD, options), first);
     release_buffers(MPI_COMM_SELF);
     EXPECT_THROW(release_buffers(MPI_COMM_NULL), Error);
 }

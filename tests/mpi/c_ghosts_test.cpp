@@ -22,7 +22,7 @@ class CGhosts : public testing::Test {
         ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
         in_c = rrcb_interleaved_points(RRCB_DOUBLE, 3, count, coordinates.data(), weights.data());
         ASSERT_EQ(rrcb_balance(balancer, &in_c, parts.data()), RRCB_OK) << rrcb_last_error();
-        cuts = rrcb::balance(points(), {}, {}, MPI_COMM_WORLD).cuts;
+        cuts = rrcb::balance(points(), MPI_COMM_WORLD).cuts;
         forget_points();
     }
     void TearDown() override {
@@ -38,7 +38,7 @@ class CGhosts : public testing::Test {
         cuts.points = 0;
     }
 
-    Points points() const { return interleaved_points(coordinates, 3, weights); }
+    Points points() const { return Points(coordinates, 3, weights); }
 
     void find(const rrcb_ghost_options& options) {
         rrcb_ghosts_destroy(&ghosts);
@@ -49,7 +49,7 @@ class CGhosts : public testing::Test {
 
     /// Fails unless ghosts are those of C++, of which values come and return alike.
     void expect_same(const GhostOptions& options) {
-        const GhostPlan expected = rrcb::ghosts(cuts, points(), options, MPI_COMM_WORLD);
+        const GhostPlan expected = rrcb::ghost_plan(cuts, points(), MPI_COMM_WORLD, options);
         rrcb_ghost_plan plan = RRCB_GHOST_PLAN_INIT;
         ASSERT_EQ(rrcb_ghosts_get_plan(ghosts, &plan), RRCB_OK);
         EXPECT_EQ(plan.num_points, expected.num_points);
@@ -162,8 +162,8 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
     expected.radii = radii;
     expected.ranks_of_parts = ranks;
     expect_same(expected);
-    for (const auto& [name, needs] : {std::pair(RRCB_NEEDS_RECEIVER, Needs::receiver),
-                                      std::pair(RRCB_NEEDS_EITHER, Needs::either)}) {
+    for (const auto& [name, needs] : {std::pair(RRCB_NEEDS_GATHER, Needs::gather),
+                                      std::pair(RRCB_NEEDS_SYMMETRIC, Needs::symmetric)}) {
         options.needs = name;
         expected.needs = needs;
         find(options);
@@ -315,7 +315,7 @@ TEST_F(CGhosts, points_have_strides) {
 TEST_F(CGhosts, coordinates_may_be_floats) {
     const std::vector<float> floats(coordinates.begin(), coordinates.end());
     std::vector<Part> expected(parts.size());
-    assign(cuts, interleaved_points(floats, 3), expected);
+    assign(cuts, Points(floats, 3), expected);
     const rrcb_points short_points =
         rrcb_interleaved_points(RRCB_FLOAT, 3, parts.size(), floats.data(), nullptr);
     std::vector<std::int32_t> again(parts.size(), -1);

@@ -24,7 +24,7 @@ struct Cloud {
         for (int i = 0; i < count; ++i) weights.push_back(uniform(random));
     }
     std::size_t count() const { return weights.size(); }
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const { return Points(coordinates, dimension, weights); }
     rrcb_points in_c() const {
         return rrcb_interleaved_points(RRCB_DOUBLE, dimension, count(), coordinates.data(),
                                        weights.data());
@@ -76,7 +76,7 @@ void CInterface::expect_as_in_cpp(
                                            options.part_sizes.data()),
               RRCB_OK);
     ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
-    const Balance expected = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
+    const Balance expected = rrcb::balance(cloud.points(), MPI_COMM_WORLD, options);
     EXPECT_EQ(parts, expected.parts);
     rrcb_cuts cuts = RRCB_CUTS_INIT;
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
@@ -150,7 +150,7 @@ TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
     Options options{.imbalance_tolerance = 1.5};
     ASSERT_EQ(rrcb_balancer_set(balancer, "imbalance_tolerance", "1.5"), RRCB_OK);
     ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
-    const Cuts first = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
+    const Cuts first = rrcb::balance(cloud.points(), MPI_COMM_WORLD, options).cuts;
     for (double& x : cloud.coordinates) x *= 1.01;
 
     const rrcb_points points = cloud.in_c();
@@ -158,7 +158,7 @@ TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
     ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     expect_same_cuts(cuts, first);
-    const Balance anew = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD);
+    const Balance anew = rrcb::balance(cloud.points(), MPI_COMM_WORLD, options);
     ASSERT_EQ(rrcb_clear_cuts(balancer), RRCB_OK);
     EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_INVALID_ARGUMENT);
     ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
@@ -173,12 +173,12 @@ TEST_F(CInterface, keeps_uncounted_cuts_within_the_tolerance_only) {
     ASSERT_EQ(rrcb_balancer_set(balancer, "refine", "NONE"), RRCB_OK);
     ASSERT_EQ(rrcb_balancer_set(balancer, "imbalance_tolerance", "1.1"), RRCB_OK);
     ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
-    const Cuts first = rrcb::balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
+    const Cuts first = rrcb::balance(cloud.points(), MPI_COMM_WORLD, options).cuts;
     Cuts cuts = first;
     for (int call = 0; call < 6; ++call) {
         const rrcb_points points = cloud.in_c();
         ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
-        const Balance expected = rrcb::balance(cloud.points(), options, cuts, MPI_COMM_WORLD);
+        const Balance expected = rrcb::balance(cloud.points(), MPI_COMM_WORLD, options, cuts);
         EXPECT_EQ(parts, expected.parts);
         cuts = expected.cuts;
         for (double& x : cloud.coordinates) x = std::pow(x, 1.2);
@@ -423,19 +423,19 @@ TEST(CController, decides_as_the_controller_in_cpp) {
     rrcb_controller* controller = nullptr;
     ASSERT_EQ(rrcb_controller_create(MPI_COMM_WORLD, &controller), RRCB_OK);
     Controller in_cpp(MPI_COMM_WORLD);
-    in_cpp.rebalanced(0.5);
+    in_cpp.rebalanced({.cost = 0.5});
     EXPECT_EQ(rrcb_controller_rebalanced(controller, nullptr, 0.5), RRCB_OK);
     int num_due = 0;
     for (int step = 0; step < 40; ++step) {
         const double load = 1 + (rank() == 0 ? 0.01 * step : 0);
         int due = -1;
         int still_due = -1;
-        EXPECT_EQ(step < 20 ? rrcb_controller_step(controller, load, &due)
-                            : rrcb_controller_step_weight(controller, load, 1, &due),
+        const double weight = 1;
+        EXPECT_EQ(rrcb_controller_step(controller, load, step < 20 ? nullptr : &weight, &due),
                   RRCB_OK);
         EXPECT_EQ(rrcb_controller_due(controller, &still_due), RRCB_OK);
         EXPECT_EQ(due, still_due);
-        EXPECT_EQ(due == 1, step < 20 ? in_cpp.step(load) : in_cpp.step(load, 1));
+        EXPECT_EQ(due == 1, step < 20 ? in_cpp.step({load}) : in_cpp.step({load, weight}));
         num_due += due;
     }
     EXPECT_EQ(num_due > 0, num_ranks() > 1);
@@ -443,11 +443,11 @@ TEST(CController, decides_as_the_controller_in_cpp) {
 }
 
 TEST(CController, refuses_bad_loads_and_null) {
-    EXPECT_EQ(rrcb_controller_step(nullptr, 1, nullptr), RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_controller_step(nullptr, 1, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
     rrcb_controller* controller = nullptr;
     ASSERT_EQ(rrcb_controller_create_fortran(MPI_Comm_c2f(MPI_COMM_WORLD), &controller), RRCB_OK);
-    EXPECT_EQ(rrcb_controller_step(controller, is_last_rank() ? -1 : 1, nullptr), RRCB_OK);
-    expect_refused(rrcb_controller_step(controller, 1, nullptr), "the load");
+    EXPECT_EQ(rrcb_controller_step(controller, is_last_rank() ? -1 : 1, nullptr, nullptr), RRCB_OK);
+    expect_refused(rrcb_controller_step(controller, 1, nullptr, nullptr), "the load");
     rrcb_controller_destroy(&controller);
 }
 

@@ -20,7 +20,7 @@ class CNeighbours : public testing::Test {
             x_.insert(x_.end(), {all[2 * i], all[2 * i + 1]});
             ids_.push_back(static_cast<std::int64_t>(i));
         }
-        const Balance made = balance(interleaved_points(x_, 2), {}, {}, MPI_COMM_WORLD);
+        const Balance made = balance(Points(x_, 2), MPI_COMM_WORLD);
         std::tie(x_, ids_) =
             transfer(plan(made, MPI_COMM_WORLD), columns(column(x_, 2), ids_), MPI_COMM_WORLD);
         cuts_ = made.cuts;
@@ -42,9 +42,8 @@ class CNeighbours : public testing::Test {
         ASSERT_EQ(rrcb_neighbours_create(balancer_, &options, &neighbours_), RRCB_OK)
             << rrcb_last_error();
         own_.emplace(
-            cuts_,
-            NeighbourOptions{.radius = radius, .travel = travel, .periodic = Box{{}, {1, 1, 1}}},
-            MPI_COMM_WORLD);
+            cuts_, MPI_COMM_WORLD,
+            NeighbourOptions{.radius = radius, .travel = travel, .periodic = Box{{}, {1, 1, 1}}});
         // Memory of malloc(), without room for more points, and a vector.
         columns_[0].values = std::malloc(x_.size() * sizeof(double) + 1);
         columns_[0].count = columns_[0].capacity = ids_.size();
@@ -132,15 +131,15 @@ TEST_F(CNeighbours, give_the_points_ghosts_and_sums_of_cpp) {
         ASSERT_EQ(find(), RRCB_OK) << rrcb_last_error();
         ASSERT_EQ(fetch(), RRCB_OK) << rrcb_last_error();
         rrcb_ghost_plan lists = RRCB_GHOST_PLAN_INIT;
-        ASSERT_EQ(rrcb_neighbours_ghosts(neighbours_, &lists), RRCB_OK);
+        ASSERT_EQ(rrcb_neighbours_ghost_plan(neighbours_, &lists), RRCB_OK);
         EXPECT_EQ(lists.num_ghosts, ghost_ids.size());
         EXPECT_TRUE(std::equal(lists.send_indices, lists.send_indices + lists.num_sent,
-                               own_->ghosts().send_indices.begin(),
-                               own_->ghosts().send_indices.end()));
+                               own_->ghost_plan().send_indices.begin(),
+                               own_->ghost_plan().send_indices.end()));
         const rrcb_points near =
             rrcb_interleaved_points(RRCB_DOUBLE, 2, ghosts_[0].count, ghosts_[0].values, nullptr);
         ASSERT_EQ(rrcb_neighbours_apply_shifts(neighbours_, &near), RRCB_OK) << rrcb_last_error();
-        apply_shifts(own_->ghosts(), ghost_x);
+        apply_shifts(own_->ghost_plan(), ghost_x);
         ASSERT_EQ(ghosts_[0].count, ghost_ids.size());
         EXPECT_TRUE(
             std::equal(ghost_x.begin(), ghost_x.end(), static_cast<double*>(ghosts_[0].values)));

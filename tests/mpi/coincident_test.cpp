@@ -38,11 +38,10 @@ TEST(CoincidentPoints, beside_one_that_outweighs_them_are_divided_by_number) {
                 if (rank() == num_parts % num_ranks()) weights[count / 2] = heaviest;
                 Options options = dividing(num_parts);
                 options.tuning.central_parts = central_parts;
-                const Balance result =
-                    balance(interleaved_points(mine, 1, weights), options, {}, MPI_COMM_WORLD);
-                EXPECT_TRUE(are_cuts_within(part_weights(interleaved_points(mine, 1, weights),
-                                                         result.parts, num_parts, MPI_COMM_WORLD),
-                                            heaviest))
+                const Balance result = balance(Points(mine, 1, weights), MPI_COMM_WORLD, options);
+                EXPECT_TRUE(are_cuts_within(
+                    part_weights(Points(mine, 1, weights), result.parts, num_parts, MPI_COMM_WORLD),
+                    heaviest))
                     << num_parts << " parts, " << heaviest << ", " << central_parts;
             }
         }
@@ -64,8 +63,7 @@ TEST(CoincidentPoints, are_divided_as_distinct_ones_on_a_line) {
         std::iota(apart.begin(), apart.end(), 100.0 * rank());
         const std::vector<double> together(apart.size(), 0.5);
         const auto weights_of = [&](const std::vector<double>& x) {
-            return balance(interleaved_points(x, 1), options, {}, MPI_COMM_WORLD)
-                .report.part_weights;
+            return balance(Points(x, 1), MPI_COMM_WORLD, options).report.part_weights;
         };
         ASSERT_EQ(weights_of(together), weights_of(apart)) << "round " << round;
     }
@@ -79,7 +77,7 @@ TEST(CoincidentPoints, go_to_the_side_that_they_make_less_too_heavy) {
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         Options options = dividing(2, refine);
         options.part_sizes = {0.8466, 0.1534};
-        const Balance result = balance(interleaved_points(mine, 1), options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(Points(mine, 1), MPI_COMM_WORLD, options);
         EXPECT_EQ(result.report.part_weights, (std::vector<double>{191, 34}));
         EXPECT_TRUE(result.report.within_tolerance);
     }
@@ -90,12 +88,12 @@ TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
     std::vector<double> mine;
     for (int i = 0; i < 1000; ++i)
         if (i % num_ranks() == rank()) mine.push_back(i < 490 ? i : i < 510 ? 5000 : 9000 + i);
-    const Points points = interleaved_points(mine, 1);
+    const Points points(mine, 1);
     for (const auto& [tolerance, together] : {std::pair{1.03, true}, std::pair{1.01, false}}) {
         Options options = dividing(2, Refine::tolerance);
         options.imbalance_tolerance = tolerance;
         options.tuning.support_mesh = 1;
-        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(points, MPI_COMM_WORLD, options);
         EXPECT_LE(result.report.imbalance, tolerance);
         int places = 0;
         for (LocalIndex i = 0; i < points.count; ++i)
@@ -109,7 +107,7 @@ TEST(CoincidentPoints, on_a_plain_cut_stay_together) {
     const std::vector<double> mine(600, 0.7);
     Options options = dividing(4);
     options.axes.plain = true;
-    const Balance result = balance(interleaved_points(mine, 3), options, {}, MPI_COMM_WORLD);
+    const Balance result = balance(Points(mine, 3), MPI_COMM_WORLD, options);
     for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
 }
 
@@ -118,8 +116,8 @@ TEST(CoincidentPoints, at_rest_keep_their_parts_from_the_earlier_cuts) {
     // divided at the same places again.
     const int num_parts = num_ranks();
     const std::vector<double> mine(2 * 100, 0.25);
-    const Points points = interleaved_points(mine, 2);
-    const Balance result = balance(points, dividing(num_parts), {}, MPI_COMM_WORLD);
+    const Points points(mine, 2);
+    const Balance result = balance(points, MPI_COMM_WORLD, dividing(num_parts));
     for (const Part part : result.parts) EXPECT_EQ(part, rank());
 }
 

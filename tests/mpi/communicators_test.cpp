@@ -11,22 +11,22 @@ namespace {
 /// Every collective function of the interface throws the same on every rank.
 void expect_refusal(MPI_Comm comm, const std::string& text) {
     const std::vector<double> x{0, 1};
-    const Points points = interleaved_points(x, 1);
+    const Points points(x, 1);
     const std::vector<Part> parts(2);
     const std::vector<RankRange> ranks(1);
     Cuts cuts;
     cuts.dimension = 1;
     cuts.num_parts = 1;
     const std::vector<std::function<void()>> calls = {
-        [&] { balance(points, {}, {}, comm); },
-        [&] { balance(points, {}, cuts, comm); },
+        [&] { balance(points, comm); },
+        [&] { balance(points, comm, {}, cuts); },
         [&] { plan(parts, 1, comm); },
         [&] { remap(parts, ranks, comm); },
         [&] { remap(parts, parts, ranks, comm); },
         [&] { part_weights(points, parts, 1, comm); },
         [&] { moved_fraction(points, parts, 1, comm); },
         [&] { Controller controller(comm); },
-        [&] { assign_all(cuts, points, comm); },
+        [&] { assign(cuts, points, comm); },
     };
     for (const auto& call : calls) {
         test::expect_same_error([&] { call(); }, text);
@@ -50,8 +50,7 @@ TEST(Communicators, of_two_groups_are_refused) {
     MPI_Comm merged = MPI_COMM_NULL;
     MPI_Intercomm_merge(both, 0, &merged);
     const std::vector<double> x{0, 1};
-    EXPECT_EQ(balance(interleaved_points(x, 1), {}, {}, merged).report.details.num_points,
-              2 * num_ranks());
+    EXPECT_EQ(balance(Points(x, 1), merged).report.details.num_points, 2 * num_ranks());
     MPI_Comm_free(&merged);
     MPI_Comm_free(&both);
     MPI_Comm_free(&mine);
@@ -60,16 +59,15 @@ TEST(Communicators, of_two_groups_are_refused) {
 /// Plans of the points of all ranks, and the calls that use them with a communicator.
 struct Plans {
     std::vector<double> x = test::uniform_cloud(50, 1, static_cast<unsigned>(rank() + 1));
-    Balance made = balance(interleaved_points(x, 1), {}, {}, MPI_COMM_WORLD);
+    Balance made = balance(Points(x, 1), MPI_COMM_WORLD);
     Plan moves = plan(made, MPI_COMM_WORLD);
     std::vector<double> here = transfer(moves, x, MPI_COMM_WORLD);
     GhostPlan near = near_on(MPI_COMM_WORLD);
-    Groups bonds =
-        groups(interleaved_points(x, 1), std::vector<std::uint64_t>(x.size(), 1), MPI_COMM_WORLD);
+    Groups bonds = groups(Points(x, 1), std::vector<std::uint64_t>(x.size(), 1), MPI_COMM_WORLD);
     std::vector<double> of_ghosts = fetch(near, here, MPI_COMM_WORLD);
 
     GhostPlan near_on(MPI_Comm comm) const {
-        return ghosts(made.cuts, interleaved_points(here, 1), {.radius = 0.1}, comm);
+        return ghost_plan(made.cuts, Points(here, 1), comm, {.radius = 0.1});
     }
 
     std::vector<std::function<void()>> calls(MPI_Comm comm) const {

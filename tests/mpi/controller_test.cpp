@@ -22,12 +22,12 @@ std::vector<int> rebalances(int num_steps, double unit = 1) {
     Controller controller(MPI_COMM_WORLD);
     std::vector<int> steps;
     int last = 0;
-    controller.rebalanced(0.5 * unit);
+    controller.rebalanced({.cost = 0.5 * unit});
     for (int step = 0; step < num_steps; ++step) {
-        if (!controller.step(drifting_load(step - last) * unit)) continue;
+        if (!controller.step({.load = drifting_load(step - last) * unit})) continue;
         steps.push_back(step);
         last = step + 1;
-        controller.rebalanced(0.5 * unit);
+        controller.rebalanced({.cost = 0.5 * unit});
     }
     return steps;
 }
@@ -52,43 +52,45 @@ TEST(Controller, says_the_same_on_every_rank_and_rebalances_what_grows) {
 
 TEST(Controller, drops_what_it_decided_before_a_rebalance_it_did_not_ask_for) {
     Controller controller(MPI_COMM_WORLD);
-    controller.rebalanced(0.5);
-    for (int step = 0; step <= 9; ++step) EXPECT_FALSE(controller.step(drifting_load(step)));
-    controller.rebalanced(0.5);
-    for (int step = 10; step < 18; ++step) EXPECT_FALSE(controller.step(drifting_load(step - 10)));
+    controller.rebalanced({.cost = 0.5});
+    for (int step = 0; step <= 9; ++step)
+        EXPECT_FALSE(controller.step({.load = drifting_load(step)}));
+    controller.rebalanced({.cost = 0.5});
+    for (int step = 10; step < 18; ++step)
+        EXPECT_FALSE(controller.step({.load = drifting_load(step - 10)}));
 }
 
 TEST(Controller, repeats_what_is_not_heeded) {
     if (num_ranks() == 1) GTEST_SKIP() << "nothing is due";
     Controller controller(MPI_COMM_WORLD);
-    controller.rebalanced(0.5);
+    controller.rebalanced({.cost = 0.5});
     std::vector<int> due;
     for (int step = 0; step < 21; ++step)
-        if (controller.step(drifting_load(step))) due.push_back(step);
+        if (controller.step({.load = drifting_load(step)})) due.push_back(step);
     EXPECT_EQ(due, (std::vector<int>{10, 13, 16, 19}));
 }
 
 TEST(Controller, returns_its_answer_until_the_next_step_or_rebalance) {
     Controller controller(MPI_COMM_WORLD);
     EXPECT_FALSE(controller.due());
-    controller.rebalanced(0.5);
+    controller.rebalanced({.cost = 0.5});
     for (int step = 0; step < 20; ++step) {
-        const bool is_due = controller.step(drifting_load(step));
+        const bool is_due = controller.step({.load = drifting_load(step)});
         EXPECT_EQ(controller.due(), is_due) << step;
     }
     for (int step = 20; num_ranks() > 1 && !controller.due(); ++step)
-        controller.step(drifting_load(step));
-    controller.rebalanced(0.5);
+        controller.step({.load = drifting_load(step)});
+    controller.rebalanced({.cost = 0.5});
     EXPECT_FALSE(controller.due());
 }
 
 // Equal points that cost the same on average: a clock that jumps by half shows no imbalance.
 TEST(Controller, takes_no_noise_of_a_clock_for_imbalance) {
     Controller controller(MPI_COMM_WORLD);
-    controller.rebalanced(1);
+    controller.rebalanced({.cost = 1});
     for (int step = 0; step < 300; ++step) {
         const double load = (step + rank()) % 2 == 0 ? 0.5 : 1.5;
-        EXPECT_FALSE(controller.step(load, 1000)) << step;
+        EXPECT_FALSE(controller.step({.load = load, .weight = 1000})) << step;
     }
 }
 
@@ -96,14 +98,15 @@ TEST(Controller, does_not_rebalance_above_the_least_imbalance) {
     Controller controller(MPI_COMM_WORLD);
     Report report;
     report.details.least_imbalance = 3;  // loads stay below it
-    controller.rebalanced(report, 0.5);
-    for (int step = 0; step < 90; ++step) EXPECT_FALSE(controller.step(drifting_load(step)));
+    controller.rebalanced({.cost = 0.5, .report = &report});
+    for (int step = 0; step < 90; ++step)
+        EXPECT_FALSE(controller.step({.load = drifting_load(step)}));
 }
 
 /// Every rank gets the same error, at this call and each later one.
 void expect_error(Controller& controller, const std::string& text) {
     for (int call = 0; call < 2; ++call) {
-        test::expect_same_error([&] { controller.step(1); }, text);
+        test::expect_same_error([&] { controller.step({.load = 1}); }, text);
     }
 }
 
@@ -112,17 +115,17 @@ TEST(Controller, refuses_bad_loads_and_costs_of_one_rank_on_all) {
     const std::string fix = " negative, NaN or infinite; give a finite number of at least 0";
     for (const double bad : {std::nan(""), -1.0, std::numeric_limits<double>::infinity()}) {
         Controller loads(MPI_COMM_WORLD);
-        EXPECT_FALSE(loads.step(is_last_rank() ? bad : 1));
+        EXPECT_FALSE(loads.step({.load = is_last_rank() ? bad : 1}));
         expect_error(loads, last + ": the load, the points or a column of a step are" + fix);
 
         Controller points(MPI_COMM_WORLD);
-        EXPECT_FALSE(points.step(1, is_last_rank() ? bad : 1));
+        EXPECT_FALSE(points.step({.load = 1, .weight = is_last_rank() ? bad : 1}));
         expect_error(points, last + ": the load, the points or a column of a step are" + fix);
 
         Controller costs(MPI_COMM_WORLD);
-        EXPECT_FALSE(costs.step(1));
-        costs.rebalanced(is_last_rank() ? bad : 1);
-        EXPECT_FALSE(costs.step(1));
+        EXPECT_FALSE(costs.step({.load = 1}));
+        costs.rebalanced({.cost = is_last_rank() ? bad : 1});
+        EXPECT_FALSE(costs.step({.load = 1}));
         expect_error(costs, last + ": the cost of a rebalance is" + fix);
     }
 }
@@ -130,7 +133,7 @@ TEST(Controller, refuses_bad_loads_and_costs_of_one_rank_on_all) {
 TEST(Controller, names_the_lowest_of_the_ranks_with_bad_input) {
     const int lowest = std::min(1, num_ranks() - 1);
     Controller controller(MPI_COMM_WORLD);
-    EXPECT_FALSE(controller.step(rank() < lowest ? 1 : -1));
+    EXPECT_FALSE(controller.step({.load = rank() < lowest ? 1 : -1}));
     expect_error(controller, "rank " + std::to_string(lowest) +
                                  ": the load, the points or a column of a step are negative, NaN "
                                  "or infinite; give a finite number of at least 0");
@@ -139,8 +142,8 @@ TEST(Controller, names_the_lowest_of_the_ranks_with_bad_input) {
 TEST(Controller, reports_ranks_that_have_not_rebalanced) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     Controller rebalances(MPI_COMM_WORLD);
-    if (is_last_rank()) rebalances.rebalanced(1);
-    EXPECT_FALSE(rebalances.step(1));
+    if (is_last_rank()) rebalances.rebalanced({.cost = 1});
+    EXPECT_FALSE(rebalances.step({.load = 1}));
     expect_error(rebalances,
                  "rebalanced() was called 0 times on one rank and 1 times on another; call it on "
                  "every rank after each rebalance");
@@ -152,12 +155,12 @@ TEST(Controller, works_beside_another_and_after_its_communicator) {
     Controller one(comm);
     Controller other(comm);
     MPI_Comm_free(&comm);
-    one.rebalanced(0.5);
-    other.rebalanced(1e6);
+    one.rebalanced({.cost = 0.5});
+    other.rebalanced({.cost = 1e6});
     bool is_any_due = false;
     for (int step = 0; step < 60; ++step) {
-        is_any_due = one.step(drifting_load(step)) || is_any_due;
-        EXPECT_FALSE(other.step(drifting_load(step)));
+        is_any_due = one.step({.load = drifting_load(step)}) || is_any_due;
+        EXPECT_FALSE(other.step({.load = drifting_load(step)}));
     }
     EXPECT_EQ(is_any_due, num_ranks() > 1);
 }
@@ -170,35 +173,38 @@ TEST(Controller, takes_no_number_of_points_for_a_sum_of_weights) {
     report.details.total_weight = 250.0 * num_ranks();
     Controller counting(MPI_COMM_WORLD);
     Controller plain(MPI_COMM_WORLD);
-    counting.rebalanced(report, 0.5);
-    plain.rebalanced(report, 0.5);
+    counting.rebalanced({.cost = 0.5, .report = &report});
+    plain.rebalanced({.cost = 0.5, .report = &report});
     for (int step = 0; step < 21; ++step)
-        EXPECT_EQ(counting.step(drifting_load(step), 100), plain.step(drifting_load(step))) << step;
+        EXPECT_EQ(counting.step({.load = drifting_load(step), .weight = 100}),
+                  plain.step({.load = drifting_load(step)}))
+            << step;
 }
 
 TEST(Controller, that_was_moved_from_throws) {
     Controller old(MPI_COMM_WORLD);
     Controller controller(std::move(old));
     const std::string text = "the controller was moved from; use the one that it was moved to";
+    const Report report;
     const std::vector<std::function<void()>> calls = {
-        [&] { old.step(1); },
-        [&] { old.step(1, 1); },
+        [&] { old.step({.load = 1}); },
+        [&] { old.step({.load = 1, .weight = 1}); },
         [&] { (void)old.due(); },
-        [&] { old.rebalanced(1); },
-        [&] { old.rebalanced(Report{}, 1); },
+        [&] { old.rebalanced({.cost = 1}); },
+        [&] { old.rebalanced({.cost = 1, .report = &report}); },
         [&] { experimental::CostModel model(old, 2); },
     };
     for (const auto& call : calls) {
         test::expect_same_error([&] { call(); }, text);
     }
     old = std::move(controller);
-    EXPECT_FALSE(old.step(1));
+    EXPECT_FALSE(old.step({.load = 1}));
 }
 
 TEST(Controller, may_be_forgotten_until_after_the_end_of_mpi) {
     static std::optional<Controller> forgotten;
     forgotten.emplace(MPI_COMM_WORLD);
-    forgotten->step(1);  // its reduction is under way when MPI ends
+    forgotten->step({.load = 1});  // its reduction is under way when MPI ends
 }
 
 }  // namespace

@@ -66,11 +66,11 @@ TEST(CostModel, steps_the_controller_by_the_same_reduction) {
     Controller alone(MPI_COMM_WORLD);
     Controller tied(MPI_COMM_WORLD);
     experimental::CostModel model(tied, 2);
-    alone.rebalanced(0.5);
-    tied.rebalanced(0.5);
-    // As long as points are counted the controller gets what step(seconds, points) gives it.
+    alone.rebalanced({.cost = 0.5});
+    tied.rebalanced({.cost = 0.5});
+    // As long as points are counted the controller gets what a step with a weight gives it.
     for (int step = 0; step < 10; ++step) {
-        alone.step(seconds_at(step), columns_at(step)[0]);
+        alone.step({.load = seconds_at(step), .weight = columns_at(step)[0]});
         model.step(seconds_at(step), columns_at(step));
         EXPECT_EQ(tied.due(), alone.due());
     }
@@ -83,13 +83,13 @@ TEST(CostModel, makes_the_controller_ask_once_costs_are_learned) {
     // Each rebalance so far has left the same imbalance, so none is due.
     int num_due = 0;
     for (int step = 0; step < 200; ++step) {
-        if (step < 8) controller.rebalanced(0.5);
+        if (step < 8) controller.rebalanced({.cost = 0.5});
         model.step(seconds_at(step), columns_at(step));
         if (!controller.due()) continue;
         if (++num_due == 1) {
             EXPECT_TRUE(model.uses_costs());
         }
-        controller.rebalanced(0.5);
+        controller.rebalanced({.cost = 0.5});
     }
     EXPECT_GE(num_due, 1);
     EXPECT_LE(num_due, 8);
@@ -135,7 +135,7 @@ TEST(CostModel, refuses_what_it_cannot_be_made_with) {
     expect_same_error([&] { experimental::CostModel(controller, 2); },
                       "the controller has a cost model already");
     Controller old(MPI_COMM_WORLD);
-    old.step(1);
+    old.step({.load = 1});
     expect_same_error([&] { experimental::CostModel(old, 2); },
                       "the controller has recorded steps");
     expect_same_error(

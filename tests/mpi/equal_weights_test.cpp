@@ -20,13 +20,13 @@ std::vector<Balance> results_with(double weight, const Options& options) {
         mine.insert(mine.end(), {all[2 * i], all[2 * i + 1]});
     std::vector<double> weights(weight < 0 ? 0 : mine.size() / 2, weight);
     std::vector<Balance> made;
-    made.push_back(balance(interleaved_points(mine, 2, weights), options, {}, MPI_COMM_WORLD));
+    made.push_back(balance(Points(mine, 2, weights), MPI_COMM_WORLD, options));
     mine = transfer(plan(made[0], MPI_COMM_WORLD), column(mine, 2), MPI_COMM_WORLD);
     weights.assign(weight < 0 ? 0 : mine.size() / 2, weight);
-    made.push_back(balance(interleaved_points(mine, 2, weights), options, {}, MPI_COMM_WORLD));
+    made.push_back(balance(Points(mine, 2, weights), MPI_COMM_WORLD, options));
     for (std::size_t i = 0; i < mine.size(); i += 2) mine[i] += 0.2 * mine[i + 1];
-    const Points moved = interleaved_points(mine, 2, weights);
-    made.push_back(balance(moved, options, made[0].cuts, MPI_COMM_WORLD));
+    const Points moved(mine, 2, weights);
+    made.push_back(balance(moved, MPI_COMM_WORLD, options, made[0].cuts));
     return made;
 }
 
@@ -69,8 +69,8 @@ TEST(EqualWeights, of_some_ranks_are_no_counts) {
         std::vector<double> scaled = weights;
         if (rank() > 0) std::ranges::fill(scaled, scale);
         Options options{.num_parts = 3, .refine = Refine::none};
-        const Points points = interleaved_points(mine, 1, scaled);
-        const Balance made = balance(points, options, {}, MPI_COMM_WORLD);
+        const Points points(mine, 1, scaled);
+        const Balance made = balance(points, MPI_COMM_WORLD, options);
         const auto of_parts = part_weights(points, made.parts, 3, MPI_COMM_WORLD);
         EXPECT_LT(imbalance(of_parts, {}), 1.25) << scale;
     }

@@ -29,13 +29,13 @@ TEST(Exceptions, are_raised_by_no_bad_input) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::signaling_NaN(), infinity}) {
         const std::vector<double> coordinates{0.5, bad, 0.25};
-        const Points points = interleaved_points(coordinates, 1);
+        const Points points(coordinates, 1);
         Options options;
         const Watch watch("bad input");
-        EXPECT_THROW(balance(points, options, {}, MPI_COMM_WORLD), Error);
-        EXPECT_THROW(assign_all(Cuts{1, 1, {}, {}}, points, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(balance(points, MPI_COMM_WORLD, options), Error);
+        EXPECT_THROW(assign(Cuts{1, 1, {}, {}}, points, MPI_COMM_WORLD), Error);
         options.imbalance_tolerance = bad;
-        EXPECT_THROW(balance({}, options, {}, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(balance({}, MPI_COMM_WORLD, options), Error);
     }
 }
 
@@ -45,7 +45,7 @@ TEST(Exceptions, are_raised_by_neither_controller_nor_cost_model) {
     experimental::CostModel model(controller, 2);
     for (int step = 0; step < 50; ++step) {
         model.step(step % 5 == 0 ? 0 : 1 + rank(), {{100.0 * rank(), 1.0 * step}});
-        if (controller.due()) controller.rebalanced(0.5);
+        if (controller.due()) controller.rebalanced({.cost = 0.5});
         model.weights({{1.0, 0.0, 1.0, 2.0}});
     }
 }

@@ -103,7 +103,7 @@ TEST(ExtremeSizes, and_weights_give_the_parts_that_look_ups_find) {
             all.weights.push_back(any_weight(kind, random));
         const Options options = any_options(random);
         const Share mine(all);
-        expect_consistent(mine, options, balance(mine.points(), options, {}, MPI_COMM_WORLD));
+        expect_consistent(mine, options, balance(mine.points(), MPI_COMM_WORLD, options));
         if (HasFailure()) return;
     }
 }
@@ -115,7 +115,7 @@ TEST(ExtremeSizes, leave_nothing_to_a_part_too_small_for_half_a_point) {
     const Share mine(all);
     for (const double tiny : {1e-4, 1e-5, 1e-12, 1e-20}) {
         Options options{.num_parts = 3, .part_sizes = {tiny, tiny, 1}};
-        const Balance result = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(mine.points(), MPI_COMM_WORLD, options);
         expect_consistent(mine, options, result);
         EXPECT_EQ(result.report.part_weights, (std::vector<double>{0, 0, 19})) << tiny;
         EXPECT_NEAR(result.report.imbalance, 1 + 2 * tiny, 1e-12);

@@ -49,7 +49,7 @@ struct Held {
         }
     }
 
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const { return Points(coordinates, dimension, weights); }
 
     /// Returns the parts of the points of all ranks. Collective.
     std::vector<Part> all(const std::vector<Part>& parts, std::size_t count) const {
@@ -79,7 +79,7 @@ void expect_found(const FewPlaces& few, const Held& held, const Balance& result)
     const std::vector<Part> parts = held.all(result.parts, few.positions.size());
     std::map<Vector, std::set<Part>> of_places;
     for (std::size_t i = 0; i < parts.size(); ++i) of_places[few.positions[i]].insert(parts[i]);
-    const std::vector<Part> found = assign_all(result.cuts, held.points(), MPI_COMM_WORLD);
+    const std::vector<Part> found = assign(result.cuts, held.points(), MPI_COMM_WORLD);
     const Cuts& cuts = result.cuts;
     std::vector<Part> assigned(held.indices.size());
     assign(cuts, held.points(), assigned);
@@ -103,12 +103,12 @@ TEST(FewPlaces, are_looked_up_in_a_part_that_has_points_there) {
             homes.push_back(static_cast<int>(engine() % static_cast<unsigned>(num_ranks())));
         const Options options = options_from(engine);
         const Held held(few, homes);
-        const Balance first = balance(held.points(), options, {}, MPI_COMM_WORLD);
+        const Balance first = balance(held.points(), MPI_COMM_WORLD, options);
         expect_found(few, held, first);
-        expect_found(few, held, balance(held.points(), options, first.cuts, MPI_COMM_WORLD));
+        expect_found(few, held, balance(held.points(), MPI_COMM_WORLD, options, first.cuts));
         if (options.num_parts == num_ranks()) {
             const Held moved(few, held.all(first.parts, few.positions.size()));
-            expect_found(few, moved, balance(moved.points(), options, {}, MPI_COMM_WORLD));
+            expect_found(few, moved, balance(moved.points(), MPI_COMM_WORLD, options));
         }
         ASSERT_FALSE(HasFailure()) << "round " << round;
     }

@@ -36,7 +36,7 @@ struct FewPoints {
             weights.push_back(is_skewed ? std::pow(u, -0.7) : 1);
         }
     }
-    Points points() const { return interleaved_points(coordinates, 2, weights); }
+    Points points() const { return Points(coordinates, 2, weights); }
 };
 
 /// Returns the least imbalance of all ways to give points of one weight to three parts.
@@ -55,7 +55,7 @@ TEST(FewPoints, have_the_least_imbalance_of_whole_points) {
         const FewPoints few(count);
         Options options;
         options.num_parts = 16;
-        const Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(few.points(), MPI_COMM_WORLD, options);
         EXPECT_DOUBLE_EQ(result.report.details.least_imbalance, (count + 15) / 16 * 16.0 / count);
         EXPECT_GE(result.report.imbalance, result.report.details.least_imbalance * (1 - 1e-12));
     }
@@ -66,7 +66,7 @@ TEST(FewPoints, have_the_least_imbalance_of_whole_points) {
             Options options;
             options.num_parts = 3;
             options.part_sizes = sizes;
-            const Report report = balance(few.points(), options, {}, MPI_COMM_WORLD).report;
+            const Report report = balance(few.points(), MPI_COMM_WORLD, options).report;
             EXPECT_NEAR(report.details.least_imbalance, least_of_all(count, sizes), 1e-12) << count;
         }
     }
@@ -76,7 +76,7 @@ TEST(FewPoints, are_divided_by_the_first_cuts) {
     const FewPoints few(40);
     Options options;
     options.num_parts = 32;
-    const Report report = balance(few.points(), options, {}, MPI_COMM_WORLD).report;
+    const Report report = balance(few.points(), MPI_COMM_WORLD, options).report;
     EXPECT_EQ(report.details.num_records, 40) << "each is a cell of its own";
     EXPECT_EQ(report.imbalance, report.details.least_imbalance);
     EXPECT_EQ(report.details.rounds, 1) << "nothing is searched";
@@ -92,8 +92,7 @@ TEST(FewPoints, in_one_place_raise_the_imbalance_but_not_its_bound) {
             options.num_parts = 16;
             options.refine = refine;
             options.coincident = coincident;
-            const Report report =
-                balance(interleaved_points(mine, 1), options, {}, MPI_COMM_WORLD).report;
+            const Report report = balance(Points(mine, 1), MPI_COMM_WORLD, options).report;
             const bool stay = coincident == Coincident::together;
             EXPECT_EQ(report.details.least_imbalance, 1.6);
             EXPECT_EQ(report.imbalance, stay ? 8 : 1.6);
@@ -118,12 +117,12 @@ TEST(EmptyRanks, take_part_in_all_that_follows_a_balance) {
         std::fill_n(options.part_sizes.begin(), std::clamp(count / 10, 1, num_ranks()), 1);
         Controller controller(MPI_COMM_WORLD);
         experimental::CostModel model(controller, 1);
-        const Balance result = balance(few.points(), options, {}, MPI_COMM_WORLD);
-        controller.rebalanced(result.report, 1);
+        const Balance result = balance(few.points(), MPI_COMM_WORLD, options);
+        controller.rebalanced({.cost = 1, .report = &result.report});
         const std::vector<double> mine =
             transfer(plan(result, MPI_COMM_WORLD), column(few.coordinates, 2), MPI_COMM_WORLD);
-        const Points points = interleaved_points(mine, 2);
-        const GhostPlan near = ghosts(result.cuts, points, {.radius = 0.3}, MPI_COMM_WORLD);
+        const Points points(mine, 2);
+        const GhostPlan near = ghost_plan(result.cuts, points, MPI_COMM_WORLD, {.radius = 0.3});
         const std::vector<double> others = fetch(near, column(mine, 2), MPI_COMM_WORLD);
         int pairs = 0;
         for (std::size_t i = 0; i < mine.size(); i += 2)

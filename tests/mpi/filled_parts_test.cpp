@@ -25,7 +25,7 @@ struct SkewedPoints {
         }
     }
 
-    Points points() const { return interleaved_points(coordinates, 2, weights); }
+    Points points() const { return Points(coordinates, 2, weights); }
 };
 
 auto num_empty(const Balance& result) {
@@ -40,7 +40,7 @@ TEST(Parts, are_filled_whatever_the_weights) {
                         .tuning = {.central_parts = round % 5 == 0 ? 2 : 4096}};
         const bool is_power = round % 2 == 0;
         const SkewedPoints skewed(engine, (is_power ? 20 : 5) * options.num_parts, is_power);
-        const Balance result = balance(skewed.points(), options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(skewed.points(), MPI_COMM_WORLD, options);
         EXPECT_EQ(num_empty(result), 0) << "round " << round;
     }
 }
@@ -52,7 +52,7 @@ TEST(Parts, are_filled_within_a_wide_tolerance) {
                         .imbalance_tolerance = 1.5};
         SkewedPoints points(engine, 2 * options.num_parts, false);
         std::ranges::fill(points.weights, 1.0);
-        const Balance result = balance(points.points(), options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(points.points(), MPI_COMM_WORLD, options);
         EXPECT_EQ(num_empty(result), 0) << "round " << round;
         EXPECT_TRUE(result.report.within_tolerance);
     }
@@ -64,7 +64,7 @@ TEST(Parts, of_different_sizes_may_stay_empty) {
     if (rank() == 0) x = {0, 1, 2};
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         Options options{.num_parts = 2, .part_sizes = {0.8466, 0.1534}, .refine = refine};
-        const Balance result = balance(interleaved_points(x, 1), options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(Points(x, 1), MPI_COMM_WORLD, options);
         EXPECT_EQ(result.report.part_weights, (std::vector<double>{3, 0}));
     }
 }

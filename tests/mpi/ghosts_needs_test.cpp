@@ -29,14 +29,14 @@ struct Scene {
     int count() const { return static_cast<int>(radii.size()); }
     double radius(int i) const { return radii[static_cast<std::size_t>(i)]; }
     bool has(int i) const { return std::ranges::binary_search(mine, i); }
-    Points points() const { return interleaved_points(here, dimension); }
+    Points points() const { return Points(here, dimension); }
     RankRange ranks_of(Part part) const { return ranks_of_part(part, num_parts, num_ranks()); }
     /// Returns whether this rank holds the part of a point.
     bool holds_part_of(int i) const {
         return ranks_of(parts[static_cast<std::size_t>(i)]).contains(rank());
     }
     Vector position(int i, const Shift& shift = {}) const {
-        Vector x = interleaved_points(positions, dimension).position(static_cast<LocalIndex>(i));
+        Vector x = Points(positions, dimension).position(static_cast<LocalIndex>(i));
         for (std::size_t a = 0; a < 3; ++a) x[a] += shift[a];
         return x;
     }
@@ -90,8 +90,8 @@ std::vector<Shift> shifts_of(const Scene& scene, bool is_periodic) {
 }
 
 double radius_of_pair(const Scene& scene, int receiver, int sender, Needs needs) {
-    if (needs == Needs::sender) return scene.radius(sender);
-    if (needs == Needs::receiver) return scene.radius(receiver);
+    if (needs == Needs::scatter) return scene.radius(sender);
+    if (needs == Needs::gather) return scene.radius(receiver);
     return std::max(scene.radius(receiver), scene.radius(sender));
 }
 
@@ -100,10 +100,10 @@ double radius_of_pair(const Scene& scene, int receiver, int sender, Needs needs)
 void expect_ghosts(const Scene& scene, Needs needs, bool is_periodic) {
     GhostOptions options{.radii = scene.radii_here, .needs = needs};
     if (is_periodic) options.periodic = unit;
-    const GhostPlan plan = ghosts(scene.cuts, scene.points(), options, MPI_COMM_WORLD);
+    const GhostPlan plan = ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD, options);
     const std::vector<int> numbers = fetch(plan, scene.mine, MPI_COMM_WORLD);
     const VerifyOptions sample{.radii = scene.radii_here};
-    EXPECT_EQ(verify(plan, scene.points(), sample, MPI_COMM_WORLD).num_faults, 0);
+    EXPECT_EQ(verify(plan, scene.points(), MPI_COMM_WORLD, sample).num_faults, 0);
     std::map<std::pair<int, Shift>, int> found;
     for (std::size_t k = 0; k < numbers.size(); ++k)
         ++found[{numbers[k], is_periodic ? plan.shifts[k] : Shift{}}];
@@ -121,7 +121,7 @@ void expect_ghosts(const Scene& scene, Needs needs, bool is_periodic) {
                     distance(scene.position(j, shift), region, scene.dimension);
                 may_come = may_come || apart <= radius * (1 + 1e-14);
                 // All that a sender's own radius reaches, although no point may be there.
-                if (needs == Needs::sender && !is_periodic)
+                if (needs == Needs::scatter && !is_periodic)
                     is_needed = is_needed || apart <= radius;
             }
             const int count = found[{j, shift}];
@@ -132,14 +132,14 @@ void expect_ghosts(const Scene& scene, Needs needs, bool is_periodic) {
 
 TEST(GhostsThatNeed, a_radius_of_sender_or_receiver_are_those_of_all_pairs) {
     for (const int dimension : {1, 2, 3})
-        for (const Needs needs : {Needs::sender, Needs::receiver, Needs::either})
+        for (const Needs needs : {Needs::scatter, Needs::gather, Needs::symmetric})
             for (const bool is_periodic : {false, true})
                 expect_ghosts(random_scene(dimension, num_ranks()), needs, is_periodic);
 }
 
 TEST(GhostsThatNeed, a_radius_come_to_several_parts_and_to_ranks_that_share_one) {
     for (const int num_parts : {2 * num_ranks() + 1, (num_ranks() + 1) / 2})
-        for (const Needs needs : {Needs::receiver, Needs::either})
+        for (const Needs needs : {Needs::gather, Needs::symmetric})
             expect_ghosts(random_scene(2, num_parts), needs, true);
 }
 
@@ -148,13 +148,13 @@ TEST(GhostsThatNeed, the_radius_of_the_receiver_come_to_one_side_only) {
     Scene scene = make_scene(1, 2, {0.4, 0.6}, {0.3, 0.05});
     scene.cuts.tree[0].at[0] = 0.5;
     const auto count = [&](Needs needs) {
-        const GhostPlan plan = ghosts(scene.cuts, scene.points(),
-                                      {.radii = scene.radii_here, .needs = needs}, MPI_COMM_WORLD);
+        const GhostPlan plan = ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD,
+                                          {.radii = scene.radii_here, .needs = needs});
         return fetch(plan, scene.mine, MPI_COMM_WORLD).size();
     };
-    EXPECT_EQ(count(Needs::receiver), rank() == 0 ? 1u : 0u);
-    EXPECT_EQ(count(Needs::sender), rank() == 0 ? 0u : 1u);
-    EXPECT_EQ(count(Needs::either), 1u);
+    EXPECT_EQ(count(Needs::gather), rank() == 0 ? 1u : 0u);
+    EXPECT_EQ(count(Needs::scatter), rank() == 0 ? 0u : 1u);
+    EXPECT_EQ(count(Needs::symmetric), 1u);
 }
 
 TEST(GhostsThatNeed, ten_times_the_radius_in_a_corner_are_few) {
@@ -162,7 +162,7 @@ TEST(GhostsThatNeed, ten_times_the_radius_in_a_corner_are_few) {
         const std::size_t count = dimension == 3 ? 3000 : 2000;
         const std::vector<double> cloud =
             test::uniform_cloud(count, dimension, static_cast<unsigned>(dimension));
-        const Points points = interleaved_points(cloud, dimension);
+        const Points points(cloud, dimension);
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t i = 0; i < count; ++i) {
             const Vector x = points.position(i);
@@ -173,11 +173,10 @@ TEST(GhostsThatNeed, ten_times_the_radius_in_a_corner_are_few) {
             std::vector{0.01, 0.07, 0.14}[static_cast<std::size_t>(dimension - 1)];
         std::vector<double> radii(count, radius);
         for (std::size_t k = 0; k < count / 100; ++k) radii[order[k].second] = 10 * radius;
-        for (const Needs needs : {Needs::receiver, Needs::either}) {
+        for (const Needs needs : {Needs::gather, Needs::symmetric}) {
             const Scene scene = make_scene(dimension, num_ranks(), cloud, radii);
-            const GhostPlan plan =
-                ghosts(scene.cuts, scene.points(), {.radii = scene.radii_here, .needs = needs},
-                       MPI_COMM_WORLD);
+            const GhostPlan plan = ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD,
+                                              {.radii = scene.radii_here, .needs = needs});
             std::array<int, 2> totals{};
             for (int j = 0; j < scene.count(); ++j) {
                 if (scene.has(j)) continue;
@@ -196,14 +195,14 @@ TEST(GhostsThatNeed, ten_times_the_radius_in_a_corner_are_few) {
 TEST(GhostsThatNeed, something_else_on_another_rank_are_refused) {
     const Scene scene = random_scene(2, num_ranks());
     const auto find = [&](Needs needs) {
-        ghosts(scene.cuts, scene.points(), {.radii = scene.radii_here, .needs = needs},
-               MPI_COMM_WORLD);
+        ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD,
+                   {.radii = scene.radii_here, .needs = needs});
     };
     test::expect_same_error([&] { find(static_cast<Needs>(3)); },
-                            "needs must be sender, receiver or either");
+                            "needs must be scatter, gather or symmetric");
     if (num_ranks() == 1) return;
     test::expect_same_error(
-        [&] { find(is_last_rank() ? Needs::receiver : Needs::sender); },
+        [&] { find(is_last_rank() ? Needs::gather : Needs::scatter); },
         "needs differs between rank 0 and rank " + std::to_string(num_ranks() - 1));
 }
 

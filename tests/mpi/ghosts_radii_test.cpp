@@ -25,7 +25,7 @@ struct Scene {
     std::vector<double> radii_here{};
 
     Vector position(int i) const {
-        return interleaved_points(positions, dimension).position(static_cast<LocalIndex>(i));
+        return Points(positions, dimension).position(static_cast<LocalIndex>(i));
     }
 };
 
@@ -93,21 +93,21 @@ std::vector<int> neighbours_by_pairs(const Scene& scene, const GhostPlan& plan) 
 
 TEST(GhostsOfRadii, meet_every_pair_once_on_the_rank_of_the_smaller_radius) {
     const Scene scene = make_scene(2);
-    const Points points = interleaved_points(scene.here, 2);
+    const Points points(scene.here, 2);
     GhostOptions options{.radii = scene.radii_here};
-    EXPECT_EQ(neighbours_by_pairs(scene, ghosts(scene.cuts, points, options, MPI_COMM_WORLD)),
+    EXPECT_EQ(neighbours_by_pairs(scene, ghost_plan(scene.cuts, points, MPI_COMM_WORLD, options)),
               neighbours_by_brute_force(scene, 0));
     options.periodic = Box{{0, 0}, {1, 1}};
-    EXPECT_EQ(neighbours_by_pairs(scene, ghosts(scene.cuts, points, options, MPI_COMM_WORLD)),
+    EXPECT_EQ(neighbours_by_pairs(scene, ghost_plan(scene.cuts, points, MPI_COMM_WORLD, options)),
               neighbours_by_brute_force(scene, 3));
 }
 
 TEST(GhostsOfRadii, are_those_of_one_radius_if_all_are_equal) {
     const Scene scene = make_scene(2);
-    const Points points = interleaved_points(scene.here, 2);
+    const Points points(scene.here, 2);
     const std::vector<double> equal(scene.mine.size(), 0.1);
-    EXPECT_EQ(ghosts(scene.cuts, points, {.radii = equal}, MPI_COMM_WORLD).send_indices,
-              ghosts(scene.cuts, points, {.radius = 0.1}, MPI_COMM_WORLD).send_indices);
+    EXPECT_EQ(ghost_plan(scene.cuts, points, MPI_COMM_WORLD, {.radii = equal}).send_indices,
+              ghost_plan(scene.cuts, points, MPI_COMM_WORLD, {.radius = 0.1}).send_indices);
 }
 
 TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
@@ -115,9 +115,7 @@ TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
     const auto refused = [&](const std::string& text, const std::vector<double>& wrong) {
         const std::vector<double> radii = is_last_rank() ? wrong : std::vector{1.0, 0.0};
         test::expect_same_error(
-            [&] {
-                ghosts(test::slabs(), interleaved_points(x, 2), {.radii = radii}, MPI_COMM_WORLD);
-            },
+            [&] { ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.radii = radii}); },
             "rank " + std::to_string(num_ranks() - 1) + ": " + text);
     };
     refused("radii must have one entry for each point", {1.0});
@@ -125,9 +123,9 @@ TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
     for (const double radius : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
         refused("each radius must be finite, 0 or more", {1.0, radius});
     const std::vector<double> right(2);
-    EXPECT_THROW(ghosts(test::slabs(), interleaved_points(x, 2), {.radius = 1, .radii = right},
-                        MPI_COMM_WORLD),
-                 Error);
+    EXPECT_THROW(
+        ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.radius = 1, .radii = right}),
+        Error);
 }
 
 TEST(GhostsOfRadii, on_some_ranks_alone_are_refused_unless_the_others_have_no_points) {
@@ -135,17 +133,17 @@ TEST(GhostsOfRadii, on_some_ranks_alone_are_refused_unless_the_others_have_no_po
     const std::vector<double> x(2);
     const std::vector<double> radii(1);
     const auto find = [&](const Points& of_last) {
-        return is_last_rank() ? ghosts(test::slabs(), of_last, {}, MPI_COMM_WORLD)
-                              : ghosts(test::slabs(), interleaved_points(x, 2), {.radii = radii},
-                                       MPI_COMM_WORLD);
+        return is_last_rank()
+                   ? ghost_plan(test::slabs(), of_last, MPI_COMM_WORLD, {})
+                   : ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.radii = radii});
     };
-    EXPECT_NO_THROW(find({.dimension = 2}));
-    EXPECT_THROW(find(interleaved_points(x, 2)), Error);
+    EXPECT_NO_THROW(find(Points({}, 2)));
+    EXPECT_THROW(find(Points(x, 2)), Error);
     test::expect_same_error(
         [&] {
-            const Points points = interleaved_points(x, 2);
-            is_last_rank() ? ghosts(test::slabs(), points, {.radius = 1}, MPI_COMM_WORLD)
-                           : ghosts(test::slabs(), points, {.radii = radii}, MPI_COMM_WORLD);
+            const Points points(x, 2);
+            is_last_rank() ? ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.radius = 1})
+                           : ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.radii = radii});
         },
         "whether radii are given differs between rank 0 and rank " +
             std::to_string(num_ranks() - 1) + "; give one for each point");

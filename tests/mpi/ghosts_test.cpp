@@ -20,7 +20,7 @@ struct Cloud {
     std::vector<double> coordinates;
 
     std::size_t count() const { return coordinates.size() / static_cast<std::size_t>(dimension); }
-    Points points() const { return interleaved_points(coordinates, dimension); }
+    Points points() const { return Points(coordinates, dimension); }
     Vector position(std::size_t i) const { return points().position(i); }
 };
 
@@ -55,7 +55,7 @@ struct Division {
     std::vector<std::int64_t> numbers;  ///< of the points here
     std::vector<double> here;           ///< their coordinates
 
-    Points points() const { return interleaved_points(here, cloud.dimension); }
+    Points points() const { return Points(here, cloud.dimension); }
 };
 
 /// Balances into parts that lie on ranks_of_part, or turned by `turn` ranks.
@@ -71,8 +71,7 @@ Division divide(const Cloud& cloud, int num_parts, int turn = 0) {
         mine.insert(mine.end(), begin, begin + d);
     }
     Options options{.num_parts = num_parts, .refine = Refine::exact};
-    const Balance balance =
-        rrcb::balance(interleaved_points(mine, cloud.dimension), options, {}, MPI_COMM_WORLD);
+    const Balance balance = rrcb::balance(Points(mine, cloud.dimension), MPI_COMM_WORLD, options);
     division.cuts = balance.cuts;
     std::vector<Part> destinations = balance.parts;
     for (Part part = 0; part < num_parts; ++part) {
@@ -124,7 +123,7 @@ GlobalCount expect_ghosts(const Division& division, double radius, const GhostPl
     }
     const experimental::VerifyOptions everything{.sample = std::numeric_limits<std::size_t>::max()};
     const experimental::Verification seen =
-        experimental::verify(lists, division.points(), everything, MPI_COMM_WORLD);
+        experimental::verify(lists, division.points(), MPI_COMM_WORLD, everything);
     EXPECT_EQ(seen.num_faults, 0);
     return seen.num_pairs;
 }
@@ -135,9 +134,9 @@ TEST(Ghosts, miss_none_of_a_million_pairs) {
         for (const Cloud& cloud : {random_cloud(600, dimension), lattice_cloud(dimension)}) {
             const Division division = divide(cloud, num_ranks());
             for (const double radius : {0.0, 0.03, 0.2, 1.0, std::sqrt(2.0), 5.0, 100.0})
-                num_pairs += expect_ghosts(
-                    division, radius,
-                    ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD));
+                num_pairs += expect_ghosts(division, radius,
+                                           ghost_plan(division.cuts, division.points(),
+                                                      MPI_COMM_WORLD, {.radius = radius}));
         }
     }
     if (num_ranks() == 1) return;
@@ -147,16 +146,15 @@ TEST(Ghosts, miss_none_of_a_million_pairs) {
 TEST(Ghosts, follow_parts_to_the_ranks_that_have_them) {
     const Division division = divide(lattice_cloud(2), 2 * num_ranks(), 1);
     for (const double radius : {0.0, 1.0, 2.5})
-        expect_ghosts(
-            division, radius,
-            ghosts(division.cuts, division.points(),
-                   {.radius = radius, .ranks_of_parts = division.ranks_of_parts}, MPI_COMM_WORLD));
+        expect_ghosts(division, radius,
+                      ghost_plan(division.cuts, division.points(), MPI_COMM_WORLD,
+                                 {.radius = radius, .ranks_of_parts = division.ranks_of_parts}));
 }
 
 TEST(Ghosts, come_from_neighbours_alone_in_one_message_each) {
     const std::vector<double> coordinates{rank() + 0.1, 0, rank() + 0.5, 0, rank() + 0.9, 0};
-    const Points points = interleaved_points(coordinates, 2);
-    const GhostPlan lists = ghosts(test::slabs(), points, {.radius = 0.2}, MPI_COMM_WORLD);
+    const Points points(coordinates, 2);
+    const GhostPlan lists = ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.radius = 0.2});
     std::vector<std::pair<int, LocalIndex>> expected;
     if (rank() > 0) expected.emplace_back(rank() - 1, 0);
     if (!is_last_rank()) expected.emplace_back(rank() + 1, 2);
@@ -188,7 +186,7 @@ TEST(Ghosts, at_exactly_the_radius_count) {
     // 0.25 from the cut, and the next number beyond what rounding may lose.
     const std::vector<double> coordinates{rank() + 0.75, 0, rank() + 0.75 - 0x1p-40, 0};
     const GhostPlan lists =
-        ghosts(test::slabs(), interleaved_points(coordinates, 2), {.radius = 0.25}, MPI_COMM_WORLD);
+        ghost_plan(test::slabs(), Points(coordinates, 2), MPI_COMM_WORLD, {.radius = 0.25});
     EXPECT_EQ(lists.send_indices,
               is_last_rank() ? std::vector<LocalIndex>{} : std::vector<LocalIndex>{0});
 }
@@ -201,7 +199,7 @@ TEST(Ghosts, go_to_no_rank_whose_part_is_empty) {
     const Part empty = num_ranks() == 2 ? 0 : num_ranks() - 2;
     const std::vector<double> coordinates{num_ranks() - 2.0, 0, 0.25, 0, num_ranks() - 0.5, 0};
     const GhostPlan lists =
-        ghosts(cuts, interleaved_points(coordinates, 2), {.radius = 100}, MPI_COMM_WORLD);
+        ghost_plan(cuts, Points(coordinates, 2), MPI_COMM_WORLD, {.radius = 100});
     for (const RankCount& share : lists.send) EXPECT_NE(share.rank, empty);
     EXPECT_EQ(lists.send.size(), static_cast<std::size_t>(num_ranks() - (rank() == empty ? 1 : 2)));
     EXPECT_EQ(lists.receive.empty(), rank() == empty);

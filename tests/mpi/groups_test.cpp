@@ -15,9 +15,7 @@ struct Scene : test::HeldPoints {
 
     std::vector<std::uint64_t> keys{};
 
-    Vector position(std::size_t i) const {
-        return interleaved_points(coordinates, dimension).position(i);
-    }
+    Vector position(std::size_t i) const { return Points(coordinates, dimension).position(i); }
 };
 
 /// What this rank has of a scene.
@@ -143,7 +141,7 @@ TEST(Groups, hold_all_points_or_one_point_of_each_rank) {
 void expect_whole(const Scene& scene, const Groups& found, const Balance& result) {
     const Share mine(scene);
     const std::vector<Part> parts = fetch(found, result.parts, MPI_COMM_WORLD);
-    EXPECT_EQ(assign_all(result.cuts, found.points(), MPI_COMM_WORLD), result.parts);
+    EXPECT_EQ(assign(result.cuts, found.points(), MPI_COMM_WORLD), result.parts);
     std::vector<int> all(scene.count(), 0);
     for (std::size_t k = 0; k < parts.size(); ++k) all[mine.indices[k]] = parts[k] + 1;
     MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_INT, MPI_SUM,
@@ -167,11 +165,11 @@ TEST(Groups, stay_whole_in_balances) {
     const Share mine(scene);
     for (const GroupPlace place : {GroupPlace::centre, GroupPlace::first_point}) {
         const Groups found = groups(mine.points(), mine.keys, MPI_COMM_WORLD, place);
-        const Balance first = balance(found.points(), {}, {}, MPI_COMM_WORLD);
+        const Balance first = balance(found.points(), MPI_COMM_WORLD);
         expect_whole(scene, found, first);
         EXPECT_LT(first.report.imbalance, 1.1);
         const Balance next =
-            balance(found.points(), {.refine = Refine::exact}, first.cuts, MPI_COMM_WORLD);
+            balance(found.points(), MPI_COMM_WORLD, {.refine = Refine::exact}, first.cuts);
         expect_whole(scene, found, next);
         const Groups again = groups(mine.points(), mine.keys, MPI_COMM_WORLD, place);
         EXPECT_EQ(again.coordinates, found.coordinates);
@@ -185,7 +183,7 @@ TEST(Groups, heavier_than_a_part_are_reported) {
     for (std::size_t i = 0; i < scene.count() / 2; ++i) scene.keys[i] = 1;
     const Share mine(scene);
     const Groups found = groups(mine.points(), mine.keys, MPI_COMM_WORLD);
-    const Balance result = balance(found.points(), {.num_parts = 8}, {}, MPI_COMM_WORLD);
+    const Balance result = balance(found.points(), MPI_COMM_WORLD, {.num_parts = 8});
     expect_whole(scene, found, result);
     EXPECT_GT(result.report.imbalance, 3.5);
     EXPECT_GT(result.report.details.least_imbalance, 3.5);
@@ -196,7 +194,7 @@ TEST(Groups, without_weight_are_at_the_mean_of_their_points) {
     const std::vector<double> x{-huge, huge, 1.0, 3.0};
     const std::vector<double> weights{1, 1, 0, 0};
     const std::vector<std::uint64_t> keys{7, 7, 8, 8};
-    const Groups found = groups(interleaved_points(x, 1, weights), keys, MPI_COMM_SELF);
+    const Groups found = groups(Points(x, 1, weights), keys, MPI_COMM_SELF);
     EXPECT_EQ(found.coordinates, (std::vector{0.0, 2.0}));
     EXPECT_EQ(found.weights, (std::vector{2.0, 0.0}));
 }
@@ -239,7 +237,7 @@ TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
     const MPI_Comm comm = MPI_COMM_WORLD;
     rrcb::Balance balance;
     const rrcb::Groups bonds = rrcb::groups(points, keys, comm);
-    balance = rrcb::balance(bonds.points(), {}, balance.cuts, comm);
+    balance = rrcb::balance(bonds.points(), comm, {}, balance.cuts);
     const std::vector<rrcb::Part> parts = rrcb::fetch(bonds, balance.parts, comm);
     const rrcb::Plan plan = rrcb::plan(parts, balance.cuts.num_parts, comm);
     const std::vector<std::size_t> numbers = transfer(plan, first.indices, comm);
@@ -255,7 +253,7 @@ TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
             std::max(farthest, static_cast<double>(test::distance(scene.position(i), region, 2)));
     MPI_Allreduce(MPI_IN_PLACE, &farthest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     const auto missing = [&](double greater) {
-        const GhostPlan near = ghosts(balance.cuts, mine.points(), {.radius = greater}, comm);
+        const GhostPlan near = ghost_plan(balance.cuts, mine.points(), comm, {.radius = greater});
         return missing_pairs(scene, owners, near, mine.indices, 0.03);
     };
     EXPECT_EQ(missing(0.03 + farthest), 0u);
@@ -273,11 +271,11 @@ TEST(Groups, that_do_not_fit_on_one_rank_are_refused_on_all) {
     const std::vector<std::uint64_t> none;
     const bool last = is_last_rank();
     expect_refusal("keys must have one entry for each point",
-                   [&] { groups(interleaved_points(x, 2), last ? none : keys, MPI_COMM_WORLD); });
+                   [&] { groups(Points(x, 2), last ? none : keys, MPI_COMM_WORLD); });
     const std::vector<double> wrong{0, std::nan(""), 0, 0};
     expect_refusal("is NaN or infinite",
-                   [&] { groups(interleaved_points(last ? wrong : x, 2), keys, MPI_COMM_WORLD); });
-    const Groups right = groups(interleaved_points(x, 2), keys, MPI_COMM_WORLD);
+                   [&] { groups(Points(last ? wrong : x, 2), keys, MPI_COMM_WORLD); });
+    const Groups right = groups(Points(x, 2), keys, MPI_COMM_WORLD);
     expect_refusal("groups of this rank", [&] {
         fetch(right, last ? std::vector<int>(7) : std::vector<int>(right.points().count),
               MPI_COMM_WORLD);
@@ -291,12 +289,12 @@ TEST(Groups, that_do_not_fit_on_one_rank_are_refused_on_all) {
     });
     if (num_ranks() == 1) return;
     expect_refusal("the place of groups differs", [&] {
-        groups(interleaved_points(x, 2), keys, MPI_COMM_WORLD,
+        groups(Points(x, 2), keys, MPI_COMM_WORLD,
                last ? GroupPlace::first_point : GroupPlace::centre);
     });
     expect_refusal("the dimension differs", [&] {
         const std::vector<std::uint64_t> four(4, 3);
-        groups(interleaved_points(x, last ? 1 : 2), last ? four : keys, MPI_COMM_WORLD);
+        groups(Points(x, last ? 1 : 2), last ? four : keys, MPI_COMM_WORLD);
     });
 }
 
@@ -305,7 +303,7 @@ TEST(Groups, of_weights_that_overflow_are_refused_on_all) {
     const std::vector<double> x(2), weights{std::numeric_limits<double>::max()};
     const std::vector<std::uint64_t> keys{7};
     expect_refusal("the sum of the weights of a group overflows",
-                   [&] { groups(interleaved_points(x, 2, weights), keys, MPI_COMM_WORLD); });
+                   [&] { groups(Points(x, 2, weights), keys, MPI_COMM_WORLD); });
 }
 
 }  // namespace

@@ -44,14 +44,14 @@ struct Share {
         }
     }
 
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const { return Points(coordinates, dimension, weights); }
 };
 
 /// Divides the points by number, on each rank by itself, and gives them to the ranks of their
 /// parts.
 inline Balance divide_on_each_rank(HeldPoints& all, int num_parts) {
-    Balance whole = balance(interleaved_points(all.coordinates, all.dimension),
-                            {.num_parts = num_parts}, {}, MPI_COMM_SELF);
+    Balance whole =
+        balance(Points(all.coordinates, all.dimension), MPI_COMM_SELF, {.num_parts = num_parts});
     all.owners.clear();
     for (std::size_t i = 0; i < all.count(); ++i) {
         const RankRange ranks = ranks_of_part(whole.parts[i], num_parts, num_ranks());
@@ -93,7 +93,7 @@ struct Step {
 /// Balances the points and gives each rank its part. Collective.
 inline Step balance_and_move(HeldPoints& all, const Options& options) {
     const Share mine(all);
-    Step step{balance(mine.points(), options, {}, MPI_COMM_WORLD)};
+    Step step{balance(mine.points(), MPI_COMM_WORLD, options)};
     for (std::size_t i = 0; i < mine.indices.size(); ++i) {
         const Vector x = mine.points().position(i);
         step.num_strays += part_of(step.balance.cuts, x) == step.balance.parts[i] ? 0 : 1;

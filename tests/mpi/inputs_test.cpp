@@ -5,7 +5,7 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
-#include <rrcb/views.hpp>
+#include <rrcb/points.hpp>
 
 #include <bit>
 
@@ -40,10 +40,10 @@ struct Cloud {
     std::vector<Points> arrangements() const {
         using P = Particle<T>;
         const std::vector<std::span<const T>> columns(axes.begin(), axes.end());
-        const Points structs = dimension == 1   ? member_points(particles, &P::x)
-                               : dimension == 2 ? member_points(particles, &P::x, &P::y)
-                                                : member_points(particles, &P::x, &P::y, &P::z);
-        return {interleaved_points(values, dimension), column_points(columns), structs};
+        const Points structs = dimension == 1   ? Points(particles, &P::x)
+                               : dimension == 2 ? Points(particles, &P::x, &P::y)
+                                                : Points(particles, &P::x, &P::y, &P::z);
+        return {Points(values, dimension), Points(columns), structs};
     }
 
     int dimension;
@@ -65,25 +65,26 @@ void expect_same_bits(std::size_t count) {
     for (int dimension = 1; dimension <= 3; ++dimension) {
         const Cloud<T> cloud(count, dimension);
         const std::vector<double> weights(count, 0.3);
-        Points reference = interleaved_points(cloud.doubles, dimension, weights);
+        Points reference(cloud.doubles, dimension, weights);
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             const Options options{.num_parts = 11, .refine = refine};
-            Balance expected = balance(reference, options, {}, MPI_COMM_WORLD);
+            Balance expected = balance(reference, MPI_COMM_WORLD, options);
             expected.cuts.points = 0;  // the points stay where they are
             const GhostPlan near =
-                ghosts(expected.cuts, reference, {.radius = 0.05}, MPI_COMM_WORLD);
+                ghost_plan(expected.cuts, reference, MPI_COMM_WORLD, {.radius = 0.05});
             for (Points points : cloud.arrangements()) {
                 points.weights = weights;
-                Balance found = balance(points, options, {}, MPI_COMM_WORLD);
+                Balance found = balance(points, MPI_COMM_WORLD, options);
                 found.cuts.points = 0;
                 EXPECT_EQ(found.parts, expected.parts);
                 EXPECT_EQ(bits(found.cuts), bits(expected.cuts));
                 EXPECT_EQ(bounding_box(points).lower, bounding_box(reference).lower);
-                EXPECT_EQ(assign_all(found.cuts, points, MPI_COMM_WORLD), expected.parts);
-                EXPECT_EQ(balance(points, options, found.cuts, MPI_COMM_WORLD).parts,
-                          balance(reference, options, found.cuts, MPI_COMM_WORLD).parts);
-                EXPECT_EQ(ghosts(found.cuts, points, {.radius = 0.05}, MPI_COMM_WORLD).send_indices,
-                          near.send_indices);
+                EXPECT_EQ(assign(found.cuts, points, MPI_COMM_WORLD), expected.parts);
+                EXPECT_EQ(balance(points, MPI_COMM_WORLD, options, found.cuts).parts,
+                          balance(reference, MPI_COMM_WORLD, options, found.cuts).parts);
+                EXPECT_EQ(
+                    ghost_plan(found.cuts, points, MPI_COMM_WORLD, {.radius = 0.05}).send_indices,
+                    near.send_indices);
             }
         }
     }
@@ -96,27 +97,29 @@ TEST(Inputs, of_any_arrangement_give_the_same_bits) {
 }
 
 void expect_refusal(const Points& points, const std::string& text) {
-    test::expect_same_error([&] { balance(points, {}, {}, MPI_COMM_WORLD); },
+    test::expect_same_error([&] { balance(points, MPI_COMM_WORLD); },
                             "rank " + std::to_string(num_ranks() - 1) + ": " + text);
 }
 
 TEST(Inputs, that_are_unusable_on_one_rank_are_refused_on_all) {
     const bool last = is_last_rank();
     std::vector<float> x{0, 1, 2, 3};
-    Points points = interleaved_points(x, 2);
-    if (last) points.stride = static_cast<std::size_t>(-2);
-    expect_refusal(points, "coordinate arrays must reach to the last point");
-    points = interleaved_points(x, 2);
-    if (last) points.count = 3;
-    expect_refusal(points, "coordinate arrays must reach to the last point");
-    const std::vector<double> doubles(4);
-    points = interleaved_points(x, 2);
-    if (last) points.axes[0] = doubles;
-    expect_refusal(points, "give coordinates in axes or float_axes, not in both");
+    Points points(x, 2);
+    if (last) points.stride = sizeof(float) + 1;
+    expect_refusal(points, "the stride of the points must be in bytes");
+    points = Points(x, 2);
+    if (last) points.count = std::numeric_limits<std::size_t>::max() / 4;
+    expect_refusal(points, "count and stride exceed the memory");
+    points = Points(x, 2);
+    if (last) points.axes[1] = nullptr;
+    expect_refusal(points, "coordinates must be there on each axis");
+    points = Points(x, 2);
+    if (last) points.type = static_cast<ScalarType>(7);
+    expect_refusal(points, "the type of the points must be ScalarType::float64 or float32");
     if (last) x[3] = std::numeric_limits<float>::quiet_NaN();
-    expect_refusal(interleaved_points(x, 2), "coordinate of point 1 on axis 1 is NaN or infinite");
+    expect_refusal(Points(x, 2), "coordinate of point 1 on axis 1 is NaN or infinite");
     const std::vector<float> five(5);
-    expect_refusal(interleaved_points(std::span(five).first(last ? 5 : 4), 2),
+    expect_refusal(Points(std::span(five).first(last ? 5 : 4), 2),
                    "the length of the coordinate array must be a multiple of the dimension");
 }
 

@@ -83,11 +83,11 @@ TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
     std::vector<double> mine;
     for (std::size_t i = 0; i < x.size(); ++i)
         if (homes[i] == rank()) mine.push_back(x[i]);
-    const Points points = interleaved_points(mine, 1);
+    const Points points(mine, 1);
     const Keys joined = experimental::join_keys(here(all, 2, homes), 2, MPI_COMM_WORLD);
     const Groups wells = groups(points, joined, MPI_COMM_WORLD);
     Options options{.num_parts = 3};
-    const Balance result = balance(wells.points(), options, {}, MPI_COMM_WORLD);
+    const Balance result = balance(wells.points(), MPI_COMM_WORLD, options);
     const std::vector<Part> parts = fetch(wells, result.parts, MPI_COMM_WORLD);
     std::vector<Part> of_all(x.size(), -1);
     for (std::size_t k = 0; k < mine.size(); ++k)

@@ -190,7 +190,7 @@ TEST(PointsAtRest, first_scattered_are_not_kept_and_counted_only_where_asked) {
     HeldPoints all = random_points(5000, 2, 8);
     const Share mine(all);
     for (const Refine refine : {Refine::none, Refine::tolerance}) {
-        const Report report = balance(mine.points(), with(refine), {}, MPI_COMM_WORLD).report;
+        const Report report = balance(mine.points(), MPI_COMM_WORLD, with(refine)).report;
         EXPECT_FALSE(report.kept);
         EXPECT_EQ(std::isnan(report.imbalance), refine == Refine::none);
     }
@@ -230,7 +230,7 @@ TEST(PointsAtRest, on_renumbered_ranks_keep_their_cuts) {
     for (int call = 1; call <= 2; ++call) balance_and_move(all, options);
     for (Part& owner : all.owners) owner = num_ranks() - 1 - owner;
     const Share mine(all);
-    const Balance result = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+    const Balance result = balance(mine.points(), MPI_COMM_WORLD, options);
     for (const Part part : result.parts) EXPECT_EQ(part, num_ranks() - 1 - test::rank());
     EXPECT_FALSE(result.report.kept) << "part r is not on rank r, so points move";
 }

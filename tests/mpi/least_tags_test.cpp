@@ -58,14 +58,14 @@ namespace {
 
 /// Calls all that sends between two ranks once.
 void call_all(const std::vector<double>& cloud, const Options& options) {
-    const Points points = interleaved_points(cloud, 2);
-    Balance made = balance(points, options, {}, MPI_COMM_WORLD);
-    balance_into(made, points, options, made.cuts, MPI_COMM_WORLD);
-    made.parts = assign_all(made.cuts, points, MPI_COMM_WORLD);
+    const Points points(cloud, 2);
+    Balance made = balance(points, MPI_COMM_WORLD, options);
+    balance_into(made, points, MPI_COMM_WORLD, options, made.cuts);
+    made.parts = assign(made.cuts, points, MPI_COMM_WORLD);
     const Plan moves = plan(made, MPI_COMM_WORLD);
     const std::vector<double> mine = transfer(moves, column(cloud, 2), MPI_COMM_WORLD);
-    const Points moved = interleaved_points(mine, 2);
-    const GhostPlan near = ghosts(made.cuts, moved, {.radius = 0.1}, MPI_COMM_WORLD);
+    const Points moved(mine, 2);
+    const GhostPlan near = ghost_plan(made.cuts, moved, MPI_COMM_WORLD, {.radius = 0.1});
     const std::vector<double> others = fetch(near, column(mine, 2), MPI_COMM_WORLD);
     EXPECT_EQ(others.size() % 2, 0U);
     const std::vector<std::uint64_t> keys(2 * moved.count, 7);

@@ -54,7 +54,7 @@ std::vector<double> counts_by_look_up(const Cuts& cuts, const Points& points) {
 
 std::string message_of(const Points& points, const Options& options) {
     try {
-        balance(points, options, {}, MPI_COMM_WORLD);
+        balance(points, MPI_COMM_WORLD, options);
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
         return error.what();
@@ -64,14 +64,14 @@ std::string message_of(const Points& points, const Options& options) {
 
 TEST(MinWidth, holds_for_every_part_while_the_rest_is_balanced) {
     const auto coordinates = dense_corner(6000, 1);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     const Box box = box_of_all(points);
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         for (const int num_parts : {2, 5, 12}) {
             Options options{.num_parts = num_parts, .refine = refine};
-            const Balance free = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance free = balance(points, MPI_COMM_WORLD, options);
             options.axes.min_width = {0.15, 0.1};
-            const Balance wide = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance wide = balance(points, MPI_COMM_WORLD, options);
             EXPECT_GE(least_width(wide.cuts, box, 0), 0.15) << num_parts;
             EXPECT_GE(least_width(wide.cuts, box, 1), 0.1) << num_parts;
             // Parts of a 12th would be narrower in the corner.
@@ -96,9 +96,9 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
     std::vector<double> coordinates;
     if (rank() == 0) coordinates = {0, 0, 8, 2};
     for (const double x : dense_corner(500, 2)) coordinates.push_back(2 * x);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     Options options{.num_parts = 32, .axes = {.min_width = {1, 0.5}}};
-    const Balance full = balance(points, options, {}, MPI_COMM_WORLD);
+    const Balance full = balance(points, MPI_COMM_WORLD, options);
     for (const Cut& cut : full.cuts.tree) {
         const double unit = options.axes.min_width[static_cast<std::size_t>(cut.axis)];
         const double value = cut.at[static_cast<std::size_t>(cut.axis)];
@@ -117,7 +117,7 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
 
 TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
     const auto coordinates = dense_corner(1000, 3);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     Options options{.num_parts = 4,
                     .axes = {.order = AxisOrder::given({0, 0, 0}), .min_width = {0.3, 0.1}}};
     EXPECT_EQ(
@@ -132,13 +132,13 @@ TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
 
 TEST(Grid, holds_all_cuts_on_its_lines) {
     const auto coordinates = dense_corner(6000, 4);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     for (const double spacing : {0.3, 0.02, 1.0 / 1024, 1e-6}) {
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             Options options{.num_parts = 7,
                             .refine = refine,
                             .axes = {.grid = {{0.1, spacing}, {-7, spacing / 3}}}};
-            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance result = balance(points, MPI_COMM_WORLD, options);
             for (const Cut& cut : result.cuts.tree) {
                 const auto axis = static_cast<std::size_t>(cut.axis);
                 const auto [origin, step] = options.axes.grid[axis];
@@ -160,7 +160,7 @@ TEST(Grid, holds_all_cuts_on_its_lines) {
 
 TEST(Grid, that_coordinates_cannot_tell_apart_is_refused) {
     std::vector<double> coordinates{1e15 + rank(), 3, 1e15, 4};
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     Options options{.num_parts = 2, .axes = {.grid = {{0, 0.1}, {0, 0.1}}}};
     EXPECT_EQ(message_of(points, options),
               "rank 0: axes.grid is finer along axis 0 than doubles resolve at these coordinates; "
@@ -172,22 +172,22 @@ TEST(Limits, that_differ_between_ranks_are_an_error_on_all) {
     if (num_ranks() == 1) GTEST_SKIP();
     const auto coordinates = dense_corner(1000, 5);
     Options options{.axes = {.min_width = {0.1, rank() == num_ranks() - 1 ? 0.1 : 0.2}}};
-    const std::string message = message_of(interleaved_points(coordinates, 2), options);
+    const std::string message = message_of(Points(coordinates, 2), options);
     EXPECT_NE(message.find("axes.min_width, axes.grid differs between rank"), std::string::npos)
         << message;
 }
 
 TEST(Limits, move_earlier_cuts_that_break_them) {
     const auto coordinates = dense_corner(6000, 6);
-    const Points points = interleaved_points(coordinates, 2);
+    const Points points(coordinates, 2);
     const Box box = box_of_all(points);
     Options options{.num_parts = 12};
-    const Cuts previous = balance(points, options, {}, MPI_COMM_WORLD).cuts;
+    const Cuts previous = balance(points, MPI_COMM_WORLD, options).cuts;
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         options.refine = refine;
         options.imbalance_tolerance = 1.01;
         options.axes.min_width = {0.15, 0.1};
-        const Balance moved = balance(points, options, previous, MPI_COMM_WORLD);
+        const Balance moved = balance(points, MPI_COMM_WORLD, options, previous);
         EXPECT_GE(least_width(moved.cuts, box, 0), 0.15);
         EXPECT_GE(least_width(moved.cuts, box, 1), 0.1);
         const auto counts = counts_by_look_up(moved.cuts, points);
@@ -197,7 +197,7 @@ TEST(Limits, move_earlier_cuts_that_break_them) {
         }
         // What keeps them stays as it is.
         options.imbalance_tolerance = imbalance(counts, {});
-        const Cuts again = balance(points, options, moved.cuts, MPI_COMM_WORLD).cuts;
+        const Cuts again = balance(points, MPI_COMM_WORLD, options, moved.cuts).cuts;
         for (std::size_t k = 0; k < again.tree.size(); ++k)
             EXPECT_EQ(again.tree[k].at, moved.cuts.tree[k].at);
     }
@@ -209,12 +209,12 @@ TEST(Limits, hold_where_nothing_has_weight) {
         std::vector<double> weights;
         for (std::size_t i = 0; i < coordinates.size(); i += 2)
             weights.push_back(std::fmod(coordinates[i], 0.25) < 0.02 ? 1 : 0);
-        const Points points = interleaved_points(coordinates, 2, weights);
+        const Points points(coordinates, 2, weights);
         Options options{.num_parts = 11,
                         .refine = Refine::exact,
                         .axes = {.min_width = {0.07, 0.07}},
                         .tuning = {.support_mesh = 1}};
-        const Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
+        const Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), 0.07) << seed;
         EXPECT_GE(least_width(cuts, box_of_all(points), 1), 0.07) << seed;
     }
@@ -229,16 +229,16 @@ TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
                                 1.0676278943739534e-05, 0.0007824389224685591};
     if (rank() > 0) coordinates.clear();
     if (rank() > 0) weights.clear();
-    const Points points = interleaved_points(coordinates, 1, weights);
+    const Points points(coordinates, 1, weights);
     Options options{.num_parts = 10,
                     .imbalance_tolerance = 1.3,
                     .coincident = Coincident::divide,
                     .axes = {.min_width = {width}}};
     for (const bool larger_below : {false, true}) {
         options.tree.larger_below = larger_below;
-        const Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
+        const Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), width) << larger_below;
-        const Cuts again = balance(points, options, cuts, MPI_COMM_WORLD).cuts;
+        const Cuts again = balance(points, MPI_COMM_WORLD, options, cuts).cuts;
         EXPECT_GE(least_width(again, box_of_all(points), 0), width) << larger_below;
     }
 }
@@ -246,7 +246,7 @@ TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
 TEST(Limits, need_no_points) {
     Options options{.num_parts = 9,
                     .axes = {.min_width = {1, 1, 1}, .grid = {{0, 1}, {0, 1}, {0, 1}}}};
-    const Balance result = balance(interleaved_points({}, 3), options, {}, MPI_COMM_WORLD);
+    const Balance result = balance(Points({}, 3), MPI_COMM_WORLD, options);
     EXPECT_EQ(result.cuts.tree.size(), 8u);
 }
 

@@ -32,14 +32,14 @@ struct Cloud {
     explicit Cloud(int dimension, std::size_t count = 6000)
         : coordinates(
               test::share_of_cloud(count, dimension, [](std::size_t, int, double u) { return u; })),
-          points(interleaved_points(coordinates, dimension)) {}
+          points(Points(coordinates, dimension)) {}
 };
 
 int group_size(std::function<int(int, int)> machine, const Options& options = {}) {
     const Cloud cloud(2);
     int size = 0;
     with_machines(std::move(machine), [&](MPI_Comm comm) {
-        size = balance(cloud.points, options, {}, comm).cuts.shape.group_size;
+        size = balance(cloud.points, comm, options).cuts.shape.group_size;
     });
     return size;
 }
@@ -83,23 +83,23 @@ TEST(Machines, to_which_ranks_are_dealt_in_turn_have_the_parts_of_these_ranks) {
             SCOPED_TRACE(testing::Message() << machines << " machines, " << parts_each << " parts");
             Options options{.num_parts = parts_each * num_ranks()};
             with_machines(dealt_to(machines), [&](MPI_Comm comm) {
-                const Balance made = balance(cloud.points, options, {}, comm);
+                const Balance made = balance(cloud.points, comm, options);
                 const int size = (num_ranks() - 1) / machines + 1;
                 EXPECT_EQ(made.cuts.shape, (TreeShape{parts_each * size, false, parts_each}));
                 std::vector<Part> parts(cloud.points.count);
                 assign(made.cuts, cloud.points, parts);
                 EXPECT_EQ(parts, made.parts);
-                EXPECT_EQ(assign_all(made.cuts, cloud.points, comm), made.parts);
+                EXPECT_EQ(assign(made.cuts, cloud.points, comm), made.parts);
                 EXPECT_EQ(part_weights(cloud.points, made.parts, options.num_parts, comm),
                           made.report.part_weights);
-                EXPECT_EQ(balance(cloud.points, options, made.cuts, comm).parts, made.parts);
+                EXPECT_EQ(balance(cloud.points, comm, options, made.cuts).parts, made.parts);
                 // Points that lie where they should are kept.
                 const auto mine = transfer(plan(made, comm), column(cloud.coordinates, 2), comm);
-                const Balance again = balance(interleaved_points(mine, 2), options, {}, comm);
+                const Balance again = balance(Points(mine, 2), comm, options);
                 EXPECT_EQ(again.report.kept, parts_each == 1);
                 if (parts_each > 1) return;
                 EXPECT_EQ(again.parts, std::vector<Part>(mine.size() / 2, rank()));
-                assign(again.cuts, interleaved_points(mine, 2), parts = again.parts);
+                assign(again.cuts, Points(mine, 2), parts = again.parts);
                 EXPECT_EQ(parts, again.parts);
                 EXPECT_EQ(part_weights(cloud.points, made.parts, options.num_parts, comm),
                           again.report.part_weights);
@@ -128,9 +128,9 @@ TEST(Machines, ask_for_the_shape_of_the_tree_that_given_axes_are_for) {
     Options options{.axes = {.order = AxisOrder::given(
                                  std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 0))}};
     with_machines(blocks_of(2), [&](MPI_Comm comm) {
-        EXPECT_THROW(balance(cloud.points, options, {}, comm), Error);
+        EXPECT_THROW(balance(cloud.points, comm, options), Error);
         options.tree.group_size = 2;
-        EXPECT_EQ(balance(cloud.points, options, {}, comm).cuts.shape.group_size, 2);
+        EXPECT_EQ(balance(cloud.points, comm, options).cuts.shape.group_size, 2);
     });
 }
 
@@ -138,11 +138,11 @@ TEST(Machines, of_earlier_cuts_stay) {
     const Cloud cloud(2);
     Balance first;
     with_machines(blocks_of(2), [&](MPI_Comm comm) {
-        first = balance(cloud.points, {}, {}, comm);
-        EXPECT_EQ(balance(cloud.points, {}, first.cuts, comm).parts, first.parts);
+        first = balance(cloud.points, comm);
+        EXPECT_EQ(balance(cloud.points, comm, {}, first.cuts).parts, first.parts);
     });
     with_machines(blocks_of(3), [&](MPI_Comm comm) {
-        EXPECT_EQ(balance(cloud.points, {}, first.cuts, comm).cuts.shape, first.cuts.shape);
+        EXPECT_EQ(balance(cloud.points, comm, {}, first.cuts).cuts.shape, first.cuts.shape);
     });
 }
 
@@ -152,7 +152,7 @@ std::pair<GlobalCount, GlobalCount> ghosts_of(const Balance& balance, const Clou
     const int dimension = cloud.points.dimension;
     const auto mine = transfer(plan(balance, comm), column(cloud.coordinates, dimension), comm);
     const GhostPlan near =
-        ghosts(balance.cuts, interleaved_points(mine, dimension), {.radius = 0.02}, comm);
+        ghost_plan(balance.cuts, Points(mine, dimension), comm, {.radius = 0.02});
     GlobalCount counts[2] = {};
     for (const RankCount& from : near.receive) {
         if (machine_of(from.rank, num_ranks()) != machine_of(rank(), num_ranks()))
@@ -169,8 +169,8 @@ void expect_fewer_ghosts(std::function<int(int, int)> machine) {
         const Cloud cloud(dimension, 24000);
         with_machines(machine, [&](MPI_Comm comm) {
             Options halving{.tree = TreeShape{}};
-            const Balance halved = balance(cloud.points, halving, {}, comm);
-            const Balance grouped = balance(cloud.points, {}, {}, comm);
+            const Balance halved = balance(cloud.points, comm, halving);
+            const Balance grouped = balance(cloud.points, comm);
             const auto [off, all] = ghosts_of(grouped, cloud, comm);
             const auto [off_halved, all_halved] = ghosts_of(halved, cloud, comm);
             EXPECT_LT(static_cast<double>(off), 0.9 * static_cast<double>(off_halved));
@@ -187,10 +187,10 @@ TEST(Machines, make_the_same_parts_however_their_ranks_are_numbered) {
         const Cloud cloud(3, 24000);
         std::array<std::pair<GlobalCount, GlobalCount>, 2> ghosts;
         with_machines(blocks_of(size), [&](MPI_Comm comm) {
-            ghosts[0] = ghosts_of(balance(cloud.points, {}, {}, comm), cloud, comm);
+            ghosts[0] = ghosts_of(balance(cloud.points, comm), cloud, comm);
         });
         with_machines(dealt_to(num_ranks() / size), [&](MPI_Comm comm) {
-            ghosts[1] = ghosts_of(balance(cloud.points, {}, {}, comm), cloud, comm);
+            ghosts[1] = ghosts_of(balance(cloud.points, comm), cloud, comm);
         });
         EXPECT_EQ(ghosts[0], ghosts[1]);
     }

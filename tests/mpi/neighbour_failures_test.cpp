@@ -20,13 +20,13 @@ class Row : public testing::Test {
         Options options{.num_parts = num_ranks()};
         std::vector<double> all;
         for (int i = 0; i < per_rank * num_ranks(); ++i) all.push_back((i + 0.5) / per_rank);
-        cuts_ = balance(interleaved_points(all, 1), options, {}, MPI_COMM_SELF).cuts;
+        cuts_ = balance(Points(all, 1), MPI_COMM_SELF, options).cuts;
         for (int i = 0; i < per_rank; ++i) {
             x_.push_back(rank() + (i + 0.5) / per_rank);
             ids_.push_back(rank() * per_rank + i);
         }
         load_.resize(per_rank * words_, 1.0);
-        neighbours_.emplace(cuts_, NeighbourOptions{.radius = 0.3, .travel = 0.3}, world);
+        neighbours_.emplace(cuts_, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
     }
 
     void step() {
@@ -81,11 +81,11 @@ TEST_F(Row, a_far_jump_reaches_all_ranks_one_after_the_other) {
     expect_all_points();
     EXPECT_THROW(neighbours_->migrate(column(x_), ids_, column(load_, words_)), Error);
 
-    const Balance next = balance(interleaved_points(x_, 1), {}, cuts_, world);
+    const Balance next = balance(Points(x_, 1), world, {}, cuts_);
     const Plan moves = plan(next, world);
     std::tie(x_, ids_, load_) =
         transfer(moves, columns(column(x_), ids_, column(load_, words_)), world);
-    neighbours_.emplace(next.cuts, NeighbourOptions{.radius = 0.3, .travel = 0.3}, world);
+    neighbours_.emplace(next.cuts, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
     for (int k = 0; k < 3; ++k) step();
     expect_all_points();
 }
@@ -101,7 +101,7 @@ TEST_F(Row, the_same_cuts_serve_again) {
             EXPECT_EQ(x_[0], away);
             x_[0] = home;
         }
-        neighbours_.emplace(cuts_, NeighbourOptions{.radius = 0.3, .travel = 0.3}, world);
+        neighbours_.emplace(cuts_, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
         step();
         expect_all_points();
     }
@@ -131,7 +131,7 @@ TEST_F(Row, an_array_given_twice_is_named) {
         EXPECT_NE(text.find("columns 0 and 1 (the first is 0) are the same array"),
                   std::string::npos)
             << text;
-        neighbours_.emplace(cuts_, NeighbourOptions{.radius = 0.3, .travel = 0.3}, world);
+        neighbours_.emplace(cuts_, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
     };
     expect_named([&] { neighbours_->migrate(column(x_), x_); });
     EXPECT_EQ(x_, before);
@@ -163,7 +163,7 @@ TEST_F(Row, a_balance_among_neighbour_calls_is_named) {
     step();
     const auto [number, text] = steps_before_error([&] {
         if (rank() == 0)
-            balance(interleaved_points(x_, 1), {}, cuts_, world);
+            balance(Points(x_, 1), world, {}, cuts_);
         else
             step();
     });
@@ -171,7 +171,7 @@ TEST_F(Row, a_balance_among_neighbour_calls_is_named) {
     EXPECT_NE(text.find("rank 0 calls balance, rank 1 calls Neighbours::migrate"),
               std::string::npos)
         << text;
-    neighbours_.emplace(cuts_, NeighbourOptions{.radius = 0.3, .travel = 0.3}, world);
+    neighbours_.emplace(cuts_, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
     step();
     expect_all_points();
 }
@@ -183,12 +183,12 @@ TEST_F(Row, a_rank_in_a_collective_call_hears_of_a_failure) {
     std::string text;
     try {
         neighbours_->migrate(column(x_), ids_, column(load_, words_));
-        balance(interleaved_points(x_, 1), {}, cuts_, world);
+        balance(Points(x_, 1), world, {}, cuts_);
     } catch (const Error& error) {
         text = error.what();
     }
     EXPECT_NE(text.find("rank 0: point 0 (the first is 0) at ("), std::string::npos) << text;
-    const Balance next = balance(interleaved_points(x_, 1), {}, cuts_, world);
+    const Balance next = balance(Points(x_, 1), world, {}, cuts_);
     EXPECT_EQ(next.parts.size(), x_.size());
 }
 

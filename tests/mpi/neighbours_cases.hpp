@@ -20,7 +20,7 @@ struct NeighbourCase {
     bool is_periodic = false;
     bool has_lattice = false;  ///< many coincident points
     bool turns_parts = false;  ///< parts on other ranks than ranks_of_part() says
-    Needs needs = Needs::sender;
+    Needs needs = Needs::scatter;
     int num_steps = 4;
 };
 
@@ -49,8 +49,7 @@ class NeighbourRun {
         Options options;
         options.num_parts = input.num_parts == 0 ? num_ranks() : input.num_parts;
         if (input.has_lattice) options.coincident = Coincident::divide;
-        const Balance whole =
-            balance(interleaved_points(places, input.dimension), options, {}, MPI_COMM_SELF);
+        const Balance whole = balance(Points(places, input.dimension), MPI_COMM_SELF, options);
         cuts_ = whole.cuts;
         for (Part part = 0; part < cuts_.num_parts; ++part)
             ranks_.push_back(input.turns_parts ? RankRange{(part * 7 + 3) % num_ranks(), 1}
@@ -73,7 +72,7 @@ class NeighbourRun {
 
     /// Steps, each compared with the collective functions. Returns the first difference.
     std::string run() {
-        Neighbours neighbours(cuts_, options(), MPI_COMM_WORLD);
+        Neighbours neighbours(cuts_, MPI_COMM_WORLD, options());
         std::string fault;
         for (int step = 0; step < input_.num_steps && fault.empty(); ++step) {
             if (step > 0) drift(step);
@@ -106,7 +105,7 @@ class NeighbourRun {
     }
 
   private:
-    Points points() const { return interleaved_points(x_, input_.dimension); }
+    Points points() const { return Points(x_, input_.dimension); }
 
     std::string fault_of_owners() const {
         for (std::size_t i = 0; i < ids_.size(); ++i) {
@@ -141,14 +140,14 @@ class NeighbourRun {
         same.needs = input_.needs;
         Cuts cuts = cuts_;
         cuts.points = cuts.group = 0;
-        const GhostPlan plan = ghosts(cuts, points(), same, MPI_COMM_WORLD);
+        const GhostPlan plan = ghost_plan(cuts, points(), MPI_COMM_WORLD, same);
         if (input_.has_radii)
             neighbours.find_ghosts(column(x_, dim_), radii);
         else
             neighbours.find_ghosts(column(x_, dim_));
         for (int repeat = 0; repeat < 2; ++repeat) {
             neighbours.fetch(ghosts_of(ghost_x_, ghost_ids_), column(x_, dim_), ids_);
-            const std::string fault = difference(plan, neighbours.ghosts());
+            const std::string fault = difference(plan, neighbours.ghost_plan());
             if (!fault.empty()) return fault + " in step " + std::to_string(step);
         }
         if (ghost_x_ != fetch(plan, column(x_, dim_), MPI_COMM_WORLD)) return "other positions";

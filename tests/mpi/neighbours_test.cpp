@@ -18,7 +18,7 @@ const MPI_Comm world = MPI_COMM_WORLD;
 std::vector<NeighbourCase> cases() {
     std::vector<NeighbourCase> all;
     for (int dimension = 1; dimension <= 3; ++dimension)
-        for (const Needs needs : {Needs::sender, Needs::receiver, Needs::either})
+        for (const Needs needs : {Needs::scatter, Needs::gather, Needs::symmetric})
             for (const bool is_periodic : {false, true})
                 for (const bool has_radii : {false, true})
                     all.push_back({.seed = static_cast<unsigned>(all.size() + 1),
@@ -43,7 +43,7 @@ TEST(Neighbours, take_floats) {
 TEST(Neighbours, have_several_parts_or_share_one) {
     for (const int num_parts : {1, num_ranks() / 2 + 1, 3 * num_ranks() + 1})
         for (const bool turns_parts : {false, true})
-            for (const Needs needs : {Needs::sender, Needs::either}) {
+            for (const Needs needs : {Needs::scatter, Needs::symmetric}) {
                 const NeighbourCase input{.dimension = 2,
                                           .num_parts = num_parts,
                                           .is_periodic = num_parts > 1,
@@ -79,7 +79,7 @@ NeighbourCase random_case(unsigned seed) {
     input.is_periodic = one_of(false, true);
     input.has_lattice = input.travel > 0.3 && one_of(false, false, true);
     input.turns_parts = one_of(false, false, true);
-    input.needs = one_of(Needs::sender, Needs::sender, Needs::receiver, Needs::either);
+    input.needs = one_of(Needs::scatter, Needs::scatter, Needs::gather, Needs::symmetric);
     input.num_steps = 3;
     return input;
 }

@@ -69,10 +69,9 @@ TEST(OpenPoints, that_stay_with_their_passes_get_the_same_parts) {
             for (std::size_t i = 0; i < 800 && is_weighted; ++i)
                 weights.push_back(static_cast<double>(1 + i % 7));
             for (const Options& options : kinds()) {
-                const Balance expected =
-                    balance(interleaved_points(x, 2, weights), options, {}, MPI_COMM_WORLD);
+                const Balance expected = balance(Points(x, 2, weights), MPI_COMM_WORLD, options);
                 KeepingPasses passes(x, 2, weights);
-                const Balance made = balance(passes, options, {}, MPI_COMM_WORLD);
+                const Balance made = balance(passes, MPI_COMM_WORLD, options);
                 EXPECT_EQ(passes.parts(), expected.parts);
                 EXPECT_EQ(made.report.details.rounds, expected.report.details.rounds);
                 for (std::size_t k = 0; k < made.cuts.tree.size(); ++k)
@@ -91,7 +90,7 @@ TEST(OpenPoints, send_few_positions_to_the_engine) {
     options.num_parts = 2;
     options.refine = Refine::exact;
     KeepingPasses passes(x, 2);
-    balance(passes, options, {}, MPI_COMM_WORLD);
+    balance(passes, MPI_COMM_WORLD, options);
     EXPECT_GT(passes.num_opened, 0);
     EXPECT_LE(passes.num_taken, 1024U) << "of one cut";
 }

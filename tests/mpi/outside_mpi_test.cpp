@@ -24,8 +24,8 @@ void expect_error(Call&& call) {
 
 void expect_errors() {
     const std::vector<double> x{0, 1};
-    const Points points = interleaved_points(x, 1);
-    expect_error([&] { balance(points, {}, {}, MPI_COMM_WORLD); });
+    const Points points(x, 1);
+    expect_error([&] { balance(points, MPI_COMM_WORLD); });
     expect_error([&] { (void)plan(std::vector<Part>(2), 1, MPI_COMM_WORLD); });
     expect_error([&] { release_buffers(MPI_COMM_WORLD); });
     expect_error([&] { Controller controller(MPI_COMM_WORLD); });
@@ -43,13 +43,13 @@ TEST(OutsideMpi, calls_are_errors) {
     MPI_Init(nullptr, nullptr);
     std::optional<Controller> controller(MPI_COMM_WORLD);
     std::optional<experimental::CostModel> model(std::in_place, MPI_COMM_WORLD, 1);
-    controller->step(1);
+    controller->step({.load = 1});
     model->step(1, {{1.0}});
     rrcb_balancer* balancer = nullptr;
     ASSERT_EQ(rrcb_balancer_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
     MPI_Finalize();
     expect_errors();
-    expect_error([&] { controller->step(1); });
+    expect_error([&] { controller->step({.load = 1}); });
     expect_error([&] { model->step(1, {{1.0}}); });
     const double x = 0;
     int32_t part = 0;

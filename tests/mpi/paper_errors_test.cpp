@@ -15,10 +15,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Expects the same error, which contains `expected`, on every rank, and that the next call works.
 void expect_error(const Share& share, const PaperOptions& options, const std::string& expected) {
-    test::expect_same_error([&] { balance_as_in_paper(share.points(), options, MPI_COMM_WORLD); },
+    test::expect_same_error([&] { balance_as_in_paper(share.points(), MPI_COMM_WORLD, options); },
                             expected);
     const Share fine = crowded_share(rank());
-    EXPECT_EQ(balance_as_in_paper(fine.points(), {}, MPI_COMM_WORLD).parts.size(), 300u);
+    EXPECT_EQ(balance_as_in_paper(fine.points(), MPI_COMM_WORLD).parts.size(), 300u);
 }
 
 std::string last_rank() {

@@ -119,7 +119,7 @@ TEST(PaperRcb, gives_the_parts_of_a_bisection_by_sorting) {
             PaperOptions options{.num_parts = static_cast<int>(sizes.size()),
                                  .part_sizes = sizes,
                                  .domain = PaperDomain::points};
-            const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+            const Balance result = balance_as_in_paper(mine.points(), MPI_COMM_WORLD, options);
             EXPECT_EQ(result.parts, sorted_parts(make, sizes));
         }
     }
@@ -156,7 +156,7 @@ TEST(PaperRrcb, bisects_the_sampled_points_of_the_cells_of_all_ranks) {
                                      .seed = static_cast<std::uint64_t>(mesh)};
                 if (mesh == 7) options.part_sizes = {0, 3, 0, 0, 1, 2};
                 options.cut_rule = rule;
-                const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+                const Balance result = balance_as_in_paper(mine.points(), MPI_COMM_WORLD, options);
                 const auto cells = all_cells(make, mesh);
                 const Bisection expected =
                     bisect_points(sample_points(cells, mine.dimension, options), mine.dimension, 6,
@@ -177,10 +177,10 @@ TEST(PaperRrcb, comes_nearer_to_the_points_with_a_finer_mesh) {
     // A dense corner, which a single cell per rank cannot show.
     std::vector<double> cloud = test::uniform_cloud(20000, 2, 100 + static_cast<unsigned>(rank()));
     for (double& x : cloud) x = x * x * x;
-    const Points points = interleaved_points(cloud, 2);
+    const Points points(cloud, 2);
     const auto imbalance_with = [&](int mesh) {
         PaperOptions options{.num_parts = 4, .support_mesh = mesh};
-        const Balance result = balance_as_in_paper(points, options, MPI_COMM_WORLD);
+        const Balance result = balance_as_in_paper(points, MPI_COMM_WORLD, options);
         return imbalance(part_weights(points, result.parts, 4, MPI_COMM_WORLD));
     };
     EXPECT_GT(imbalance_with(1), 1.2);
@@ -194,7 +194,7 @@ TEST(Paper, reports_what_it_bisected_and_measures_nothing) {
     const double total = std::accumulate(all.weights.begin(), all.weights.end(), 0.0);
     for (const PaperDomain domain : domains) {
         PaperOptions options{.num_parts = 3, .domain = domain};
-        const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance_as_in_paper(mine.points(), MPI_COMM_WORLD, options);
         const Report& report = result.report;
         EXPECT_EQ(report.details.num_points, static_cast<GlobalCount>(points.count));
         EXPECT_EQ(report.details.total_weight, total);
@@ -217,8 +217,7 @@ TEST(Paper, reports_the_least_imbalance_of_points_of_one_weight) {
     PaperOptions options{.num_parts = 3};
     for (const PaperDomain domain : domains) {
         options.domain = domain;
-        const Balance result =
-            balance_as_in_paper(interleaved_points(x, 1), options, MPI_COMM_WORLD);
+        const Balance result = balance_as_in_paper(Points(x, 1), MPI_COMM_WORLD, options);
         EXPECT_EQ(result.report.details.least_imbalance, 1.5);
     }
 }
@@ -228,17 +227,17 @@ TEST(Paper, balances_by_number_if_all_weights_are_zero) {
     mine.weights.assign(300, 0.0);
     for (const PaperDomain domain : domains) {
         PaperOptions options{.num_parts = 4, .domain = domain};
-        const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance_as_in_paper(mine.points(), MPI_COMM_WORLD, options);
         EXPECT_TRUE(result.report.details.all_weights_zero);
         mine.weights.clear();
-        EXPECT_EQ(balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD).parts, result.parts);
+        EXPECT_EQ(balance_as_in_paper(mine.points(), MPI_COMM_WORLD, options).parts, result.parts);
         mine.weights.assign(300, 0.0);
     }
 }
 
 TEST(Paper, makes_one_part_per_rank_unless_asked_for_others) {
     const Share mine = crowded_share(rank());
-    const Balance result = balance_as_in_paper(mine.points(), {}, MPI_COMM_WORLD);
+    const Balance result = balance_as_in_paper(mine.points(), MPI_COMM_WORLD);
     EXPECT_EQ(result.cuts.num_parts, num_ranks());
 }
 

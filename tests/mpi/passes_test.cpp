@@ -33,7 +33,7 @@ struct Cloud {
             for (double& x : coordinates) x = std::floor(12 * x);
     }
 
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const { return Points(coordinates, dimension, weights); }
     test::BrutePasses passes() const { return {coordinates, dimension, weights}; }
 
     int dimension;
@@ -44,9 +44,9 @@ struct Cloud {
 /// Both ways give the same, but for the rounding of sums of weights.
 void expect_same(const Cloud& cloud, const Options& options, const Cuts& previous,
                  const std::string& what) {
-    const Balance expected = balance(cloud.points(), options, previous, MPI_COMM_WORLD);
+    const Balance expected = balance(cloud.points(), MPI_COMM_WORLD, options, previous);
     test::BrutePasses passes = cloud.passes();
-    const Balance made = balance(passes, options, previous, MPI_COMM_WORLD);
+    const Balance made = balance(passes, MPI_COMM_WORLD, options, previous);
     EXPECT_TRUE(made.parts.empty());
     EXPECT_EQ(passes.parts(), expected.parts) << what;
     EXPECT_EQ(made.report.details.rounds, expected.report.details.rounds) << what;
@@ -91,7 +91,7 @@ TEST(Passes, give_the_parts_and_the_bits_of_arrays) {
 
 TEST(Passes, start_from_earlier_cuts_and_weigh) {
     Cloud cloud(900, 2, 5);
-    const Balance first = balance(cloud.points(), {}, {}, MPI_COMM_WORLD);
+    const Balance first = balance(cloud.points(), MPI_COMM_WORLD);
     expect_same(cloud, {}, first.cuts, "kept");
     std::mt19937_64 engine(7);
     for (std::size_t i = 0; i < 900; ++i) cloud.weights.push_back(static_cast<double>(1 + i % 7));
@@ -114,7 +114,7 @@ TEST(Passes, may_have_no_points) {
 
 std::string error_of(test::BrutePasses& passes, const Options& options) {
     try {
-        balance(passes, options, {}, MPI_COMM_WORLD);
+        balance(passes, MPI_COMM_WORLD, options);
     } catch (const Error& error) {
         return error.what();
     }
@@ -212,12 +212,12 @@ int num_refused(const std::string& function, int surplus, bool is_lattice) {
     for (double& x : moved.coordinates) x = x * x;
     for (std::size_t i = 0; i < 900; ++i) moved.weights.push_back(static_cast<double>(1 + i % 7));
     for (const Options& options : kinds(std::max(2, num_ranks()))) {
-        const Cuts earlier = balance(cloud.points(), options, {}, MPI_COMM_WORLD).cuts;
+        const Cuts earlier = balance(cloud.points(), MPI_COMM_WORLD, options).cuts;
         for (const Cuts& previous : {Cuts{}, earlier}) {
             ShortPasses passes(moved.passes(), function, surplus);
             std::string text;
             try {
-                balance(passes, options, previous, MPI_COMM_WORLD);
+                balance(passes, MPI_COMM_WORLD, options, previous);
             } catch (const Error& error) {
                 text = error.what();
             }

@@ -26,7 +26,7 @@ struct Scene {
     int count() const { return static_cast<int>(positions.size()) / dimension; }
 
     Vector image(int i, const Shift& shift) const {
-        Vector x = interleaved_points(positions, dimension).position(static_cast<LocalIndex>(i));
+        Vector x = Points(positions, dimension).position(static_cast<LocalIndex>(i));
         for (std::size_t a = 0; a < 3; ++a)
             if (shift[a] != 0) x[a] += shift[a] * 1.5;
         return x;
@@ -98,20 +98,20 @@ long double distance_to_mine(const Scene& scene, const Vector& x) {
 /// their ghosts and adds them up.
 void expect_ghosts(const Scene& scene, double radius) {
     const GhostOptions options{radius, {}, scene.box, {}};
-    const GhostPlan plan = ghosts(scene.cuts, interleaved_points(scene.here, scene.dimension),
-                                  options, MPI_COMM_WORLD);
+    const GhostPlan plan =
+        ghost_plan(scene.cuts, Points(scene.here, scene.dimension), MPI_COMM_WORLD, options);
     auto [numbers, positions] = fetch(
         plan, columns(scene.mine, column(scene.here, static_cast<std::size_t>(scene.dimension))),
         MPI_COMM_WORLD);
     apply_shifts(plan, positions);
-    EXPECT_EQ(experimental::verify(plan, interleaved_points(scene.here, scene.dimension),
-                                   {.sample = 20}, MPI_COMM_WORLD)
+    EXPECT_EQ(experimental::verify(plan, Points(scene.here, scene.dimension), MPI_COMM_WORLD,
+                                   {.sample = 20})
                   .num_faults,
               0);
     ASSERT_EQ(plan.shifts.size(), numbers.size());
     std::map<std::pair<int, Shift>, int> found;
     std::vector<int> near_ghosts(numbers.size());
-    const Points moved = interleaved_points(positions, scene.dimension);
+    const Points moved(positions, scene.dimension);
     const auto is_pair = [&](const Vector& x, int i) {
         const Vector y = scene.image(i, {});
         return distance(x, Box{y, y}, scene.dimension) <= radius;
@@ -166,9 +166,9 @@ TEST(PeriodicGhosts, of_floats_are_moved_to_images) {
     const std::vector<float> x(1, 0.25f * static_cast<float>(rank() + 1));
     const float end = 0.25f * static_cast<float>(num_ranks() + 1);
     const Box box{{0}, {end}};
-    const Balance all = balance(interleaved_points(x, 1), {}, {}, MPI_COMM_WORLD);
-    const GhostPlan plan = ghosts(all.cuts, interleaved_points(x, 1),
-                                  {.radius = end, .periodic = box}, MPI_COMM_WORLD);
+    const Balance all = balance(Points(x, 1), MPI_COMM_WORLD);
+    const GhostPlan plan =
+        ghost_plan(all.cuts, Points(x, 1), MPI_COMM_WORLD, {.radius = end, .periodic = box});
     const std::vector<float> fetched = fetch(plan, x, MPI_COMM_WORLD);
     std::vector<float> positions = fetched;
     apply_shifts(plan, positions);
@@ -205,11 +205,11 @@ TEST(PeriodicGhosts, move_as_members_of_structs) {
     const Box box{{0, 0, 0}, {1, 1, 0}};
     const std::vector<double> cloud =
         test::uniform_cloud(100, 2, 3 + static_cast<unsigned>(rank()));
-    const Balance made = balance(interleaved_points(cloud, 2), {}, {}, MPI_COMM_WORLD);
+    const Balance made = balance(Points(cloud, 2), MPI_COMM_WORLD);
     const std::vector<double> here =
         transfer(plan(made, MPI_COMM_WORLD), column(cloud, 2), MPI_COMM_WORLD);
-    const GhostPlan near = ghosts(made.cuts, interleaved_points(here, 2),
-                                  {.radius = 0.1, .periodic = box}, MPI_COMM_WORLD);
+    const GhostPlan near =
+        ghost_plan(made.cuts, Points(here, 2), MPI_COMM_WORLD, {.radius = 0.1, .periodic = box});
     std::vector<Particle> particles;
     std::vector<float> floats(here.begin(), here.end());
     for (std::size_t i = 0; i < floats.size(); i += 2)
@@ -233,12 +233,11 @@ TEST(PeriodicGhosts, move_as_members_of_structs) {
 template <class T>
 void expect_images_outside(const Box& box) {
     const std::vector<T> scattered = at_the_ends_of<T>(box);
-    const Balance made = balance(interleaved_points(scattered, 1), {}, {}, MPI_COMM_WORLD);
+    const Balance made = balance(Points(scattered, 1), MPI_COMM_WORLD);
     const std::vector<T> x = transfer(plan(made, MPI_COMM_WORLD), scattered, MPI_COMM_WORLD);
-    const GhostPlan near = ghosts(made.cuts, interleaved_points(x, 1),
-                                  {.radius = 0.03, .periodic = box}, MPI_COMM_WORLD);
-    EXPECT_EQ(experimental::verify(near, interleaved_points(x, 1), {}, MPI_COMM_WORLD).num_faults,
-              0);
+    const GhostPlan near =
+        ghost_plan(made.cuts, Points(x, 1), MPI_COMM_WORLD, {.radius = 0.03, .periodic = box});
+    EXPECT_EQ(experimental::verify(near, Points(x, 1), MPI_COMM_WORLD).num_faults, 0);
     std::vector<T> images = fetch(near, x, MPI_COMM_WORLD);
     apply_shifts(near, images);
     for (std::size_t k = 0; k < images.size(); ++k) {
@@ -296,7 +295,7 @@ TEST(PeriodicGhosts, in_no_usable_box_are_refused_on_all_ranks) {
             options.periodic->upper[0] = upper;
         }
         try {
-            ghosts(test::slabs(), interleaved_points(x, 2), options, MPI_COMM_WORLD);
+            ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, options);
             EXPECT_TRUE(text.empty());
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();

@@ -63,8 +63,7 @@ TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
         const std::vector<double> x(2);
         const std::vector<double> weights(2, rank() + 1.0);
         const std::vector<Part> parts{0, num_parts - 1};
-        const auto sums =
-            part_weights(interleaved_points(x, 1, weights), parts, num_parts, MPI_COMM_WORLD);
+        const auto sums = part_weights(Points(x, 1, weights), parts, num_parts, MPI_COMM_WORLD);
         ASSERT_EQ(sums.size(), static_cast<std::size_t>(num_parts));
         const double all = num_ranks() * (num_ranks() + 1) / 2;
         EXPECT_EQ(sums.front(), num_parts == 1 ? 2 * all : all);
@@ -76,10 +75,9 @@ TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
 TEST(PartWeights, of_points_without_a_part_are_refused_on_all_ranks) {
     const std::vector<double> x(2);
     const std::vector<Part> parts(is_last_rank() ? 1 : 2);
-    test::expect_same_error(
-        [&] { part_weights(interleaved_points(x, 1), parts, 2, MPI_COMM_WORLD); },
-        "rank " + std::to_string(num_ranks() - 1) +
-            ": parts has 1 entries for 2 points; give one per point");
+    test::expect_same_error([&] { part_weights(Points(x, 1), parts, 2, MPI_COMM_WORLD); },
+                            "rank " + std::to_string(num_ranks() - 1) +
+                                ": parts has 1 entries for 2 points; give one per point");
 }
 
 /// Calls of the functions that take parts.
@@ -88,7 +86,7 @@ using Call = std::function<void(std::span<const Part> parts, int num_parts)>;
 const std::vector<Call>& calls() {
     static const std::vector<double> x(5);
     const auto points_of = [](std::span<const Part> parts) {
-        return interleaved_points(std::span(x).first(parts.size()), 1);
+        return Points(std::span(x).first(parts.size()), 1);
     };
     static const std::vector<Call> all{
         [](auto parts, int num_parts) { plan(parts, num_parts, MPI_COMM_WORLD); },
@@ -131,7 +129,7 @@ TEST(MovedFraction, counts_the_weight_that_changes_rank) {
     const std::vector<double> x{0, 1};
     const std::vector<double> weights{1, 3};
     const std::vector<Part> parts{rank(), (rank() + 1) % num_ranks()};
-    const Points points = interleaved_points(x, 1, weights);
+    const Points points(x, 1, weights);
     const double expected = num_ranks() == 1 ? 0 : 0.75;
     EXPECT_DOUBLE_EQ(moved_fraction(points, parts, num_ranks(), MPI_COMM_WORLD), expected);
 }

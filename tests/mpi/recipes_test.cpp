@@ -52,12 +52,11 @@ TEST(TiltedBox, gives_all_pairs_in_3d_with_the_norm_of_its_inverse) {
     for (std::size_t i = 0; i < 200; ++i)
         if (static_cast<int>(i) % num_ranks() == rank())
             scattered.insert(scattered.end(), {all[3 * i], all[3 * i + 1], all[3 * i + 2]});
-    const Balance made = balance(interleaved_points(scattered, 3), {}, {}, MPI_COMM_WORLD);
+    const Balance made = balance(Points(scattered, 3), MPI_COMM_WORLD);
     const std::vector<double> here =
         transfer(plan(made, MPI_COMM_WORLD), column(scattered, 3), MPI_COMM_WORLD);
-    const GhostPlan near =
-        ghosts(made.cuts, interleaved_points(here, 3),
-               {.radius = reach * box.norm_of_inverse(), .periodic = unit}, MPI_COMM_WORLD);
+    const GhostPlan near = ghost_plan(made.cuts, Points(here, 3), MPI_COMM_WORLD,
+                                      {.radius = reach * box.norm_of_inverse(), .periodic = unit});
     std::vector<double> images = fetch(near, column(here, 3), MPI_COMM_WORLD);
     apply_shifts(near, images);
     images.insert(images.end(), here.begin(), here.end());
@@ -113,7 +112,7 @@ TEST(HalfOpenBoxes, contain_the_points_of_a_lattice_by_plain_cuts) {
     const std::vector<double> x = lattice();
     for (const bool plain : {false, true}) {
         Options options{.refine = Refine::exact, .axes = {.plain = plain}};
-        const Balance made = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD);
+        const Balance made = balance(Points(x, 2), MPI_COMM_WORLD, options);
         EXPECT_EQ(num_outside(x, made) > 0, !plain && num_ranks() > 1);
     }
 }
@@ -130,7 +129,7 @@ TEST(LeastNumberOfPoints, is_reached_by_parts_of_size_0) {
         options.part_sizes.assign(num_parts, 0);
         const int num_filled = std::clamp(n / min_points, 1, num_parts);
         std::fill_n(options.part_sizes.begin(), num_filled, 1);
-        const Balance made = balance(interleaved_points(x, 2), options, {}, MPI_COMM_WORLD);
+        const Balance made = balance(Points(x, 2), MPI_COMM_WORLD, options);
         const std::vector<double>& counts = made.report.part_weights;
         EXPECT_EQ(std::reduce(counts.begin(), counts.begin() + num_filled), n);
         EXPECT_GE(*std::min_element(counts.begin(), counts.begin() + num_filled),

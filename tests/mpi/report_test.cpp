@@ -34,13 +34,13 @@ struct WeightedCloud {
         }
     }
 
-    Points points() const { return interleaved_points(coordinates, 2, weights); }
+    Points points() const { return Points(coordinates, 2, weights); }
 
     Report report(Refine refine, double tolerance) const {
         Options asked = options;
         asked.refine = refine;
         asked.imbalance_tolerance = tolerance;
-        return balance(points(), asked, {}, MPI_COMM_WORLD).report;
+        return balance(points(), MPI_COMM_WORLD, asked).report;
     }
 };
 
@@ -93,12 +93,12 @@ TEST(Report, measures_parts_of_tiny_sizes_as_they_are) {
     std::vector<double> mine;
     for (int i = 0; i < 60; ++i)
         if (i % num_ranks() == rank()) mine.push_back(i);
-    const Points points = interleaved_points(mine, 1);
+    const Points points(mine, 1);
     for (const double tiny : {1e-310, 1e-120, 1e-20}) {
         Options options{.num_parts = 3, .part_sizes = {1, tiny, 1}};
         for (const Refine refine : {Refine::tolerance, Refine::exact}) {
             options.refine = refine;
-            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance result = balance(points, MPI_COMM_WORLD, options);
             const auto weights = part_weights(points, result.parts, 3, MPI_COMM_WORLD);
             EXPECT_EQ(result.report.imbalance, imbalance(weights, options.part_sizes));
             EXPECT_EQ(result.report.part_weights, weights);
@@ -108,9 +108,9 @@ TEST(Report, measures_parts_of_tiny_sizes_as_they_are) {
 
 TEST(Measures, of_a_balance_are_those_of_its_parts) {
     const std::vector<double> mine = test::uniform_cloud(500, 2, static_cast<unsigned>(rank() + 1));
-    const Points points = interleaved_points(mine, 2);
+    const Points points(mine, 2);
     Options options{.num_parts = 2 * num_ranks() + 1};
-    const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+    const Balance result = balance(points, MPI_COMM_WORLD, options);
     EXPECT_EQ(part_weights(points, result, MPI_COMM_WORLD),
               part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD));
     EXPECT_EQ(moved_fraction(points, result, MPI_COMM_WORLD),
@@ -126,26 +126,25 @@ TEST(Measures, refuse_weights_of_another_length_and_do_not_hide_those_that_are_n
     const std::vector<double> mine = test::uniform_cloud(20, 2, 1);
     const std::vector<Part> parts(20, 0);
     const std::vector<double> short_weights(rank() == 0 ? 9 : 20, 1.0);
-    const Points points = interleaved_points(mine, 2, short_weights);
+    const Points points(mine, 2, short_weights);
     EXPECT_THROW(part_weights(points, parts, 1, MPI_COMM_WORLD), Error);
     EXPECT_THROW(moved_fraction(points, parts, 1, MPI_COMM_WORLD), Error);
     const std::vector<double> nan(20, std::nan(""));
-    EXPECT_TRUE(
-        std::isnan(moved_fraction(interleaved_points(mine, 2, nan), parts, 1, MPI_COMM_WORLD)));
+    EXPECT_TRUE(std::isnan(moved_fraction(Points(mine, 2, nan), parts, 1, MPI_COMM_WORLD)));
 }
 
 TEST(PartSizes, of_any_magnitude_mean_the_same) {
     std::vector<double> mine = test::uniform_cloud(500, 2, static_cast<unsigned>(rank() + 1));
     for (const double weight : {1.0, 1e300, 1e-300}) {
         const std::vector<double> weights(500, weight);
-        const Points points = interleaved_points(mine, 2, weights);
+        const Points points(mine, 2, weights);
         Options options{.num_parts = 4, .part_sizes = {3, 1, 2, 2}};
-        const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
+        const Balance first = balance(points, MPI_COMM_WORLD, options);
         EXPECT_LE(first.report.imbalance, 1.01);
         for (const double scale : {0x1p-1030, 0x1p1000}) {
             Options scaled = options;
             for (double& size : scaled.part_sizes) size *= scale;
-            const Balance second = balance(points, scaled, {}, MPI_COMM_WORLD);
+            const Balance second = balance(points, MPI_COMM_WORLD, scaled);
             EXPECT_EQ(second.parts, first.parts) << weight << ", " << scale;
         }
     }
@@ -165,18 +164,18 @@ TEST(PartSizes, of_zero_keep_a_part_empty_of_weightless_points_too) {
     const auto expect_empty = [](const Points& points, std::vector<double> sizes, Options options) {
         options.num_parts = static_cast<int>(sizes.size());
         options.part_sizes = sizes;
-        Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+        Balance result = balance(points, MPI_COMM_WORLD, options);
         for (const Part part : result.parts) EXPECT_GT(sizes[static_cast<std::size_t>(part)], 0);
         std::ranges::reverse(options.part_sizes);
         std::ranges::reverse(sizes);
-        result = balance(points, options, result.cuts, MPI_COMM_WORLD);
+        result = balance(points, MPI_COMM_WORLD, options, result.cuts);
         for (const Part part : result.parts) EXPECT_GT(sizes[static_cast<std::size_t>(part)], 0);
     };
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         Options options{.refine = refine};
-        expect_empty(interleaved_points(many, 2, weights), {2, 1e-4, 0}, options);
-        expect_empty(interleaved_points(many, 2, weights), {0, 3, 0, 0, 1}, options);
-        expect_empty(interleaved_points(few, 1), {1, 0, 2, 2, 2}, options);
+        expect_empty(Points(many, 2, weights), {2, 1e-4, 0}, options);
+        expect_empty(Points(many, 2, weights), {0, 3, 0, 0, 1}, options);
+        expect_empty(Points(few, 1), {1, 0, 2, 2, 2}, options);
     }
 }
 

@@ -25,7 +25,7 @@ struct Loop {
     int last = 0;
 
     explicit Loop(MPI_Comm comm) : controller(comm), model(controller, 2) {
-        controller.rebalanced(0.5);
+        controller.rebalanced({.cost = 0.5});
     }
     Loop(const Bytes& state, const Bytes& of_model, MPI_Comm comm)
         : controller(load<Controller>(state, comm)),
@@ -36,7 +36,7 @@ struct Loop {
             if (rebalances_too && controller.due()) {
                 rebalances.push_back(step);
                 (void)model.weights({});
-                controller.rebalanced(0.4 + 0.001 * rank() + 0.01 * (step % 3));
+                controller.rebalanced({.cost = 0.4 + 0.001 * rank() + 0.01 * (step % 3)});
                 last = step;
             }
             // Costs of 2 ms and 10 ms, and a noise of 1 %.
@@ -54,17 +54,17 @@ struct Loop {
 
 TEST(Restart, makes_new_parts_from_the_cuts_of_another_number_of_ranks) {
     const std::vector<double> x{0.1 + rank(), 0.3 + rank(), 0.5 + rank(), 0.7 + rank()};
-    const Points points = interleaved_points(x, 1);
+    const Points points(x, 1);
     const Cuts none;
     EXPECT_TRUE(none.empty());
     for (const int others : {1, num_ranks() + 1, 2 * num_ranks()}) {
-        const Balance earlier = balance(points, {.num_parts = others}, {}, MPI_COMM_WORLD);
+        const Balance earlier = balance(points, MPI_COMM_WORLD, {.num_parts = others});
         EXPECT_FALSE(earlier.cuts.empty());
         const Cuts loaded = load<Cuts>(save(earlier.cuts));
-        const Balance here = balance(points, {}, loaded, MPI_COMM_WORLD);
+        const Balance here = balance(points, MPI_COMM_WORLD, {}, loaded);
         EXPECT_EQ(here.cuts.num_parts, num_ranks());
         EXPECT_EQ(here.report.imbalance, 1);
-        const Balance same = balance(points, {.num_parts = others}, loaded, MPI_COMM_WORLD);
+        const Balance same = balance(points, MPI_COMM_WORLD, {.num_parts = others}, loaded);
         EXPECT_EQ(same.cuts.num_parts, others);
     }
 }
@@ -137,7 +137,7 @@ Cuts cuts_of(int num_parts) {
     const std::vector<double> cloud =
         test::uniform_cloud(200, 2, static_cast<unsigned>(rank() + 3));
     Options options{.num_parts = num_parts};
-    return balance(interleaved_points(cloud, 2), options, {}, MPI_COMM_WORLD).cuts;
+    return balance(Points(cloud, 2), MPI_COMM_WORLD, options).cuts;
 }
 
 /// Returns the bytes as a machine of the other byte order writes them.
@@ -153,7 +153,7 @@ TEST(Restart, reads_cuts_on_any_ranks_and_in_either_byte_order) {
     cuts.numbers = {7, 0, 6, 1, 5, 2, 4, 3};
     cuts.debt = 0.125;
     const std::vector<double> cloud = test::uniform_cloud(100, 2, 5);
-    const Points points = interleaved_points(cloud, 2);
+    const Points points(cloud, 2);
     std::vector<Part> expected(points.count);
     assign(cuts, points, expected);
     for (const Bytes& bytes : {save(cuts), reversed(save(cuts))}) {
@@ -165,14 +165,14 @@ TEST(Restart, reads_cuts_on_any_ranks_and_in_either_byte_order) {
         EXPECT_EQ(loaded.numbers, cuts.numbers);
         EXPECT_EQ(loaded.debt, cuts.debt);
         // 8 parts on these ranks, whose number is another.
-        parts = assign_all(loaded, points, MPI_COMM_WORLD);
+        parts = assign(loaded, points, MPI_COMM_WORLD);
         EXPECT_EQ(parts, expected);
         (void)transfer(plan(parts, 8, MPI_COMM_WORLD), column(cloud, 2), MPI_COMM_WORLD);
         Options options{.num_parts = 7};
-        expect_same_error([&] { (void)balance(points, options, loaded, MPI_COMM_WORLD); },
+        expect_same_error([&] { (void)balance(points, MPI_COMM_WORLD, options, loaded); },
                           "previous cuts have 8 parts, not 7");
         options.num_parts = loaded.num_parts;
-        EXPECT_TRUE(balance(points, options, loaded, MPI_COMM_WORLD).report.imbalance < 1.2);
+        EXPECT_TRUE(balance(points, MPI_COMM_WORLD, options, loaded).report.imbalance < 1.2);
     }
     Loop loop(MPI_COMM_WORLD);
     loop.run(0, 20);

@@ -22,7 +22,7 @@ inline HeldPoints cloud(int dimension, std::size_t count, bool is_lattice) {
 /// What each part weighs over all ranks, by looking up every point; by count without weight.
 inline std::vector<double> weights_by_look_up(const HeldPoints& all, const Cuts& cuts) {
     const bool by_count = std::ranges::all_of(all.weights, [](double w) { return w == 0; });
-    const Points points = interleaved_points(all.coordinates, all.dimension);
+    const Points points(all.coordinates, all.dimension);
     std::vector<double> weights(static_cast<std::size_t>(cuts.num_parts));
     for (std::size_t i = 0; i < points.count; ++i)
         weights[static_cast<std::size_t>(part_of(cuts, points.position(i)))] +=

@@ -77,9 +77,9 @@ TEST(Reuse, keeps_cuts_within_the_tolerance_and_tells_what_their_parts_weigh) {
                     if (weight >= 0) all.weights.assign(all.count(), weight);
                     const Share mine(all);
                     const Options options = with_parts(num_parts, 1.2);
-                    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+                    const Balance first = balance(mine.points(), MPI_COMM_WORLD, options);
                     const Points points = mine.points();
-                    const Balance second = balance(points, options, first.cuts, MPI_COMM_WORLD);
+                    const Balance second = balance(points, MPI_COMM_WORLD, options, first.cuts);
                     EXPECT_TRUE(same_cuts(second.cuts, first.cuts));
                     for (std::size_t i = 0; i < points.count; ++i)
                         ASSERT_EQ(second.parts[i], part_of(first.cuts, points.position(i)));
@@ -98,14 +98,14 @@ TEST(Reuse, without_refinement_keeps_cuts_within_the_tolerance_only) {
     const Share mine(all);
     Options options = with_parts(3, 1.2);
     options.refine = Refine::none;
-    const Cuts first = balance(mine.points(), options, {}, MPI_COMM_WORLD).cuts;
-    const Balance kept = balance(mine.points(), options, first, MPI_COMM_WORLD);
+    const Cuts first = balance(mine.points(), MPI_COMM_WORLD, options).cuts;
+    const Balance kept = balance(mine.points(), MPI_COMM_WORLD, options, first);
     EXPECT_TRUE(same_cuts(kept.cuts, first));
     EXPECT_EQ(kept.report.part_weights, weights_by_look_up(all, first));
     EXPECT_TRUE(kept.report.within_tolerance);
     const Cuts poor{
         2, 3, {Cut{0, 0, {0.1, -INFINITY, -INFINITY}}, Cut{1, 0, {-INFINITY, 0.9, -INFINITY}}}};
-    const Balance made = balance(mine.points(), options, poor, MPI_COMM_WORLD);
+    const Balance made = balance(mine.points(), MPI_COMM_WORLD, options, poor);
     EXPECT_LT(imbalance(weights_by_look_up(all, made.cuts)), 1.2);
     for (std::size_t i = 0; i < made.parts.size(); ++i)
         ASSERT_EQ(made.parts[i], part_of(made.cuts, mine.points().position(i)));
@@ -117,11 +117,11 @@ TEST(Reuse, of_the_same_axes_makes_the_cuts_of_a_call_from_nothing) {
         Options options = with_parts(7, 1.02);
         options.refine = refine;
         options.axes.order = AxisOrder::given({0, 1, 1, 0, 1, 1});
-        const Cuts first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD).cuts;
+        const Cuts first = balance(Share(all).points(), MPI_COMM_WORLD, options).cuts;
         for (double& x : all.coordinates) x *= x;
         const Share mine(all);
-        const Balance second = balance(mine.points(), options, first, MPI_COMM_WORLD);
-        const Balance anew = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance second = balance(mine.points(), MPI_COMM_WORLD, options, first);
+        const Balance anew = balance(mine.points(), MPI_COMM_WORLD, options);
         EXPECT_FALSE(same_cuts(second.cuts, first));
         EXPECT_TRUE(same_cuts(second.cuts, anew.cuts));
         EXPECT_EQ(second.parts, anew.parts);
@@ -135,12 +135,12 @@ TEST(Reuse, takes_two_collectives_and_no_memory_that_grows_with_the_points) {
     for (const std::size_t count : {std::size_t{1000}, std::size_t{100000}}) {
         const std::vector<double> mine =
             test::uniform_cloud(count, 2, static_cast<unsigned>(rank() + 1));
-        const Points points = interleaved_points(mine, 2);
+        const Points points(mine, 2);
         const Options options = with_parts(8, 1.05);
-        const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
+        const Balance first = balance(points, MPI_COMM_WORLD, options);
         num_collectives = 0;
         const std::size_t before = bytes_allocated;
-        const Balance second = balance(points, options, first.cuts, MPI_COMM_WORLD);
+        const Balance second = balance(points, MPI_COMM_WORLD, options, first.cuts);
         bytes[count == 1000 ? 0 : 1] = bytes_allocated - before - count * sizeof(Part);
         EXPECT_LE(num_collectives, 2);
         EXPECT_EQ(second.report.details.rounds, 1);
@@ -153,10 +153,10 @@ TEST(Reuse, keeps_the_axes_of_cuts_beyond_the_tolerance) {
         HeldPoints all = cloud(2, 6000, false);
         const Options options = with_parts(7, tolerance);
         const Share before(all);
-        const Cuts first = balance(before.points(), options, {}, MPI_COMM_WORLD).cuts;
+        const Cuts first = balance(before.points(), MPI_COMM_WORLD, options).cuts;
         for (double& x : all.coordinates) x *= x;
         const Share mine(all);
-        const Balance second = balance(mine.points(), options, first, MPI_COMM_WORLD);
+        const Balance second = balance(mine.points(), MPI_COMM_WORLD, options, first);
         EXPECT_LE(imbalance(weights_by_look_up(all, second.cuts)), tolerance);
         EXPECT_EQ(second.report.part_weights, weights_by_look_up(all, second.cuts));
         EXPECT_FALSE(same_cuts(second.cuts, first));
@@ -176,8 +176,8 @@ TEST(Reuse, moves_no_points_at_rest_unless_parts_become_more_even) {
         const Share mine(all);
         Options options = with_parts(static_cast<int>(2 + seed % 17), 1.001);
         options.axes.order = AxisOrder::longest();
-        const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
-        const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+        const Balance first = balance(mine.points(), MPI_COMM_WORLD, options);
+        const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
         constexpr double round_off = 1e-12;
         if (again.report.imbalance < first.report.imbalance * (1 - round_off)) continue;
         EXPECT_EQ(again.parts, first.parts) << "seed " << seed;
@@ -189,9 +189,9 @@ TEST(Reuse, moves_no_points_at_rest_unless_parts_become_more_even) {
 TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
     const Options options = with_parts(4, 1.05);
     std::vector<double> mine = test::uniform_cloud(700, 2, static_cast<unsigned>(rank() + 1));
-    const Cuts cuts = balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD).cuts;
+    const Cuts cuts = balance(Points(mine, 2), MPI_COMM_WORLD, options).cuts;
     const auto call = [&](const Cuts& previous, std::span<const double> weights = {}) {
-        balance(interleaved_points(mine, 2, weights), options, previous, MPI_COMM_WORLD);
+        balance(Points(mine, 2, weights), MPI_COMM_WORLD, options, previous);
     };
     const bool is_last = test::is_last_rank();
     if (num_ranks() > 1) {
@@ -200,14 +200,14 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
         test::expect_same_error([&] { call(others); }, "previous differs between rank");
         test::expect_same_error(
             [&] {
-                balance(interleaved_points(mine, 2), with_parts(is_last ? 5 : 4, 1.05),
-                        is_last ? Cuts{2, 5, {Cut{}, Cut{}, Cut{}, Cut{}}} : cuts, MPI_COMM_WORLD);
+                balance(Points(mine, 2), MPI_COMM_WORLD, with_parts(is_last ? 5 : 4, 1.05),
+                        is_last ? Cuts{2, 5, {Cut{}, Cut{}, Cut{}, Cut{}}} : cuts);
             },
             "num_parts differs between rank");
         test::expect_same_error(
             [&] {
                 if (is_last)
-                    balance(interleaved_points(mine, 2), options, {}, MPI_COMM_WORLD);
+                    balance(Points(mine, 2), MPI_COMM_WORLD, options);
                 else
                     call(cuts);
             },
@@ -235,8 +235,8 @@ TEST(Reuse, goes_on_where_ranks_are_empty) {
     std::ranges::fill(all.owners, num_ranks() / 2);
     const Share mine(all);
     const Options options = with_parts(3, 1.05);
-    const Cuts cuts = balance(mine.points(), options, {}, MPI_COMM_WORLD).cuts;
-    EXPECT_EQ(balance(mine.points(), options, cuts, MPI_COMM_WORLD).report.part_weights,
+    const Cuts cuts = balance(mine.points(), MPI_COMM_WORLD, options).cuts;
+    EXPECT_EQ(balance(mine.points(), MPI_COMM_WORLD, options, cuts).report.part_weights,
               weights_by_look_up(all, cuts));
 }
 
@@ -251,16 +251,16 @@ auto told(const Report& report) {
 
 TEST(Reuse, without_points_tells_what_a_call_from_nothing_does) {
     const HeldPoints all = cloud(2, 500, false);
-    const Points none{.dimension = 2};
+    const Points none({}, 2);
     for (const bool limited : {false, true}) {
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             Options options = with_parts(3, 1.05);
             options.refine = refine;
             if (limited) options.axes.min_width = {0.1, 0.1};
-            const Cuts cuts = balance(Share(all).points(), options, {}, MPI_COMM_WORLD).cuts;
-            const Balance empty = balance(none, options, cuts, MPI_COMM_WORLD);
+            const Cuts cuts = balance(Share(all).points(), MPI_COMM_WORLD, options).cuts;
+            const Balance empty = balance(none, MPI_COMM_WORLD, options, cuts);
             EXPECT_TRUE(same_cuts(empty.cuts, cuts));
-            EXPECT_EQ(told(empty.report), told(balance(none, options, {}, MPI_COMM_WORLD).report))
+            EXPECT_EQ(told(empty.report), told(balance(none, MPI_COMM_WORLD, options).report))
                 << limited << static_cast<int>(refine);
             EXPECT_EQ(empty.report.details.estimated_imbalance, 1);
             EXPECT_EQ(empty.report.imbalance, 1);

@@ -28,7 +28,7 @@ Balance balance_by(const AxisOrder& order, int central_parts, int dimension) {
     options.axes.order = order;
     options.tuning.central_parts = central_parts;
     const std::vector<double> mine = drops(dimension);
-    return balance(interleaved_points(mine, dimension), options, {}, MPI_COMM_WORLD);
+    return balance(Points(mine, dimension), MPI_COMM_WORLD, options);
 }
 
 /// Points with another part within about three spacings of the layer.
@@ -36,7 +36,7 @@ int num_ghosts(const Cuts& cuts) {
     const int dimension = cuts.dimension;
     const double radius = 3 * std::pow(0.03 / num_points, 1.0 / dimension);
     const std::vector<double> mine = drops(dimension);
-    const Points points = interleaved_points(mine, dimension);
+    const Points points(mine, dimension);
     int number = 0;
     for (LocalIndex i = 0; i < points.count; ++i) {
         const Vector x = points.position(i);

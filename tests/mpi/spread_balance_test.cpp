@@ -52,11 +52,11 @@ TEST(SpreadBalance, tolerance_is_met_and_measured) {
             for (const int per_rank : {1, 3}) {
                 const auto mine =
                     share_of_cloud(20000, 2, [](std::size_t, int, double u) { return u * u; });
-                const Points points = interleaved_points(mine, 2);
+                const Points points(mine, 2);
                 Options options = spread_options(central, Refine::tolerance);
                 options.imbalance_tolerance = tolerance;
                 options.num_parts = per_rank * num_ranks();
-                const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+                const Balance result = balance(points, MPI_COMM_WORLD, options);
                 const auto weights = expect_consistent(points, result);
                 EXPECT_LE(imbalance(weights), tolerance);
                 EXPECT_TRUE(result.report.within_tolerance);
@@ -73,11 +73,11 @@ TEST(SpreadBalance, a_tolerance_that_exact_cuts_reach_is_not_missed) {
             std::vector<double> weights;
             for (std::size_t i = 0; i < mine.size(); i += 2)
                 weights.push_back(0.5 + mine[i] * mine[i + 1]);
-            const Points points = interleaved_points(mine, 2, weights);
-            const Balance exact = balance(points, spread_options(central), {}, MPI_COMM_WORLD);
+            const Points points(mine, 2, weights);
+            const Balance exact = balance(points, MPI_COMM_WORLD, spread_options(central));
             Options options = spread_options(central, Refine::tolerance);
             options.imbalance_tolerance = exact.report.imbalance;
-            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance result = balance(points, MPI_COMM_WORLD, options);
             expect_consistent(points, result);
             EXPECT_TRUE(result.report.within_tolerance) << central << ", " << count;
         }
@@ -94,11 +94,11 @@ TEST(SpreadBalance, a_small_part_gets_no_point_that_another_has_more_room_for) {
             const auto mine = share_of_cloud(static_cast<std::size_t>(count), 1, uniform);
             std::vector<double> weights(mine.size(), 1.0);
             if (is_weighted && !weights.empty()) weights[0] = 1 + 1e-9;
-            const Points points = interleaved_points(mine, 1, weights);
+            const Points points(mine, 1, weights);
             Options options = spread_options(central, Refine::tolerance);
             options.part_sizes = sizes;
             options.imbalance_tolerance = 1.2;
-            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance result = balance(points, MPI_COMM_WORLD, options);
             const auto sums = expect_consistent(points, result);
             EXPECT_LE(imbalance(sums, sizes), 1.2) << central;
             EXPECT_TRUE(result.report.within_tolerance);
@@ -111,26 +111,26 @@ void expect_axes(const Cuts& cuts, const std::vector<int>& cut_axes) {
 
 TEST(SpreadBalance, cuts_lie_across_the_axes_given_to_them) {
     const auto mine = share_of_cloud(2048, 3, uniform);
-    const Points points = interleaved_points(mine, 3);
+    const Points points(mine, 3);
     for (const Refine refine : {Refine::exact, Refine::tolerance})
         for (const int central : central_parts()) {
             Options options = spread_options(central, refine);
             options.imbalance_tolerance = 1.05;
-            const Balance free = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance free = balance(points, MPI_COMM_WORLD, options);
             std::vector<int> axes;
             for (int node = 0; node + 1 < num_ranks(); ++node)
                 axes.push_back((node * node + 1) % 3);
             options.axes.order = AxisOrder::given(axes);
-            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance result = balance(points, MPI_COMM_WORLD, options);
             EXPECT_LE(imbalance(expect_consistent(points, result)), 1.05);
             expect_axes(result.cuts, axes);
             // Cuts across other axes are made anew.
-            const Balance again = balance(points, options, free.cuts, MPI_COMM_WORLD);
+            const Balance again = balance(points, MPI_COMM_WORLD, options, free.cuts);
             expect_axes(again.cuts, axes);
             EXPECT_EQ(again.parts, result.parts);
             if (refine != Refine::exact) continue;
             options.tuning.central_parts = num_ranks();
-            EXPECT_EQ(result.parts, balance(points, options, {}, MPI_COMM_WORLD).parts);
+            EXPECT_EQ(result.parts, balance(points, MPI_COMM_WORLD, options).parts);
         }
 }
 
@@ -140,16 +140,16 @@ TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ra
         for (const int central : central_parts()) {
             const auto mine = share_of_cloud(
                 600, 2, [&](std::size_t, int, double u) { return std::floor(u * places); });
-            const Points points = interleaved_points(mine, 2);
+            const Points points(mine, 2);
             Options options = spread_options(central);
             options.coincident = Coincident::divide;
             options.refine = Refine::tolerance;
             options.imbalance_tolerance = 1.05;
-            const Balance good = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance good = balance(points, MPI_COMM_WORLD, options);
             EXPECT_LE(imbalance(part_weights(points, good.parts, num_ranks(), MPI_COMM_WORLD)),
                       1.05);
             options.refine = Refine::exact;
-            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+            const Balance result = balance(points, MPI_COMM_WORLD, options);
             test::expect_same_cuts_on_all_ranks(result.cuts);
             const auto weights = part_weights(points, result.parts, num_ranks(), MPI_COMM_WORLD);
             for (const double weight : weights)
@@ -171,8 +171,8 @@ TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ra
 TEST(SpreadBalance, there_may_be_fewer_points_than_parts_and_none_at_all) {
     for (const std::size_t count : {0U, 1U, 3U}) {
         const auto mine = share_of_cloud(count, 2, uniform);
-        const Points points = interleaved_points(mine, 2);
-        const Balance result = balance(points, spread_options(2), {}, MPI_COMM_WORLD);
+        const Points points(mine, 2);
+        const Balance result = balance(points, MPI_COMM_WORLD, spread_options(2));
         const auto weights = expect_consistent(points, result);
         EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), 0.0), count);
         EXPECT_LE(*std::ranges::max_element(weights), count == 3 && num_ranks() == 3 ? 2 : 1);
@@ -184,12 +184,12 @@ TEST(SpreadBalance, there_may_be_fewer_points_than_parts_and_none_at_all) {
 TEST(SpreadBalance, points_in_a_divided_place_are_looked_up_on_every_rank) {
     const auto mine =
         share_of_cloud(600, 2, [](std::size_t, int, double u) { return std::floor(3 * u); });
-    const Points points = interleaved_points(mine, 2);
+    const Points points(mine, 2);
     for (const Refine refine : {Refine::exact, Refine::tolerance}) {
         Options options = spread_options(2, refine);
         options.num_parts = 3 * num_ranks();
         options.coincident = Coincident::divide;
-        const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(points, MPI_COMM_WORLD, options);
         EXPECT_GT(result.report.details.coincident_cuts, 0);
         test::expect_same_cuts_on_all_ranks(result.cuts);
         std::vector<Part> parts(points.count);
@@ -201,19 +201,19 @@ TEST(SpreadBalance, points_in_a_divided_place_are_looked_up_on_every_rank) {
 
 TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
     std::vector<double> mine = share_of_cloud(1000, 2, uniform);
-    const Points points = interleaved_points(mine, 2);
+    const Points points(mine, 2);
     for (const int faulty : {0, num_ranks() - 1}) {
         Options options = spread_options(2);
         if (rank() == faulty) options.tuning.central_parts = 1;
         test::expect_same_error(
-            [&] { balance(points, options, {}, MPI_COMM_WORLD); },
+            [&] { balance(points, MPI_COMM_WORLD, options); },
             "rank " + std::to_string(faulty) + ": tuning.central_parts must be at least 2");
         options.tuning.central_parts = rank() == faulty ? 2 : 1000;
-        test::expect_same_error([&] { balance(points, options, {}, MPI_COMM_WORLD); },
+        test::expect_same_error([&] { balance(points, MPI_COMM_WORLD, options); },
                                 "central_parts differs between rank");
     }
     const std::vector<double> fine{0.5, 1.5};
-    EXPECT_EQ(balance(interleaved_points(fine, 1), {}, {}, MPI_COMM_WORLD).parts.size(), 2u);
+    EXPECT_EQ(balance(Points(fine, 1), MPI_COMM_WORLD).parts.size(), 2u);
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ Options spread_options(double tolerance) {
 
 /// The cuts tell the part of every point, of any rank, but of those that they divide. Collective.
 void expect_cuts_of_all(const HeldPoints& all, const Balance& result) {
-    const Points points = interleaved_points(all.coordinates, all.dimension);
-    const std::vector<Part> parts = assign_all(result.cuts, points, MPI_COMM_WORLD);
+    const Points points(all.coordinates, all.dimension);
+    const std::vector<Part> parts = assign(result.cuts, points, MPI_COMM_WORLD);
     std::size_t num_strays = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) num_strays += parts[i] != all.owners[i] ? 1 : 0;
     if (result.report.details.coincident_cuts == 0) {
@@ -50,7 +50,7 @@ void expect_rest(HeldPoints all, const Options& options) {
     Cuts before;
     for (int call = 1; call <= 3; ++call) {
         const Share mine(all);
-        const Balance result = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(mine.points(), MPI_COMM_WORLD, options);
         const std::size_t num_moved = move_to(result.parts, all);
         const Cuts& cuts = result.cuts;
         if (call > 1) {

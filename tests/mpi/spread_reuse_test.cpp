@@ -64,11 +64,11 @@ TEST(SpreadReuse, keeps_cuts_while_their_parts_are_within_the_tolerance) {
             for (const int num_parts : {num_ranks(), 3 * num_ranks() + 1}) {
                 HeldPoints all = uneven_cloud(dimension, has_weights);
                 const Options options = spread_options(num_parts, 1.2);
-                const Balance first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD);
+                const Balance first = balance(Share(all).points(), MPI_COMM_WORLD, options);
                 const Cuts& whole = first.cuts;
                 drift(1e-3, all);
                 const Share mine(all);
-                const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+                const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
                 const double expected = imbalance_by_look_up(all, whole);
                 ASSERT_LE(expected, 1.2) << "the cloud drifted too far for this test";
                 expect_parts(mine, whole, again);
@@ -89,18 +89,18 @@ TEST(SpreadReuse, finds_the_parts_of_points_that_have_come_from_anywhere) {
     HeldPoints all = uneven_cloud(2, false);
     const Options options = spread_options(num_parts, 3000);
     // Points in the regions of their ranks.
-    const Balance first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD);
+    const Balance first = balance(Share(all).points(), MPI_COMM_WORLD, options);
     const Cuts& whole = first.cuts;
     for (std::size_t i = 0; i < all.count(); ++i) {
-        const Part part = part_of(whole, interleaved_points(all.coordinates, 2).position(i));
+        const Part part = part_of(whole, Points(all.coordinates, 2).position(i));
         all.owners[i] = ranks_of_part(part, num_parts, num_ranks()).first_rank;
     }
-    const Balance settled = balance(Share(all).points(), options, first.cuts, MPI_COMM_WORLD);
+    const Balance settled = balance(Share(all).points(), MPI_COMM_WORLD, options, first.cuts);
     // Then each rank gets those of others, one after the other.
     for (int turn = 1; turn < num_ranks(); ++turn) {
         for (Part& owner : all.owners) owner = (owner + 1) % num_ranks();
         const Share mine(all);
-        const Balance again = balance(mine.points(), options, settled.cuts, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, settled.cuts);
         expect_parts(mine, whole, again);
         EXPECT_EQ(again.report.details.rounds, 1);
         EXPECT_NEAR(again.report.imbalance, imbalance_by_look_up(all, whole), 1e-9);
@@ -114,11 +114,11 @@ TEST(SpreadReuse, keeps_points_together_that_a_cut_divided) {
     const Share mine(all);
     Options options = spread_options(num_ranks() + 2, 1.02);
     options.coincident = Coincident::divide;
-    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+    const Balance first = balance(mine.points(), MPI_COMM_WORLD, options);
     options.imbalance_tolerance = 1000;
     for (const bool plain : {false, true}) {
         options.axes.plain = plain;
-        const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
         const Cuts& after = again.cuts;
         expect_parts(mine, after, again);
         EXPECT_EQ(again.report.details.rounds, 1);
@@ -133,7 +133,7 @@ TEST(SpreadReuse, keeps_points_together_that_a_cut_divided) {
 TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
     HeldPoints all = uneven_cloud(2, true);
     Options options = spread_options(num_ranks(), 1.05);
-    const Balance first = balance(Share(all).points(), options, {}, MPI_COMM_WORLD);
+    const Balance first = balance(Share(all).points(), MPI_COMM_WORLD, options);
     std::vector<int> axes;
     for (const Cut& cut : first.cuts.tree) axes.push_back(cut.axis);
     drift(0.3, all);
@@ -142,8 +142,8 @@ TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
         options.refine = refine;
         Options along = options;
         along.axes.order = AxisOrder::given(axes);
-        const Balance fresh = balance(mine.points(), along, {}, MPI_COMM_WORLD);
-        const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+        const Balance fresh = balance(mine.points(), MPI_COMM_WORLD, along);
+        const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
         if (num_ranks() > 2) {
             EXPECT_EQ(again.parts, fresh.parts);
         }
@@ -153,7 +153,7 @@ TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
     // Rank 0 makes the parts, from cuts of many.
     options.tuning.central_parts = 1000;
     options.refine = Refine::tolerance;
-    EXPECT_LE(balance(mine.points(), options, first.cuts, MPI_COMM_WORLD).report.imbalance, 1.05);
+    EXPECT_LE(balance(mine.points(), MPI_COMM_WORLD, options, first.cuts).report.imbalance, 1.05);
 }
 
 TEST(SpreadReuse, counts_points_without_weight_and_keeps_the_cuts_without_points) {
@@ -161,15 +161,15 @@ TEST(SpreadReuse, counts_points_without_weight_and_keeps_the_cuts_without_points
     all.weights.assign(all.count(), 0.0);
     const Options options = spread_options(num_ranks(), 1.1);
     const Share mine(all);
-    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+    const Balance first = balance(mine.points(), MPI_COMM_WORLD, options);
     const Cuts& whole = first.cuts;
-    const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+    const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
     EXPECT_TRUE(again.report.details.all_weights_zero);
     EXPECT_EQ(again.parts, first.parts);
     EXPECT_NEAR(again.report.imbalance, imbalance_by_look_up(all, whole), 1e-9);
 
     const std::vector<double> none;
-    const Balance empty = balance(interleaved_points(none, 2), options, first.cuts, MPI_COMM_WORLD);
+    const Balance empty = balance(Points(none, 2), MPI_COMM_WORLD, options, first.cuts);
     EXPECT_TRUE(test::same_cuts(empty.cuts, whole));
     EXPECT_EQ(empty.report.details.rounds, 0);
 }
@@ -179,8 +179,8 @@ TEST(SpreadReuse, measures_weights_so_small_that_a_mean_part_is_no_double) {
     for (double& weight : all.weights) weight = weight > 1.45 ? 5e-324 : 0;
     const Share mine(all);
     const Options options = spread_options(num_ranks(), 1.2);
-    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
-    const Balance again = balance(mine.points(), options, first.cuts, MPI_COMM_WORLD);
+    const Balance first = balance(mine.points(), MPI_COMM_WORLD, options);
+    const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
     EXPECT_EQ(again.report.details.rounds, 1);
     EXPECT_NEAR(again.report.imbalance, imbalance_by_look_up(all, again.cuts), 1e-9);
 }
@@ -190,11 +190,11 @@ TEST(SpreadReuse, tells_all_ranks_what_is_wrong_on_one) {
     HeldPoints all = uneven_cloud(2, false);
     const Options options = spread_options(num_ranks(), 1.1);
     Share mine(all);
-    const Balance first = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+    const Balance first = balance(mine.points(), MPI_COMM_WORLD, options);
     const auto expect = [&](const std::string& text, const Cuts& previous, const Options& asked) {
-        test::expect_same_error([&] { balance(mine.points(), asked, previous, MPI_COMM_WORLD); },
+        test::expect_same_error([&] { balance(mine.points(), MPI_COMM_WORLD, asked, previous); },
                                 text);
-        EXPECT_EQ(balance(Share(all).points(), options, first.cuts, MPI_COMM_WORLD).parts,
+        EXPECT_EQ(balance(Share(all).points(), MPI_COMM_WORLD, options, first.cuts).parts,
                   first.parts);
     };
     const bool is_last = test::is_last_rank();

@@ -22,8 +22,7 @@ TEST(Strays, cost_no_rounds) {
                 const std::vector<double> mine = in_a_box(dimension, width);
                 Options options{.num_parts = num_parts};
                 const Report report =
-                    balance(interleaved_points(mine, dimension), options, {}, MPI_COMM_WORLD)
-                        .report;
+                    balance(Points(mine, dimension), MPI_COMM_WORLD, options).report;
                 EXPECT_LE(report.details.rounds, 6);
                 EXPECT_TRUE(report.within_tolerance);
                 EXPECT_LE(report.details.estimated_imbalance, 1.01);

@@ -34,7 +34,7 @@ HeldPoints clusters(int dimension, unsigned seed, std::size_t count = 12000) {
 
 /// What each part weighs, by looking up all points of all ranks.
 std::vector<double> weights_by_look_up(const HeldPoints& all, const Cuts& cuts) {
-    const Points points = interleaved_points(all.coordinates, all.dimension, all.weights);
+    const Points points(all.coordinates, all.dimension, all.weights);
     std::vector<double> weights(static_cast<std::size_t>(cuts.num_parts));
     for (std::size_t i = 0; i < points.count; ++i)
         weights[static_cast<std::size_t>(part_of(cuts, points.position(i)))] += points.weight(i);
@@ -73,10 +73,10 @@ TEST(Tolerance, takes_no_more_rounds_than_exact_cuts_but_for_the_first_counts) {
         for (const int num_parts : {16, 64}) {
             Options exact = with_parts(num_parts, 1);
             exact.refine = Refine::exact;
-            const Report of_exact = balance(mine.points(), exact, {}, MPI_COMM_WORLD).report;
+            const Report of_exact = balance(mine.points(), MPI_COMM_WORLD, exact).report;
             for (const double tolerance : {1.1, 1.02, 1.003, 1.001}) {
                 const Options options = with_parts(num_parts, tolerance);
-                const Report report = balance(mine.points(), options, {}, MPI_COMM_WORLD).report;
+                const Report report = balance(mine.points(), MPI_COMM_WORLD, options).report;
                 EXPECT_LE(report.details.rounds, of_exact.details.rounds + rounds_more_than_exact)
                     << seed << ", " << num_parts << " parts to " << tolerance;
                 EXPECT_LE(report.imbalance, std::max(tolerance, of_exact.imbalance));
@@ -90,13 +90,13 @@ TEST(Tolerance, is_met_by_earlier_cuts_that_move_along) {
         HeldPoints all = clusters(2 + static_cast<int>(seed % 2), seed);
         const Options options = with_parts(2 + static_cast<int>(seed), 1.02);
         const Share before(all);
-        const Cuts first = balance(before.points(), options, {}, MPI_COMM_WORLD).cuts;
+        const Cuts first = balance(before.points(), MPI_COMM_WORLD, options).cuts;
         for (double& x : all.coordinates) x = std::pow(x + 1, 1.05);
         const Share mine(all);
-        const Balance second = balance(mine.points(), options, first, MPI_COMM_WORLD);
+        const Balance second = balance(mine.points(), MPI_COMM_WORLD, options, first);
         EXPECT_LE(second.report.imbalance, 1.02);
         expect_as_looked_up(all, mine.points(), second, options.part_sizes);
-        EXPECT_TRUE(same_bits(second, balance(mine.points(), options, first, MPI_COMM_WORLD)));
+        EXPECT_TRUE(same_bits(second, balance(mine.points(), MPI_COMM_WORLD, options, first)));
     }
 }
 
@@ -108,11 +108,11 @@ TEST(Tolerance, is_met_among_points_that_share_coordinates) {
             if (i % 2 == 0) all.coordinates[i] = std::round(4 * all.coordinates[i]);
         const Share mine(all);
         Options options = with_parts(7, 1.01);
-        const Balance result = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance result = balance(mine.points(), MPI_COMM_WORLD, options);
         EXPECT_LE(result.report.imbalance, 1.01);
         expect_as_looked_up(all, mine.points(), result, options.part_sizes);
         options.axes.plain = true;
-        const Balance plain = balance(mine.points(), options, {}, MPI_COMM_WORLD);
+        const Balance plain = balance(mine.points(), MPI_COMM_WORLD, options);
         expect_as_looked_up(all, mine.points(), plain, options.part_sizes);
         for (const Cut& cut : plain.cuts.tree) EXPECT_EQ(cut.at[1 - cut.axis], -INFINITY);
     }

@@ -115,8 +115,8 @@ TEST(TreeShape, each_point_is_where_the_cuts_of_whole_groups_put_it) {
             Options options = options_for(all, larger_below);
             options.refine = refine;
             const std::vector<double> coordinates = cloud_here(2);
-            const Points points = interleaved_points(coordinates, 2);
-            const Balance result = balance(points, options, {}, MPI_COMM_WORLD);
+            const Points points(coordinates, 2);
+            const Balance result = balance(points, MPI_COMM_WORLD, options);
             EXPECT_EQ(result.cuts.shape, options.tree);
             const std::vector<Node> nodes = nodes_of(all, larger_below);
             ASSERT_EQ(result.cuts.tree.size(), nodes.size());
@@ -140,18 +140,18 @@ TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
         Options options = options_for(all, larger_below);
         options.tuning.central_parts = 2;
         if (all.dealt > 0) {
-            EXPECT_THROW(balance(interleaved_points({}, 3), options, {}, MPI_COMM_WORLD), Error);
+            EXPECT_THROW(balance(Points({}, 3), MPI_COMM_WORLD, options), Error);
             return;
         }
         const std::vector<double> coordinates = cloud_here(3);
-        const Points points = interleaved_points(coordinates, 3);
-        const Balance spread = balance(points, options, {}, MPI_COMM_WORLD);
+        const Points points(coordinates, 3);
+        const Balance spread = balance(points, MPI_COMM_WORLD, options);
         EXPECT_TRUE(spread.report.within_tolerance) << spread.report.imbalance;
         const std::vector<Node> nodes = nodes_of(all, larger_below);
         for (LocalIndex i = 0; i < points.count; ++i)
             ASSERT_TRUE(leave_to(spread.parts[i], spread.cuts, nodes, points.position(i)));
-        EXPECT_EQ(assign_all(spread.cuts, points, MPI_COMM_WORLD), spread.parts);
-        const Balance again = balance(points, options, spread.cuts, MPI_COMM_WORLD);
+        EXPECT_EQ(assign(spread.cuts, points, MPI_COMM_WORLD), spread.parts);
+        const Balance again = balance(points, MPI_COMM_WORLD, options, spread.cuts);
         EXPECT_EQ(again.parts, spread.parts);
     });
 }
@@ -159,25 +159,25 @@ TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
 TEST(TreeShape, is_that_of_earlier_cuts) {
     Options options{.tree = {2, true}};
     const std::vector<double> coordinates = cloud_here(2);
-    const Points points = interleaved_points(coordinates, 2);
-    const Balance first = balance(points, options, {}, MPI_COMM_WORLD);
-    const Balance again = balance(points, options, first.cuts, MPI_COMM_WORLD);
+    const Points points(coordinates, 2);
+    const Balance first = balance(points, MPI_COMM_WORLD, options);
+    const Balance again = balance(points, MPI_COMM_WORLD, options, first.cuts);
     EXPECT_EQ(again.parts, first.parts);
     EXPECT_EQ(again.cuts.shape, options.tree);
     Options other = options;
     other.tree = {};
     if (num_ranks() == 1) return;
-    EXPECT_THROW(balance(points, other, first.cuts, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance(points, MPI_COMM_WORLD, other, first.cuts), Error);
 }
 
 TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
     Options options{.tree = {.group_size = -1}};
-    EXPECT_THROW(balance(interleaved_points({}, 2), options, {}, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(balance(Points({}, 2), MPI_COMM_WORLD, options), Error);
     options.num_parts = 10;
     for (const TreeShape& shape :
          {TreeShape{4, false, 1}, {5, false, 2}, {3, false, -1}, {0, false, 2}}) {
         options.tree = shape;
-        EXPECT_THROW(balance(interleaved_points({}, 2), options, {}, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(balance(Points({}, 2), MPI_COMM_WORLD, options), Error);
     }
 }
 
@@ -186,10 +186,10 @@ TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
     for_each_shape([](const Machines& all, bool larger_below) {
         const Options options = options_for(all, larger_below);
         const std::vector<double> coordinates = cloud_here(2);
-        const Points points = interleaved_points(coordinates, 2);
-        Cuts cuts = balance(points, options, {}, MPI_COMM_WORLD).cuts;
+        const Points points(coordinates, 2);
+        Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
         cuts.points = 0;  // the points stay where they are
-        const GhostPlan found = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);
+        const GhostPlan found = ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = radius});
         std::vector<std::size_t> expected;
         for (int to = 0; to < num_ranks(); ++to) {
             for (LocalIndex i = 0; i < points.count && to != rank(); ++i) {

@@ -42,8 +42,7 @@ struct State {
         options.num_parts = 4;
         options.refine = refine;
         const std::vector<double> coordinates = mine();
-        return rrcb::balance(interleaved_points(coordinates, dimension), options, previous,
-                             MPI_COMM_WORLD);
+        return rrcb::balance(Points(coordinates, dimension), MPI_COMM_WORLD, options, previous);
     }
     std::vector<Part> parts(const Cuts& cuts) const {
         std::vector<Part> parts;

@@ -22,22 +22,21 @@ struct Scene {
             test::uniform_cloud(60, dimension, static_cast<unsigned>(rank() + 1));
         for (std::size_t i = 0; i < 60; ++i)
             before.push_back(1000 * static_cast<std::uint64_t>(rank()) + i);
-        const Balance made =
-            balance(interleaved_points(scattered, dimension), {}, {}, MPI_COMM_WORLD);
+        const Balance made = balance(Points(scattered, dimension), MPI_COMM_WORLD);
         cuts = made.cuts;
         std::tie(ids, x) = transfer(plan(made, MPI_COMM_WORLD),
                                     columns(before, column(scattered, d)), MPI_COMM_WORLD);
         for (const std::uint64_t id : ids) radii.push_back(id % 7 == 0 ? 0.3 : 0.1);
     }
 
-    Points points() const { return interleaved_points(x, dimension); }
+    Points points() const { return Points(x, dimension); }
     GhostPlan near(const GhostOptions& options) const {
-        return ghosts(cuts, points(), options, MPI_COMM_WORLD);
+        return ghost_plan(cuts, points(), MPI_COMM_WORLD, options);
     }
     experimental::Verification seen(const GhostPlan& plan,
                                     experimental::VerifyOptions options = {everything}) const {
         options.ids = ids;
-        return experimental::verify(plan, points(), options, MPI_COMM_WORLD);
+        return experimental::verify(plan, points(), MPI_COMM_WORLD, options);
     }
 
     int dimension;
@@ -164,11 +163,11 @@ TEST(Verify, names_ids_that_are_lost_or_new_or_on_two_ranks) {
 
 TEST(Verify, refuses_what_does_not_fit_on_one_rank_on_all) {
     const Scene scene(2);
-    const GhostPlan near = scene.near({.radii = scene.radii, .needs = Needs::receiver});
+    const GhostPlan near = scene.near({.radii = scene.radii, .needs = Needs::gather});
     const auto refused = [&](const std::string& text, const experimental::VerifyOptions& options,
                              const Points& points) {
         test::expect_same_error(
-            [&] { experimental::verify(near, points, options, MPI_COMM_WORLD); }, text);
+            [&] { experimental::verify(near, points, MPI_COMM_WORLD, options); }, text);
     };
     const std::vector<double> few(2);
     const std::vector<std::uint64_t> ids(1);
@@ -176,7 +175,7 @@ TEST(Verify, refuses_what_does_not_fit_on_one_rank_on_all) {
     refused("give it or radii", {}, scene.points());
     experimental::VerifyOptions options{.radius = 0.1};
     refused("points must be as many as the plan", options,
-            is_last ? interleaved_points(few, 2) : scene.points());
+            is_last ? Points(few, 2) : scene.points());
     options.ids_before = ids;
     refused("ids_before needs ids", options, scene.points());
     options.ids = is_last ? ids : std::span<const std::uint64_t>(scene.ids);

@@ -39,10 +39,10 @@ struct VirtualRanks {
 
     int num_ranks() const { return side * side; }
 
-    Points points() const { return interleaved_points(coordinates, 2); }
+    Points points() const { return Points(coordinates, 2); }
 
     Points points_of(int rank) const {
-        return interleaved_points(
+        return Points(
             std::span(coordinates)
                 .subspan(2 * points_per_rank * static_cast<std::size_t>(rank), 2 * points_per_rank),
             2);

@@ -22,13 +22,12 @@ struct Answer {
 
     Answer(const Case& input, const Options& asked)
         : Answer(input, asked,
-                 [&](const Points& points) { return balance(points, asked, {}, MPI_COMM_WORLD); }) {
-    }
+                 [&](const Points& points) { return balance(points, MPI_COMM_WORLD, asked); }) {}
 
     /// By a method of the paper.
     Answer(const Case& input, const PaperOptions& asked)
         : Answer(input, input.options(), [&](const Points& points) {
-              return balance_as_in_paper(points, asked, MPI_COMM_WORLD);
+              return balance_as_in_paper(points, MPI_COMM_WORLD, asked);
           }) {}
 
     template <class Divide>
@@ -264,7 +263,7 @@ TEST(Balance, moves_nothing_when_called_again_with_its_own_cuts) {
             answer.cloud = migrated(answer);
             const Cloud mine = answer.cloud.of_rank(rank());
             const Balance again =
-                balance(mine.points(), answer.options, answer.result.cuts, MPI_COMM_WORLD);
+                balance(mine.points(), MPI_COMM_WORLD, answer.options, answer.result.cuts);
             return answer.gathered(again.parts) == answer.parts ? "" : "points change their parts";
         },
         num_cases);

@@ -86,7 +86,7 @@ struct Cloud {
     std::vector<int> owners;
 
     LocalIndex size() const { return owners.size(); }
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const { return Points(coordinates, dimension, weights); }
     /// Indices of the points that `rank` holds, ascending.
     std::vector<LocalIndex> held_by(int rank) const;
     /// Those points alone.

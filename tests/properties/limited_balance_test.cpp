@@ -72,7 +72,7 @@ TEST(LimitedBalance, keeps_widths_and_lines_whatever_the_points) {
                 options.num_parts = num_ranks();
             const Cloud mine = cloud.of_rank(rank());
             const auto first =
-                answer_of([&] { return balance(mine.points(), options, {}, MPI_COMM_WORLD); });
+                answer_of([&] { return balance(mine.points(), MPI_COMM_WORLD, options); });
             if (!all_or_none(first.has_value())) return "an answer on some ranks alone";
             if (!first || cloud.size() == 0) return {};
             ++num_answers;
@@ -81,7 +81,7 @@ TEST(LimitedBalance, keeps_widths_and_lines_whatever_the_points) {
             // Where the points lie now.
             const Cloud after = moved(cloud, first->cuts).of_rank(rank());
             const auto second =
-                answer_of([&] { return balance(after.points(), options, {}, MPI_COMM_WORLD); });
+                answer_of([&] { return balance(after.points(), MPI_COMM_WORLD, options); });
             if (!second) return "no second answer";
             fault = fault_of_limits(second->cuts, options, box);
             if (!fault.empty()) return "second call: " + fault;
@@ -89,9 +89,9 @@ TEST(LimitedBalance, keeps_widths_and_lines_whatever_the_points) {
             Options free = options;
             free.axes.min_width.clear();
             free.axes.grid.clear();
-            const Cuts previous = balance(mine.points(), free, {}, MPI_COMM_WORLD).cuts;
+            const Cuts previous = balance(mine.points(), MPI_COMM_WORLD, free).cuts;
             const auto third = answer_of(
-                [&] { return balance(mine.points(), options, previous, MPI_COMM_WORLD); });
+                [&] { return balance(mine.points(), MPI_COMM_WORLD, options, previous); });
             if (!third) return "no third answer";
             fault = fault_of_limits(third->cuts, options, box);
             return fault.empty() ? fault : "from earlier cuts: " + fault;
@@ -130,7 +130,7 @@ void expect_nearly_least(bool on_lines, Refine refine, double tolerance, double 
             options.imbalance_tolerance = tolerance;
             const Cloud mine = cloud.of_rank(rank());
             const auto answer =
-                answer_of([&] { return balance(mine.points(), options, {}, MPI_COMM_WORLD); });
+                answer_of([&] { return balance(mine.points(), MPI_COMM_WORLD, options); });
             const double least = least_imbalance(cloud.points(), options);
             if (answer.has_value() == std::isinf(least)) return "wrong about the room there is";
             if (!answer) return {};

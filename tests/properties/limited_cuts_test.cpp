@@ -164,7 +164,7 @@ struct Limited {
     std::vector<double> weights;
     Options options;
 
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const { return Points(coordinates, dimension, weights); }
 };
 
 Limited any_limited(int most_points, int most_parts) {

@@ -67,9 +67,8 @@ TEST(Transfer, there_and_back_is_the_identity) {
         [](const Case& input) -> std::string {
             const auto dimension = static_cast<std::size_t>(input.shape.dimension);
             const Held first = held_at_first(input);
-            const Balance there =
-                balance(interleaved_points(first.coordinates, input.shape.dimension),
-                        input.options(), {}, MPI_COMM_WORLD);
+            const Balance there = balance(Points(first.coordinates, input.shape.dimension),
+                                          MPI_COMM_WORLD, input.options());
             const Held away = moved(first, plan(there, MPI_COMM_WORLD), input);
             const Held back = sorted(
                 moved(away, plan(away.owners, num_ranks(), MPI_COMM_WORLD), input), dimension);
@@ -107,11 +106,11 @@ TEST(Ghosts, are_all_points_near_the_regions_of_a_rank_and_no_others) {
         [](const Case& input) -> std::string {
             const Cloud cloud = cloud_of(input, num_ranks());
             const Held held = held_at_first(input);
-            const Points points = interleaved_points(held.coordinates, input.shape.dimension);
-            Cuts cuts = balance(points, input.options(), {}, MPI_COMM_WORLD).cuts;
+            const Points points(held.coordinates, input.shape.dimension);
+            Cuts cuts = balance(points, MPI_COMM_WORLD, input.options()).cuts;
             cuts.points = 0;  // the points stay where they are
             const double radius = radius_of(input, cloud);
-            const GhostPlan lists = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);
+            const GhostPlan lists = ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = radius});
             const auto [owners, indices] =
                 fetch(lists, columns(held.owners, held.indices), MPI_COMM_WORLD, limits_of(input));
             std::size_t next = 0;

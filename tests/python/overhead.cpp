@@ -19,8 +19,8 @@ std::vector<double> moved;
 extern "C" __attribute__((visibility("default"))) void balance_points(MPI_Fint comm,
                                                                       const double* x,
                                                                       std::size_t count) {
-    const rrcb::Points points = rrcb::interleaved_points({x, 3 * count}, 3);
-    balanced = rrcb::balance(points, {}, {}, MPI_Comm_f2c(comm));
+    const rrcb::Points points({x, 3 * count}, 3);
+    balanced = rrcb::balance(points, MPI_Comm_f2c(comm));
 }
 
 /// Moves the points of the last balance to the ranks of their parts. Collective.

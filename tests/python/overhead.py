@@ -29,7 +29,7 @@ def in_python(kept={}):
         kept["balance"] = rrcb.balance(x, comm=comm)
 
     def move():
-        kept["moved"] = kept["balance"].distribute(x)
+        kept["moved"] = kept["balance"].transfer(x)
 
     return balance, move
 
@@ -56,7 +56,7 @@ found = np.array([
     for turn in range(TURNS + 3)
 ])[3:]
 if comm.rank == 0:
-    for k, name in enumerate(("balance", "distribute")):
+    for k, name in enumerate(("balance", "transfer")):
         (cpp, cpp_pages), (python, pages) = np.median(found[:, :, k], axis=0)
         ratios = found[:, 1, k, 0] / found[:, 0, k, 0]
         medians = np.median(np.random.default_rng(0).choice(ratios, (2000, TURNS)), axis=1)

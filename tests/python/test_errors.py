@@ -22,11 +22,11 @@ def test_names_the_calls_of_ranks_that_differ():
 
     def different():
         if comm.rank == 1:
-            rrcb.assign_all(x, balance, comm)
+            rrcb.assign(x, balance, comm)
         else:
             balance.ghosts(x, 0.1)
 
-    same_error(different, "rank 0 calls ghosts, rank 1 calls rrcb_balancer_create (Python: balance, assign_all);")
+    same_error(different, "rank 0 calls ghost_plan, rank 1 calls rrcb_balancer_create (Python: balance, assign);")
     same_error(lambda: controller.step(1), "make another controller")
     controller.free()
     assert rrcb.balance(x, comm=comm).report == balance.report
@@ -63,7 +63,7 @@ def test_refuses_arrays_on_a_device():
         same_error(lambda: rrcb.balance(given, comm=comm), text)
         same_error(lambda: rrcb.balance(axes, comm=comm), text)
         same_error(lambda: rrcb.balance(x, weights=weights, comm=comm), text)
-        same_error(lambda: balance.distribute({"x": given}), text)
+        same_error(lambda: balance.transfer({"x": given}), text)
         same_error(lambda: rrcb.experimental.join_keys(on_rank(last, array, x[:, :1].astype(int)), comm), text)
 
 
@@ -107,7 +107,7 @@ def test_raises_the_error_of_one_rank_on_all():
         same_error(lambda: rrcb.balance(x, comm=comm, previous=alone), "previous differs")
     for call in (
         lambda given: rrcb.balance(x, comm=comm, previous=given),
-        lambda given: rrcb.assign_all(x, given, comm),
+        lambda given: rrcb.assign(x, given, comm),
     ):
         same_error(lambda: call(on_rank(last, 3, balance)), "give a balance or its cuts, not int")
     for bad, text in ((["a"], "part_sizes must be numbers, not ['a']"), (np.ones(RANKS + 1), "")):
@@ -140,28 +140,28 @@ def test_only_failures_cost_a_message():
     x, silent = cloud(2), Silent(comm)
     balance = rrcb.balance(x, comm=silent)
     rrcb.balance(x, comm=silent, previous=balance)
-    here = rrcb.assign_all(x, balance, comm).distribute(x)
-    assert rrcb.assign_all(x, balance, silent).ghosts(here, 0.1).num_points == len(here)
+    here = rrcb.assign(x, balance, comm).transfer(x)
+    assert rrcb.assign(x, balance, silent).ghosts(here, 0.1).num_points == len(here)
 
 
 def test_raises_errors_of_columns_on_all():
     last = RANKS - 1
     x = cloud(2)
     balance = rrcb.balance(x, comm=comm)
-    here = balance.distribute(x)
+    here = balance.transfer(x)
     for bad, text in ((x[1:], "points"), (np.array([None] * len(x)), "fixed size"),
                       (np.float64(1), "shape")):
         given = on_rank(last, bad, x)
-        same_error(lambda: balance.distribute(given), text)
+        same_error(lambda: balance.transfer(given), text)
     if RANKS > 1:
         for bad in ({"x": x}, {"y": x[:, 0], "x": x.astype("f4")}, {"y": x, "x": x}):
             given = on_rank(last, bad, {"x": x, "y": x[:, 0]})
-            same_error(lambda: balance.distribute(given), "same on every rank")
+            same_error(lambda: balance.transfer(given), "same on every rank")
         given = on_rank(last, x.astype("f4"), x)
         text = f"float64 (2,) on rank 0, but float32 (2,) on rank {last}: give the same"
-        same_error(lambda: balance.distribute(given), text)
+        same_error(lambda: balance.transfer(given), text)
         given = on_rank(last, {"x": x[:, 0], "y": x}, {"x": x, "y": x})
-        same_error(lambda: balance.distribute(given), f"but x: float64, y: float64 (2,) on rank {last}")
+        same_error(lambda: balance.transfer(given), f"but x: float64, y: float64 (2,) on rank {last}")
     same_error(lambda: balance.ghosts(here, on_rank(0, -1.0, 0.1)), "")
     same_error(lambda: balance.ghosts(here, on_rank(0, np.ones(len(here) + 1), 0.1)), "radius")
     same_error(lambda: balance.ghosts(here, on_rank(0, "a", 0.1)), "radius must be numbers, not 'a'")
@@ -171,7 +171,7 @@ def test_raises_errors_of_columns_on_all():
     ghosts = balance.ghosts(here, 0.1)
     ones = np.ones(ghosts.count)
     same_error(lambda: ghosts.accumulate(on_rank(last, ones[:, None] > 0, ones)), "are added")
-    same_error(lambda: ghosts.accumulate(on_rank(last, np.ones(ghosts.count + 1), ones)), "ghosts")
+    same_error(lambda: ghosts.accumulate(on_rank(last, np.ones(ghosts.count + 1), ones)), "ghost_plan")
     periodic = balance.ghosts(here, 0.3, 1.0)
     for bad, text in ((here.astype(int), "must be float64"), (here[:, 0], "2 axes, not 1")):
         given = on_rank(last, bad, here)
@@ -182,16 +182,16 @@ def test_raises_errors_of_columns_on_all():
 def test_refuses_ghosts_of_points_that_were_not_moved():
     x = cloud(2)
     balance = rrcb.balance(x, comm=comm)
-    here = balance.distribute(x)
+    here = balance.transfer(x)
     if RANKS > 1:
         text = "these are the points of the balance"
         same_error(lambda: balance.ghosts(x, 0.1), text)
-        alone = rrcb.assign_all(here, balance, comm)
+        alone = rrcb.assign(here, balance, comm)
         same_error(lambda: balance.ghosts(on_rank(RANKS - 1, x, here), 0.1), text)
         assert alone.ghosts(here, 0.1).count == balance.ghosts(here, 0.1).count
     for num_parts in (2 * RANKS, max(RANKS - 1, 2)):
         other = rrcb.balance(x, comm=comm, num_parts=num_parts)
-        other.ghosts(other.distribute(x), 0.1)
+        other.ghosts(other.transfer(x), 0.1)
         if RANKS > 1:
             same_error(lambda: other.ghosts(x, 0.1), "these are the points of the balance")
     # As many points as before, of which some have crossed a cut.
@@ -202,12 +202,12 @@ def test_refuses_ghosts_of_points_that_were_not_moved():
 def test_names_the_shape_of_no_points():
     x, last = cloud(2), RANKS - 1
     balance = rrcb.balance(x, comm=comm)
-    here, given = balance.distribute(x), on_rank(last, np.array([]), x)
+    here, given = balance.transfer(x), on_rank(last, np.array([]), x)
     if RANKS > 1:
         for call in (
             lambda: rrcb.balance(given, comm=comm),
             lambda: rrcb.balance(given, comm=comm, previous=balance),
-            lambda: rrcb.assign_all(given, balance, comm),
+            lambda: rrcb.assign(given, balance, comm),
             lambda: balance.ghosts(on_rank(last, np.array([]), here), 0.1),
         ):
             same_error(call, "without points np.empty((0, d))")
@@ -215,7 +215,7 @@ def test_names_the_shape_of_no_points():
         balance = rrcb.balance(none, comm=comm)
         assert balance.cuts.dimension == dimension and balance.parts.shape == (0,)
         assert balance.report.imbalance == 1 and balance.report.within_tolerance
-        assert balance.distribute(np.asarray(none)).shape == np.shape(none)
+        assert balance.transfer(np.asarray(none)).shape == np.shape(none)
 
 
 def test_refuses_what_is_no_communicator():
@@ -227,12 +227,12 @@ def test_refuses_what_is_no_communicator():
 def test_refuses_calls_when_mpi_is_not_running():
     x = cloud(2)
     balance = rrcb.balance(x, comm=comm)
-    here = balance.distribute(x)
+    here = balance.transfer(x)
     ghosts = balance.ghosts(here, 0.1)
     calls = (
         lambda: rrcb.balance(x, comm=comm),
-        lambda: rrcb.assign_all(x, balance, comm),
-        lambda: balance.distribute(x),
+        lambda: rrcb.assign(x, balance, comm),
+        lambda: balance.transfer(x),
         lambda: balance.ghosts(here, 0.1),
         lambda: ghosts.fetch(here),
         lambda: copy.copy(balance.cuts).part_of(x),
@@ -253,13 +253,13 @@ def test_refuses_calls_when_mpi_is_not_running():
 def test_refuses_a_freed_communicator():
     freed, x = comm.Dup(), cloud(2)
     balance = rrcb.balance(x, comm=freed)
-    ghosts = balance.ghosts(balance.distribute(x), 0.1)
+    ghosts = balance.ghosts(balance.transfer(x), 0.1)
     controller, later = rrcb.Controller(freed), rrcb.balance(x, comm=freed)
     freed.Free()
     for call in (
         lambda: rrcb.balance(x, comm=freed, previous=balance),
-        lambda: balance.distribute(x),
-        lambda: later.distribute(x),
+        lambda: balance.transfer(x),
+        lambda: later.transfer(x),
         lambda: balance.ghosts(x, 0.1),
         lambda: ghosts.accumulate(np.ones(ghosts.count)),
         lambda: controller.step(1.0),
@@ -317,7 +317,7 @@ def test_names_the_fix_for_data_of_other_kinds():
     same_error(lambda: rrcb.balance(x, comm), "weights must be numbers, not Intracomm")
     balance = rrcb.balance(x, comm=comm)
     given = on_rank(last, [x[:, 0], x[:, 1]], x)
-    same_error(lambda: balance.distribute(given), "several columns as a tuple")
+    same_error(lambda: balance.transfer(given), "several columns as a tuple")
     for attempt in (pickle.dumps, copy.deepcopy):
         try:
             attempt(balance)
@@ -335,13 +335,13 @@ def test_moves_series_and_refuses_categories():
     x = cloud(2)
     balance = rrcb.balance(x, comm=comm)
     series = pandas.Series(x[:, 0], index=np.arange(len(x)) * 3, name="a")
-    got = balance.distribute(series)
-    assert got.name == "a" and np.array_equal(got, balance.distribute(x[:, 0]))
-    assert np.array_equal(got.index, balance.distribute(np.arange(len(x)) * 3))
+    got = balance.transfer(series)
+    assert got.name == "a" and np.array_equal(got, balance.transfer(x[:, 0]))
+    assert np.array_equal(got.index, balance.transfer(np.arange(len(x)) * 3))
     for labels in (["a", "b"], [1, 2]):
         frame = pandas.DataFrame({"c": pandas.Categorical(np.resize(labels, len(x)))})
         given = on_rank(RANKS - 1, frame, frame.assign(c=1))
-        same_error(lambda: balance.distribute(given), "column c is categorical: give its .cat.codes")
+        same_error(lambda: balance.transfer(given), "column c is categorical: give its .cat.codes")
 
 
 def test_refuses_a_tree_of_another_length():

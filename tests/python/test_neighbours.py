@@ -1,4 +1,4 @@
-"""Checks exchanges with neighbours against distribute() and ghosts(), which are collective."""
+"""Checks exchanges with neighbours against transfer() and ghosts(), which are collective."""
 import sys
 
 import numpy as np
@@ -22,7 +22,7 @@ def cloud(dtype=np.float64):
 def balanced(dtype=np.float64):
     points = cloud(dtype)
     balance = rrcb.balance(points["x"], comm=comm)
-    return balance, balance.distribute(points)
+    return balance, balance.transfer(points)
 
 
 def drift(x, ids, step):
@@ -45,15 +45,15 @@ def by_id(data):
     return {name: values[order] for name, values in data.items()}
 
 
-def check_steps(dtype, needs="sender", radii=False):
+def check_steps(dtype, needs="scatter", radii=False):
     balance, here = balanced(dtype)
     neighbours = rrcb.Neighbours(balance, RADIUS, TRAVEL, period=1.0, needs=needs)
     assert ME not in neighbours.ranks and (np.diff(neighbours.ranks) > 0).all()
     for step in range(4):
         here["x"] = drift(here["x"], here["id"], step)
         before = {name: values.copy() for name, values in here.items()}
-        assigned = rrcb.assign_all(here["x"], balance, comm)
-        expected = assigned.distribute(here)
+        assigned = rrcb.assign(here["x"], balance, comm)
+        expected = assigned.transfer(here)
         moved = neighbours.migrate(here["x"], here)
         assert all(np.array_equal(before[name], here[name]) for name in here)
         here = moved
@@ -62,7 +62,7 @@ def check_steps(dtype, needs="sender", radii=False):
 
         x, ids = here["x"], here["id"]
         each = np.where(ids % 3, RADIUS, RADIUS / 2) if radii else RADIUS
-        ghosts = rrcb.assign_all(x, balance, comm).ghosts(x, each, period=1.0, needs=needs)
+        ghosts = rrcb.assign(x, balance, comm).ghosts(x, each, period=1.0, needs=needs)
         neighbours.find_ghosts(x, each if radii else None)
         assert neighbours.count == 0 and neighbours.sent.keys() == ghosts.sent.keys()
         for _ in range(2):
@@ -80,7 +80,7 @@ def check_steps(dtype, needs="sender", radii=False):
 def test_gives_what_collective_calls_give():
     check_steps(np.float64)
     check_steps(np.float32)
-    check_steps(np.float64, "either", radii=True)
+    check_steps(np.float64, "symmetric", radii=True)
 
 
 def test_takes_cuts_columns_and_single_arrays():

@@ -17,7 +17,7 @@ def positions(count=200):
 def test_moves_points_to_any_parts():
     x = positions()
     to = (np.arange(200) + RANK) % RANKS
-    here = rrcb.plan(to, comm=comm).distribute({"from": np.full(200, RANK), "to": to, "x": x})
+    here = rrcb.plan(to, comm=comm).transfer({"from": np.full(200, RANK), "to": to, "x": x})
     assert np.all(here["to"] == RANK)
     sent = comm.allgather(np.bincount(to, minlength=RANKS))
     assert np.array_equal(np.bincount(here["from"], minlength=RANKS), [n[RANK] for n in sent])
@@ -50,7 +50,7 @@ def test_gives_parts_sizes_for_even_loads():
 
 
 def test_gives_parts_the_numbers_with_which_points_stay():
-    x = rrcb.balance(positions(), comm=comm).distribute(positions())
+    x = rrcb.balance(positions(), comm=comm).transfer(positions())
     turned = x[:, ::-1].copy()  # the same boxes under other numbers
     balance = rrcb.balance(turned, comm=comm)
     kept = balance.remap()
@@ -58,7 +58,7 @@ def test_gives_parts_the_numbers_with_which_points_stay():
     assert np.array_equal(kept.parts, kept.numbers[balance.parts])
     assert kept.moved_fraction() <= balance.moved_fraction()
     assert np.array_equal(balance.remap(balance.parts).parts, balance.parts)
-    here = kept.distribute(turned)
+    here = kept.transfer(turned)
     everything = np.concatenate(comm.allgather(turned))
     box = balance.cuts.boxes()[list(kept.numbers).index(RANK)]
     outside = np.maximum(np.maximum(box[0] - everything, everything - box[1]), 0)
@@ -76,7 +76,7 @@ def test_keeps_groups_together():
     assert np.all(groups.weights == RANKS)
     balance = rrcb.balance(groups.x, groups.weights, comm)
     parts = groups.fetch(balance.parts)
-    here = rrcb.plan(parts, comm=comm).distribute({"key": keys, "x": x})
+    here = rrcb.plan(parts, comm=comm).transfer({"key": keys, "x": x})
     held = comm.allgather(np.unique(here["key"]))
     assert len(np.unique(np.concatenate(held))) == sum(map(len, held)) == 100
     sums = groups.sums(np.column_stack([weights, x]))

@@ -38,11 +38,11 @@ def resident():
 
 def round_of(x, kept):
     balance = rrcb.balance(x, comm=comm, previous=kept)
-    here = balance.distribute({"x": x, "id": np.arange(len(x))})
+    here = balance.transfer({"x": x, "id": np.arange(len(x))})
     ghosts = balance.ghosts(here["x"], 0.05, 1.0)
     near = ghosts.fetch(here)
     ghosts.accumulate(near["id"])
-    same_error(lambda: balance.distribute(np.zeros(1 + len(x) * 2)), "points")
+    same_error(lambda: balance.transfer(np.zeros(1 + len(x) * 2)), "points")
     return balance
 
 
@@ -63,7 +63,7 @@ def test_many_communicators_keep_no_memory():
     sizes = []
     for step in range(300):
         part = comm.Split(ME % 2, ME)
-        rrcb.balance(x, comm=part).distribute(x)
+        rrcb.balance(x, comm=part).transfer(x)
         part.Free()
         if step % 50 == 49:
             gc.collect()

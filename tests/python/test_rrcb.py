@@ -99,7 +99,7 @@ def test_joins_overlapping_groups():
         assert np.isclose(comm.allreduce(molecules.weights.sum()), comm.allreduce(weights.sum()))
         made = rrcb.balance(molecules.x, molecules.weights, comm)
         parts = molecules.distribution(made)
-        here = parts.distribute({"joined": joined, "x": x})
+        here = parts.transfer({"joined": joined, "x": x})
         assert comm.allreduce(len(here["x"])) == len(expected)
         own = set(here["joined"].tolist()) - {2**64 - 1}
         assert len(set().union(*comm.allgather(own))) == sum(comm.allgather(len(own)))
@@ -224,7 +224,7 @@ def test_divides_on_part_of_the_ranks():
     balance = rrcb.balance(x, comm=part)
     assert balance.cuts.num_parts == part.size
     counts = part.allreduce(np.bincount(balance.parts, minlength=part.size))
-    assert len(balance.distribute(x)) == counts[part.rank]
+    assert len(balance.transfer(x)) == counts[part.rank]
     part.Free()
 
 
@@ -254,7 +254,7 @@ def test_distributes_any_columns():
         x = cloud(2, empty=empty)
         balance = rrcb.balance(x, comm=comm)
         data = columns_of(x)
-        here = balance.distribute(data)
+        here = balance.transfer(data)
         all_ids, parts = everywhere(data["id"]), everywhere(balance.parts)
         mine = all_ids[parts == ME]
         assert sorted(here["id"]) == sorted(mine)
@@ -264,17 +264,17 @@ def test_distributes_any_columns():
         rows = np.array([np.flatnonzero(all_ids == k)[0] for k in here["id"]], dtype=int)
         check_rows(data, here, rows)
         backward = dict(reversed(list(data.items()))) if ME % 2 else data
-        assert list(balance.distribute(backward)) == list(backward)
+        assert list(balance.transfer(backward)) == list(backward)
         record = np.zeros(len(x), dtype=[("x", "f8", 2), ("id", "i8"), ("c", "S3")])
         record["x"], record["id"], record["c"] = x, data["id"], b"abc"
-        got = balance.distribute(record)
+        got = balance.transfer(record)
         assert got.dtype == record.dtype and np.array_equal(got["id"], here["id"])
         assert np.array_equal(got["x"], here["x"]) and (got["c"] == b"abc").all()
-        pair = balance.distribute((x, data["id"]))
+        pair = balance.transfer((x, data["id"]))
         assert isinstance(pair, tuple) and np.array_equal(pair[1], here["id"])
         strided = np.zeros((len(x), 4))
         strided[:, ::2] = x
-        assert np.array_equal(balance.distribute(strided[:, ::2]), here["x"])
+        assert np.array_equal(balance.transfer(strided[:, ::2]), here["x"])
 
 
 def test_distributes_frames():
@@ -287,13 +287,13 @@ def test_distributes_frames():
     frame = pandas.DataFrame({"a": x[:, 0], "b": number, "c": x[:, 1].astype("f4")})
     frame["when"] = number.astype("datetime64[s]").astype("datetime64[ns]")
     balance = rrcb.balance(frame[["a", "c"]].to_numpy(), comm=comm)
-    got = balance.distribute(frame)
+    got = balance.transfer(frame)
     assert list(got.columns) == list(frame.columns) and (got.dtypes == frame.dtypes).all()
-    assert np.array_equal(got["b"], balance.distribute(number))
-    named = balance.distribute(frame.set_index("b"))
+    assert np.array_equal(got["b"], balance.transfer(number))
+    named = balance.transfer(frame.set_index("b"))
     assert named.index.name == "b" and np.array_equal(named.index, got["b"])
     assert np.array_equal(named["a"], got["a"])
-    same_error(lambda: balance.distribute(frame.assign(s="text").astype({"s": object})), "fixed size")
+    same_error(lambda: balance.transfer(frame.assign(s="text").astype({"s": object})), "fixed size")
 
 
 def expected_ghosts(balance, x, numbers, radius, period):
@@ -324,7 +324,7 @@ def test_finds_ghosts():
     for dimension, make, dtype in itertools.product((1, 2, 3), periods, (np.float64, np.float32)):
         x = cloud(dimension, 150, dtype, empty=0 if RANKS > 2 else None)
         balance = rrcb.balance(x, comm=comm)
-        here = balance.distribute({"x": x, "id": ids(len(x))})
+        here = balance.transfer({"x": x, "id": ids(len(x))})
         period = None if make is None else np.broadcast_to(make(dimension), dimension)
         ghosts = balance.ghosts(here["x"], 0.11, period=None if make is None else make(dimension))
         got = ghosts.fetch(here)
@@ -345,7 +345,7 @@ def test_finds_ghosts():
 def test_finds_ghosts_by_radii():
     x = cloud(2, 150)
     balance = rrcb.balance(x, comm=comm)
-    here = balance.distribute(x)
+    here = balance.transfer(x)
     numbers = ids(len(here))
     radii = np.where(numbers % 5 == 0, 0.2, 0.05)
     ghosts = balance.ghosts(here, radii)
@@ -363,20 +363,20 @@ def test_finds_ghosts_by_radii():
 def test_finds_ghosts_within_the_radii_of_receivers():
     x = cloud(2, 150)
     balance = rrcb.balance(x, comm=comm)
-    here = balance.distribute(x)
+    here = balance.transfer(x)
     numbers = ids(len(here))
     radii = np.where(numbers % 5 == 0, 0.2, 0.05)
     all_x, all_r, all_ids = everywhere(here), everywhere(radii), everywhere(numbers)
     distance = np.linalg.norm(all_x[None] - here[:, None], axis=2)
-    for needs in ("receiver", "either"):
+    for needs in ("gather", "symmetric"):
         ghosts = balance.ghosts(here, radii, needs=needs)
         held = np.concatenate([numbers, ghosts.fetch(numbers)])
         assert len(set(held)) == len(held)
-        reach = np.maximum(radii[:, None], all_r[None] if needs == "either" else 0)
+        reach = np.maximum(radii[:, None], all_r[None] if needs == "symmetric" else 0)
         needed = all_ids[(distance <= reach).any(axis=0)]
         assert np.isin(needed, held).all()
-        assert needs == "either" or ghosts.count <= balance.ghosts(here, 0.2).count
-    same_error(lambda: balance.ghosts(here, radii, needs="all"), "needs must be one of sender")
+        assert needs == "symmetric" or ghosts.count <= balance.ghosts(here, 0.2).count
+    same_error(lambda: balance.ghosts(here, radii, needs="all"), "needs must be one of scatter")
 
 
 def test_finds_all_pairs_in_a_tilted_box():
@@ -384,7 +384,7 @@ def test_finds_all_pairs_in_a_tilted_box():
     stretch = (tilt + np.sqrt(tilt**2 + 4)) / 2
     straight = np.random.default_rng(1).random((200, 2))
     balance = rrcb.balance(straight[ME::RANKS], comm=comm)
-    here = balance.distribute(straight[ME::RANKS])
+    here = balance.transfer(straight[ME::RANKS])
     images = balance.ghosts(here, radius * stretch, period=1.0).fetch_positions(here)
     shifts = np.array(list(itertools.product((-1, 0, 1), repeat=2)))
     every = (straight[:, None] + shifts).reshape(-1, 2)
@@ -399,8 +399,8 @@ def test_finds_all_pairs_in_a_tilted_box():
 def test_verifies_ghosts():
     x = cloud(2, 150, empty=0 if RANKS > 2 else None)
     balance = rrcb.balance(x, comm=comm)
-    here = balance.distribute({"x": x, "id": ids(len(x))})
-    ghosts = balance.ghosts(here["x"], np.where(here["id"] % 5 == 0, 0.2, 0.05), 1.0, "either")
+    here = balance.transfer({"x": x, "id": ids(len(x))})
+    ghosts = balance.ghosts(here["x"], np.where(here["id"] % 5 == 0, 0.2, 0.05), 1.0, "symmetric")
     seen = rrcb.experimental.verify(ghosts, here["x"], 10**6, ids=here["id"], ids_before=ids(len(x)))
     assert seen.num_faults == 0 and len(seen.missing) == 0 and seen.num_pairs > 0
     narrow = balance.ghosts(here["x"], 0.05)
@@ -428,17 +428,17 @@ def test_refuses_ghosts_from_before_a_transfer():
         raise Skip("needs two ranks")
     x = cloud(2, 150)
     balance = rrcb.balance(x, comm=comm)
-    here = balance.distribute(x)
+    here = balance.transfer(x)
     ghosts = balance.ghosts(here, 0.1)
     assert len(ghosts.fetch(here)) == ghosts.count
-    rrcb.assign_all(1 - here, balance, comm).distribute(here)
-    same_error(lambda: ghosts.fetch(here), "the points were distributed since these ghosts")
+    rrcb.assign(1 - here, balance, comm).transfer(here)
+    same_error(lambda: ghosts.fetch(here), "the points were transferred since these ghosts")
 
 
 def test_accumulates_at_points():
     x = cloud(2, 200)
     balance = rrcb.balance(x, comm=comm)
-    here = balance.distribute({"x": x, "id": ids(len(x))})
+    here = balance.transfer({"x": x, "id": ids(len(x))})
     ghosts = balance.ghosts(here["x"], 0.1, period=1.0)
     number = ghosts.fetch(here["id"])
     values = {

@@ -89,7 +89,7 @@ void divide(const Cloud& cloud, const char* method, int rank, Divide&& divide_po
         if (cloud.weighted) weights.push_back(random());
     }
     const std::uint64_t hash =
-        hash_of(divide_points(rrcb::interleaved_points(coordinates, cloud.dimension, weights)));
+        hash_of(divide_points(rrcb::Points(coordinates, cloud.dimension, weights)));
     if (rank == 0)
         std::printf("%-10s %-9s %016llx\n", cloud.name, method,
                     static_cast<unsigned long long>(hash));
@@ -108,14 +108,14 @@ int main(int argc, char** argv) {
                 rrcb::Options options;
                 options.refine = refine;
                 options.num_parts = num_parts;
-                return rrcb::balance(points, options, {}, MPI_COMM_WORLD);
+                return rrcb::balance(points, MPI_COMM_WORLD, options);
             });
         for (const auto& [domain, name] : paper_domains)
             divide(cloud, name, rank, [&, domain = domain](const rrcb::Points& points) {
                 rrcb::PaperOptions options;
                 options.domain = domain;
                 options.num_parts = num_parts;
-                return rrcb::balance_as_in_paper(points, options, MPI_COMM_WORLD);
+                return rrcb::balance_as_in_paper(points, MPI_COMM_WORLD, options);
             });
     }
     MPI_Finalize();

@@ -18,7 +18,7 @@ class BrutePasses : public PointPasses {
   public:
     BrutePasses(std::span<const double> coordinates, int dimension,
                 std::span<const double> weights = {})
-        : all_(interleaved_points(coordinates, dimension, weights)),
+        : all_(Points(coordinates, dimension, weights)),
           weights_(weights),
           parts_(all_.count, no_part) {}
 

@@ -85,7 +85,7 @@ class RowPasses final : public PointPasses {
                 coordinates.insert(coordinates.end(), x.begin(), x.begin() + dimension_);
                 weights.push_back(weight_of(row));
             }
-        return cell_moments(interleaved_points(coordinates, dimension_, weights), mesh);
+        return cell_moments(Points(coordinates, dimension_, weights), mesh);
     }
 
     PartTotals assign(const Cuts& cuts, bool counts) override {

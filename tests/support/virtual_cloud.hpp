@@ -37,11 +37,11 @@ struct VirtualCloud {
 
     int num_ranks() const { return side * side; }
 
-    Points points() const { return interleaved_points(coordinates, 2); }
+    Points points() const { return Points(coordinates, 2); }
 
     Points points_of(int rank) const {
         const std::size_t length = 2 * points_per_rank;
-        return interleaved_points(
+        return Points(
             std::span(coordinates).subspan(length * static_cast<std::size_t>(rank), length), 2);
     }
 

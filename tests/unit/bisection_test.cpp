@@ -97,7 +97,7 @@ TEST(Bisection, of_arguments_out_of_range_is_refused) {
     EXPECT_THROW(make_support_mesh({}, 2, 0), Error);
     EXPECT_THROW(make_support_mesh({}, 4, 1), Error);
     const SupportMesh mesh = make_support_mesh({{0, 0, 0}, {1, 1, 1}}, 2, 4);
-    EXPECT_THROW(cell_moments(interleaved_points(x, 3), mesh), Error);
+    EXPECT_THROW(cell_moments(Points(x, 3), mesh), Error);
     EXPECT_THROW(analytic_domain({}, 9, {}), Error);
 }
 

@@ -35,7 +35,7 @@ Points view_of_columns(const std::vector<double>& columns, std::size_t dimension
     const std::size_t count = columns.size() / dimension;
     for (std::size_t a = 0; a < dimension; ++a)
         axes.push_back(std::span(columns).subspan(a * count, count));
-    return column_points(axes);
+    return Points(axes);
 }
 
 TEST(CellMoments, cells_are_those_of_the_mesh) {
@@ -44,7 +44,7 @@ TEST(CellMoments, cells_are_those_of_the_mesh) {
             const auto d = static_cast<std::size_t>(dimension);
             const std::vector<double> all = test::uniform_cloud(5003, dimension, 3);
             const std::vector<double> columns = by_column(all, d);
-            const Points points = interleaved_points(all, dimension);
+            const Points points(all, dimension);
             const SupportMesh mesh = mesh_of(points, cells);
             const std::vector<LocalIndex> found = cells_of(points, mesh);
             EXPECT_EQ(cells_of(view_of_columns(columns, d), mesh), found);
@@ -66,7 +66,7 @@ TEST(CellMoments, faces_belong_to_the_cell_above_and_those_of_the_box_to_the_las
     const std::vector<double> x{0, 1, 1, 2, 3, 4};
     const std::array<std::span<const double>, 1> columns{x};
     const std::vector<double> weights{1, 2, 4, 8, 16, 32};
-    const Points points = column_points(columns, weights);
+    const Points points(columns, weights);
     const SupportMesh mesh = mesh_of(points, 4);
     EXPECT_EQ(cells_of(points, mesh), (std::vector<LocalIndex>{0, 1, 1, 2, 3, 3}));
     const std::vector<CellMoments> cells = cell_moments(points, mesh);

@@ -131,7 +131,7 @@ TEST(Coarsening, balances_points_without_weight_by_their_number) {
 
 TEST(CellRecords, come_back_with_their_boxes) {
     const std::vector<double> x{0, 0, 4, 2, 1, 1};
-    const Points points = interleaved_points(x, 2);
+    const Points points(x, 2);
     const SupportMesh mesh = make_support_mesh(bounding_box(points), 2, 2);
     const auto cells = cell_moments(points, mesh);
     const CellSet merged = coarsen(uniform_points(100, 5), 2, 16);

@@ -32,7 +32,7 @@ struct Square {
     std::optional<HostPasses> passes{};
     OpenMemory memory{};
 
-    Points points() const { return interleaved_points(coordinates, 2, weights); }
+    Points points() const { return Points(coordinates, 2, weights); }
     std::unique_ptr<OpenPoints> open(double width) {
         const std::vector<Bracket> intervals(3, {0.5 - width, 0.5 + width});
         passes.emplace(points());
@@ -140,7 +140,7 @@ TEST(OpenPoints, have_a_gap_about_a_cut_among_settled_points_too) {
 TEST(OpenPoints, of_a_tree_without_cuts_divide_a_lot_in_their_order) {
     const std::vector<double> x{1, 2, 1, 1, 0, 1};
     const std::vector<double> weights{1, 9, 2, 0, 9, 4};
-    HostPasses passes(interleaved_points(x, 1, weights), std::vector<Part>(6));
+    HostPasses passes(Points(x, 1, weights), std::vector<Part>(6));
     const auto open = test::all_open(passes, 2);
     const Descent root = root_of(2, {});
     EXPECT_EQ(open->weight_at(root), 25);

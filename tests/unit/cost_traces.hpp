@@ -57,7 +57,7 @@ class TraceRun {
         for (int step = 0; step < num_steps; ++step) {
             move(step);
             if (step % trace_.every == 0) divide();
-            assign(cuts_, interleaved_points(x_, 2), parts_);
+            assign(cuts_, Points(x_, 2), parts_);
             count(step);
             double slowest = 0;
             for (const RankSums& sums : sums_) slowest = std::max(slowest, trace_.seconds(sums));
@@ -118,7 +118,7 @@ class TraceRun {
                     columns_of(1, 1.0 / counts[parts_[i] * num_cells + cell_of(i)], 0)));
         }
         for (CostRule& rule : rules_) rule.divide();
-        cuts_ = balance(interleaved_points(x_, 2, weights), options, {}, MPI_COMM_SELF).cuts;
+        cuts_ = balance(Points(x_, 2, weights), MPI_COMM_SELF, options).cuts;
     }
 
     void count(int step) {

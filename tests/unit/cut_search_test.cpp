@@ -49,7 +49,7 @@ class Search {
             if (weighted) rank.weights.push_back(std::pow(1e3, test::uniform(engine)) / 7);
         }
         for (Rank& rank : ranks_) {
-            const Points points = interleaved_points(rank.coordinates, dimension_, rank.weights);
+            const Points points(rank.coordinates, dimension_, rank.weights);
             rank.points = test::all_collected(points);
         }
     }

@@ -194,7 +194,7 @@ TEST(DecideAmong, breaks_ties_along_the_next_axis) {
 TEST(Count, adds_up_points_and_settled_ones_and_keeps_those_of_a_slot) {
     const std::vector<double> x{0.5, 1.5, 1.25, 3.5};
     const std::vector<double> weights{1, 2, 3, 4};
-    const Collected points = test::all_collected(interleaved_points(x, 1, weights));
+    const Collected points = test::all_collected(Points(x, 1, weights));
     const auto counted = [&](const CutSearch& search, const Entries& entries) {
         std::vector<double> histogram(layout.length());
         clear_histogram(histogram);

@@ -153,15 +153,15 @@ TEST(Cuts, look_ups_that_would_leave_an_array_are_refused) {
     for (const Cuts& wrong : broken) {
         EXPECT_THROW(box_of(wrong, 0), Error);
         EXPECT_THROW(parts_touching(wrong, box_2d(0, 0, 9, 9)), Error);
-        EXPECT_THROW(assign(wrong, interleaved_points(x, 2), parts), Error);
+        EXPECT_THROW(assign(wrong, Points(x, 2), parts), Error);
     }
-    EXPECT_THROW(assign(cuts, interleaved_points(x, 2), std::span(parts).first(5)), Error);
-    EXPECT_THROW(assign(cuts, interleaved_points(x, 1), parts), Error);
-    EXPECT_THROW(assign(cuts, interleaved_points(x, 3), std::span(parts).first(4)), Error);
+    EXPECT_THROW(assign(cuts, Points(x, 2), std::span(parts).first(5)), Error);
+    EXPECT_THROW(assign(cuts, Points(x, 1), parts), Error);
+    EXPECT_THROW(assign(cuts, Points(x, 3), std::span(parts).first(4)), Error);
     const std::array<std::span<const double>, 2> columns{x, std::span(x).first(5)};
     std::vector<Part> many(12);
-    EXPECT_THROW(assign(cuts, column_points(columns), many), Error);
-    assign(cuts, interleaved_points(x, 2), parts);
+    EXPECT_THROW(assign(cuts, Points(columns), many), Error);
+    assign(cuts, Points(x, 2), parts);
     EXPECT_EQ(parts, (std::vector<Part>(6, 0)));
 }
 
@@ -173,7 +173,7 @@ TEST(Cuts, look_ups_of_what_is_no_position_are_refused) {
             std::vector<double> x(2000);
             std::vector<Part> parts(1000);
             x[at] = bad;
-            EXPECT_THROW(assign(cuts, interleaved_points(x, 2), parts), Error);
+            EXPECT_THROW(assign(cuts, Points(x, 2), parts), Error);
         }
     EXPECT_EQ(part_of(cuts, {nan, 2, 0}), no_part);
     EXPECT_EQ(part_of(cuts, {4, nan, 0}), no_part);

@@ -59,10 +59,10 @@ TEST(DirectAssignment, finds_the_parts_of_the_look_up_and_counts_them) {
                 const std::vector<double> coordinates = lattice(count, dimension, engine);
                 std::vector<double> weights;
                 for (std::size_t i = 0; i < count; ++i) weights.push_back(test::uniform(engine));
-                const Points points = interleaved_points(coordinates, dimension);
+                const Points points(coordinates, dimension);
                 const Cuts cuts = cuts_at_points(points, num_parts, engine);
                 expect_as_looked_up(cuts, points);
-                expect_as_looked_up(cuts, interleaved_points(coordinates, dimension, weights));
+                expect_as_looked_up(cuts, Points(coordinates, dimension, weights));
             }
 }
 
@@ -71,10 +71,13 @@ TEST(DirectAssignment, reads_any_layout) {
     const std::vector<double> x = lattice(1000, 1, engine);
     const std::vector<double> y = lattice(1000, 1, engine);
     const std::array<std::span<const double>, 2> columns{x, y};
-    const Points by_columns = column_points(columns);
+    const Points by_columns(columns);
     expect_as_looked_up(cuts_at_points(by_columns, 12, engine), by_columns);
     const std::vector<double> members = lattice(1000, 5, engine);
-    Points strided{2, 1000, 5, {std::span(members), std::span(members).subspan(3)}, {}};
+    Points strided({}, 2);
+    strided.count = 1000;
+    strided.stride = 5 * sizeof(double);
+    strided.axes = {members.data(), members.data() + 3, nullptr};
     expect_as_looked_up(cuts_at_points(strided, 12, engine), strided);
 }
 
@@ -85,7 +88,7 @@ TEST(DirectAssignment, keeps_to_cuts_at_infinity_and_to_the_ends_of_the_doubles)
     for (const double plane : {-infinity, -largest, -smallest, 0.0, smallest, largest, infinity}) {
         Cut cut;
         cut.at = {plane, -infinity, -infinity};
-        expect_as_looked_up({1, 2, {cut}}, interleaved_points(values, 1));
+        expect_as_looked_up({1, 2, {cut}}, Points(values, 1));
     }
 }
 
@@ -96,8 +99,7 @@ TEST(DirectAssignment, notices_each_coordinate_that_is_not_finite) {
             std::vector<double> coordinates(2100, 1e308);
             std::vector<Part> parts(700);
             coordinates[at] = bad;
-            EXPECT_FALSE(
-                assign_and_count(cuts, interleaved_points(coordinates, 3), parts).all_finite);
+            EXPECT_FALSE(assign_and_count(cuts, Points(coordinates, 3), parts).all_finite);
         }
     }
 }

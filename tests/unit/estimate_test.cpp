@@ -89,7 +89,7 @@ struct Ranks {
             return coordinates.size() / 2 * static_cast<std::size_t>(r) /
                    static_cast<std::size_t>(num_ranks) * 2;
         };
-        return interleaved_points(
+        return Points(
             std::span(coordinates).subspan(first_of(rank), first_of(rank + 1) - first_of(rank)), 2);
     }
 
@@ -110,7 +110,7 @@ struct Ranks {
     double imbalance_of_estimate() const {
         const Bisection bisection =
             bisect(build_domain(contribution_of(0), 2), options.num_parts, {});
-        const Points points = interleaved_points(coordinates, 2);
+        const Points points(coordinates, 2);
         std::vector<Part> parts(points.count);
         assign(bisection.cuts, points, parts);
         std::vector<double> weights(options.part_sizes.size());

@@ -33,7 +33,7 @@ TEST(Extent, has_the_first_and_last_position_in_the_order_across_each_axis) {
         for (const std::size_t count : {1u, 2u, 255u, 256u, 257u, 1000u}) {
             for (const int width : {1, 3, 100}) {
                 const auto coordinates = lattice_cloud(count, dimension, width);
-                const Points points = interleaved_points(coordinates, dimension);
+                const Points points(coordinates, dimension);
                 expect_ends(points, summary_of(points));
             }
         }
@@ -42,29 +42,29 @@ TEST(Extent, has_the_first_and_last_position_in_the_order_across_each_axis) {
 
 TEST(Extent, is_the_same_for_columns_and_members_of_structs) {
     const auto coordinates = lattice_cloud(600, 3, 5);
-    Points of_structs = interleaved_points(coordinates, 3);
+    Points of_structs(coordinates, 3);
     of_structs.dimension = 2;
     expect_ends(of_structs, summary_of(of_structs));
     const std::array<std::span<const double>, 2> columns{std::span(coordinates).first(600),
                                                          std::span(coordinates).last(600)};
-    const Points of_columns = column_points(columns);
+    const Points of_columns(columns);
     expect_ends(of_columns, summary_of(of_columns));
 }
 
 TEST(Extent, of_two_is_that_of_their_points_together) {
     const auto coordinates = lattice_cloud(90, 3, 4);
     const std::span all(coordinates);
-    PointSummary both = summary_of(interleaved_points(all.first(120), 3));
-    join(both, summary_of(interleaved_points(all.subspan(120), 3)), 3);
+    PointSummary both = summary_of(Points(all.first(120), 3));
+    join(both, summary_of(Points(all.subspan(120), 3)), 3);
     join(both, PointSummary{}, 3);
     EXPECT_EQ(both.count, 90);
     EXPECT_EQ(both.weight, 90);
-    expect_ends(interleaved_points(all, 3), both);
+    expect_ends(Points(all, 3), both);
 }
 
 TEST(Extent, travels_as_doubles) {
     const auto coordinates = lattice_cloud(50, 2, 9);
-    PointSummary extent = summary_of(interleaved_points(coordinates, 2));
+    PointSummary extent = summary_of(Points(coordinates, 2));
     extent.weight = 12.5;
     std::vector<double> doubles;
     append_extent(extent, 2, doubles);
@@ -74,11 +74,11 @@ TEST(Extent, travels_as_doubles) {
     ASSERT_EQ(extents.size(), 2u);
     EXPECT_EQ(extents[0].count, 50);
     EXPECT_EQ(extents[0].weight, 12.5);
-    expect_ends(interleaved_points(coordinates, 2), extents[0]);
+    expect_ends(Points(coordinates, 2), extents[0]);
     EXPECT_EQ(extents[1].count, 0);
     PointSummary still_empty = extents[1];
     join(still_empty, extents[0], 2);
-    expect_ends(interleaved_points(coordinates, 2), still_empty);
+    expect_ends(Points(coordinates, 2), still_empty);
 }
 
 TEST(PointSummary, reads_weights_and_refuses_the_first_illegal_value) {
@@ -86,12 +86,12 @@ TEST(PointSummary, reads_weights_and_refuses_the_first_illegal_value) {
     std::vector<double> weights(600, 2.5);
     weights[3] = 0.5;
     weights[599] = 7;
-    const auto summary = [&] { return summary_of(interleaved_points(coordinates, 2, weights)); };
+    const auto summary = [&] { return summary_of(Points(coordinates, 2, weights)); };
     EXPECT_EQ(summary().lightest, 0.5);
     EXPECT_EQ(summary().heaviest, 7);
     EXPECT_EQ(summary().weight, 598 * 2.5 + 7.5);
-    EXPECT_EQ(summary().box.lower, bounding_box(interleaved_points(coordinates, 2)).lower);
-    EXPECT_EQ(summary().box.upper, bounding_box(interleaved_points(coordinates, 2)).upper);
+    EXPECT_EQ(summary().box.lower, bounding_box(Points(coordinates, 2)).lower);
+    EXPECT_EQ(summary().box.upper, bounding_box(Points(coordinates, 2)).upper);
     const auto text_for = [&](double& value, double illegal) -> std::string {
         const double legal = std::exchange(value, illegal);
         std::string text;

@@ -28,7 +28,7 @@ PointSummary extent_of(const Positions& positions, int dimension) {
     std::vector<double> coordinates;
     for (const Vector& x : positions)
         coordinates.insert(coordinates.end(), x.begin(), x.begin() + dimension);
-    return summary_of(interleaved_points(coordinates, dimension));
+    return summary_of(Points(coordinates, dimension));
 }
 
 Options options_for(std::size_t num_parts) {

@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Cloud, MomentsOf, testing::ValuesIn(clouds), name_of_cl
 
 void expect_reference(const std::vector<double>& x, int cells, std::span<const double> w = {}) {
     const std::array<std::span<const double>, 1> columns{x};
-    test::expect_reference_moments(column_points(columns, w), cells);
+    test::expect_reference_moments(Points(columns, w), cells);
 }
 
 TEST_P(MomentsOf, match_at_every_offset_and_number_of_points) {
@@ -83,7 +83,7 @@ TEST_P(MomentsOf, match_for_ten_million_points_in_one_cell) {
 
 Moments moments_of(std::span<const double> x) {
     const std::array<std::span<const double>, 1> columns{x};
-    const Points points = column_points(columns);
+    const Points points(columns);
     return cell_moments(points, make_support_mesh(bounding_box(points), 1, 1))[0].moments;
 }
 

@@ -10,7 +10,7 @@ using test::expect_reference_moments;
 
 TEST(Moments, of_four_points_worked_out_by_hand) {
     const std::vector<double> x{0, 1, 4, 5};
-    const Points points = interleaved_points(x, 1);
+    const Points points(x, 1);
     const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
     ASSERT_EQ(cells.size(), 1u);
     EXPECT_EQ(cells[0].moments.count, 4);
@@ -22,7 +22,7 @@ TEST(Moments, of_four_points_worked_out_by_hand) {
 TEST(Moments, weights_count_like_repeated_points) {
     const std::vector<double> x{0, 4};
     const std::vector<double> weights{3, 1};
-    const Points points = interleaved_points(x, 1, weights);
+    const Points points(x, 1, weights);
     const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
     EXPECT_EQ(cells[0].moments.count, 2);
     EXPECT_EQ(cells[0].moments.weight, 4);
@@ -33,15 +33,15 @@ TEST(Moments, weights_count_like_repeated_points) {
 TEST(Moments, match_long_double_for_every_dimension_and_mesh) {
     for (const int dimension : {1, 2, 3})
         for (const int cells : {1, 2, 5})
-            expect_reference_moments(
-                interleaved_points(test::uniform_cloud(3000, dimension, 7), dimension), cells);
+            expect_reference_moments(Points(test::uniform_cloud(3000, dimension, 7), dimension),
+                                     cells);
 }
 
 TEST(Moments, survive_extreme_weights) {
     for (const double magnitude : {5e-324, 1e-300, 1e300}) {
         const std::vector<double> x{0, 4e6};
         const std::vector<double> weights{3 * magnitude, magnitude};
-        const Points points = interleaved_points(x, 1, weights);
+        const Points points(x, 1, weights);
         const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
         EXPECT_EQ(cells[0].moments.weight, 3 * magnitude + magnitude);
         EXPECT_DOUBLE_EQ(cells[0].moments.mean[0], 1e6);
@@ -52,7 +52,7 @@ TEST(Moments, survive_extreme_weights) {
 TEST(Moments, cells_without_weight_are_left_out) {
     const std::vector<double> x{0, 1, 2};
     const std::vector<double> weights{1, 0, 1};
-    const Points points = interleaved_points(x, 1, weights);
+    const Points points(x, 1, weights);
     const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 3));
     ASSERT_EQ(cells.size(), 2u);
     EXPECT_EQ(cells[0].cell, 0u);
@@ -62,7 +62,7 @@ TEST(Moments, cells_without_weight_are_left_out) {
 TEST(Moments, without_any_weight_are_those_of_the_positions) {
     const std::vector<double> x{0, 2};
     const std::vector<double> weights{0, 0};
-    const Points points = interleaved_points(x, 1, weights);
+    const Points points(x, 1, weights);
     const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
     ASSERT_EQ(cells.size(), 1u);
     EXPECT_EQ(cells[0].moments.count, 2);

@@ -113,7 +113,7 @@ TEST(NearBoxes, are_the_boxes_of_other_ranks_within_the_radius) {
         const bool is_narrow = number % 2 == 1;
         if (is_narrow)
             for (double& x : coordinates) x = x / 4 + 3;
-        const Points points = interleaved_points(coordinates, random.dimension);
+        const Points points(coordinates, random.dimension);
         const Box box = is_narrow ? bounding_box(points) : all_points;
         const NearBoxes near(random.cuts, request(random.radius, box, random.ranks));
         for (LocalIndex i = 0; i < points.count; ++i) {
@@ -153,7 +153,7 @@ TEST(QuietBoxes, hold_no_point_near_another_rank_and_most_others) {
         const NearBoxes near(random.cuts, request(random.radius, all_points, random.ranks));
         const QuietBoxes quiet(near.homes(), random.radius, random.dimension);
         const auto coordinates = random_points(600, random.dimension, engine);
-        const Points points = interleaved_points(coordinates, random.dimension);
+        const Points points(coordinates, random.dimension);
         const std::vector<LocalIndex> found = outside(quiet, points);
         num_outside += found.size();
         for (LocalIndex i = 0; i < points.count; ++i) {
@@ -176,7 +176,7 @@ TEST(QuietBoxes, leave_out_little_more_than_the_radius_at_any_scale) {
         const std::vector<Box> homes{{{lower, 0, 0}, {infinity, 0, 0}}};
         const QuietBoxes quiet(homes, radius, 1);
         const auto is_quiet = [&](double x) {
-            return outside(quiet, interleaved_points(std::vector{x}, 1)).empty();
+            return outside(quiet, Points(std::vector{x}, 1)).empty();
         };
         const double margin =
             12 * std::numeric_limits<double>::epsilon() * std::max(std::abs(lower), radius);
@@ -202,7 +202,7 @@ TEST(QuietBoxes, hold_no_point_with_an_image_near_the_periodic_box) {
                 const double x =
                     std::clamp(from + step * std::abs(from) * 0x1p-52, box.lower[0], box.upper[0]);
                 const std::vector<double> one{x, 0};
-                if (!outside(quiet, interleaved_points(one, 2)).empty()) continue;
+                if (!outside(quiet, Points(one, 2)).empty()) continue;
                 int number = 0;
                 images.for_each(Ball({x, 0, 0}, radius),
                                 [&](const Shift&, const Vector&) { ++number; });

@@ -82,7 +82,7 @@ TEST(SamplePoints, counts_more_points_than_32_bits_hold) {
 TEST(MassPoints, are_the_points_with_their_weights) {
     const std::vector<double> coordinates{1, 2, 3, 4};
     const std::vector<double> weights{5, 6};
-    const std::vector<MassPoint> points = mass_points(interleaved_points(coordinates, 2, weights));
+    const std::vector<MassPoint> points = mass_points(Points(coordinates, 2, weights));
     ASSERT_EQ(points.size(), 2u);
     EXPECT_EQ(points[1].position, (Vector{3, 4, 0}));
     EXPECT_EQ(points[1].weight, 6);
@@ -91,8 +91,8 @@ TEST(MassPoints, are_the_points_with_their_weights) {
 TEST(MassPoints, weigh_one_each_if_no_point_has_weight) {
     const std::vector<double> coordinates{1, 2, 3, 4};
     const std::vector<double> zeros(2);
-    for (const auto& points : {mass_points(interleaved_points(coordinates, 2, zeros)),
-                               mass_points(interleaved_points(coordinates, 2))}) {
+    for (const auto& points :
+         {mass_points(Points(coordinates, 2, zeros)), mass_points(Points(coordinates, 2))}) {
         ASSERT_EQ(points.size(), 2u);
         EXPECT_EQ(points[0].weight, 1);
     }
@@ -114,7 +114,7 @@ std::vector<GlobalCount> counts_of(const Cuts& cuts, const Points& points) {
 
 TEST(BisectPoints, is_exact_for_every_number_of_parts) {
     const std::vector<double> cloud = test::uniform_cloud(1000, 2, 23);
-    const Points points = interleaved_points(cloud, 2);
+    const Points points(cloud, 2);
     for (int parts = 1; parts <= 17; ++parts) {
         const Cuts cuts = bisect_points(mass_points(points), 2, parts).cuts;
         const double ideal = 1000.0 / parts;
@@ -158,7 +158,7 @@ TEST(BisectPoints, puts_midpoints_at_the_share_of_the_extent_whatever_the_weight
 TEST(BisectPoints, honours_relative_part_sizes_with_zeros) {
     const std::vector<double> cloud = test::uniform_cloud(800, 2, 5);
     const std::vector<double> sizes{1, 0, 0, 2, 5};
-    const Points points = interleaved_points(cloud, 2);
+    const Points points(cloud, 2);
     const Bisection result = bisect_points(mass_points(points), 2, 5, sizes);
     EXPECT_EQ(result.part_weights, (std::vector<double>{100, 0, 0, 200, 500}));
     EXPECT_EQ(counts_of(result.cuts, points), (std::vector<GlobalCount>{100, 0, 0, 200, 500}));
@@ -168,7 +168,7 @@ TEST(BisectPoints, breaks_ties_of_a_lattice_by_position_unless_cuts_are_plain) {
     // 4 columns of 4 points, 3 parts: no plane leaves a third on one side.
     std::vector<double> lattice;
     for (int i = 0; i < 16; ++i) lattice.insert(lattice.end(), {double(i / 4), double(i % 4)});
-    const Points points = interleaved_points(lattice, 2);
+    const Points points(lattice, 2);
     for (const int parts : {2, 3, 5, 16}) {
         const Cuts cuts = bisect_points(mass_points(points), 2, parts).cuts;
         const auto [least, most] = std::ranges::minmax(counts_of(cuts, points));
@@ -181,7 +181,7 @@ TEST(BisectPoints, breaks_ties_of_a_lattice_by_position_unless_cuts_are_plain) {
 
 TEST(BisectPoints, keeps_coincident_points_together) {
     const std::vector<double> same(20, 1.5);
-    const Points points = interleaved_points(same, 2);
+    const Points points(same, 2);
     const Bisection result = bisect_points(mass_points(points), 2, 4);
     EXPECT_EQ(std::ranges::max(counts_of(result.cuts, points)), 10);
     EXPECT_EQ(std::accumulate(result.part_weights.begin(), result.part_weights.end(), 0.0), 10);
@@ -189,7 +189,7 @@ TEST(BisectPoints, keeps_coincident_points_together) {
 
 TEST(BisectPoints, returns_the_weights_of_the_assigned_points) {
     const std::vector<double> cloud = test::uniform_cloud(777, 3, 29);
-    const Points points = interleaved_points(cloud, 3);
+    const Points points(cloud, 3);
     for (const CutRule rule : {CutRule::weighted_fraction, CutRule::midpoint}) {
         const Bisection result = bisect_points(mass_points(points), 3, 11, {}, rule);
         const auto counts = counts_of(result.cuts, points);
@@ -210,7 +210,9 @@ TEST(PaperStages, refuse_arguments_out_of_range) {
              {0, {}}, {-1, {}}, {3, {1, 2}}, {3, {1, 2, -3}}, {2, {0, 0}}, {2, {1, NAN}}})
         EXPECT_THROW(bisect_points({}, 2, parts, sizes), Error);
     EXPECT_THROW(bisect_points({}, 9, 2), Error);
-    EXPECT_THROW(mass_points({.dimension = 2, .count = 3}), Error);
+    Points nowhere({}, 2);
+    nowhere.count = 3;
+    EXPECT_THROW(mass_points(nowhere), Error);
     EXPECT_THROW(sample_points({}, 0, {}), Error);
     PaperOptions options{.sample_fraction = -1};
     EXPECT_THROW(sample_points({}, 2, options), Error);

@@ -200,7 +200,7 @@ TEST(AnalyticDomain, keeps_the_moments_of_skewed_points_on_any_mesh) {
     std::mt19937_64 engine(1);
     std::vector<double> x(3000);
     for (double& coordinate : x) coordinate = std::pow(static_cast<double>(engine()) * 0x1p-64, 4);
-    const Points points = interleaved_points(x, 3);
+    const Points points(x, 3);
     const Box box = bounding_box(points);
     for (const int mesh : {1, 2, 5}) {
         const auto cells = cell_moments(points, make_support_mesh(box, 3, mesh));

@@ -228,7 +228,7 @@ class Global {
             for (std::size_t a = 0; a < d_; ++a) coordinates.push_back(x(i, a));
             if (!weights_.empty()) weights.push_back(weights_[i]);
         }
-        const Points points = interleaved_points(coordinates, case_.dimension, weights);
+        const Points points(coordinates, case_.dimension, weights);
         HostPasses& passes = passes_.emplace_back(points, std::vector<Part>(mine.size(), -1));
         opened_.push_back(test::all_open(passes, tree.num_parts));
         searches_.push_back(std::make_unique<TreeSearch>(tree, rank, *opened_.back()));

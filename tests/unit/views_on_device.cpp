@@ -1,5 +1,5 @@
 // Must not compile: the view is in memory that the host cannot read.
-#include <rrcb/views.hpp>
+#include <rrcb/points.hpp>
 
 struct DeviceMemory {};
 struct HostMemory {};
@@ -15,5 +15,5 @@ struct View {
 };
 
 rrcb::Points read(const View<HostMemory>& x, const View<MEMORY>& y) {
-    return rrcb::view_points(x, y);
+    return rrcb::Points(x, y);
 }

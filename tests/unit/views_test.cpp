@@ -1,7 +1,7 @@
 #include "../support/common.hpp"
 
 #include <rrcb/error.hpp>
-#include <rrcb/views.hpp>
+#include <rrcb/points.hpp>
 
 #ifdef RRCB_WITH_KOKKOS
 #include <Kokkos_Core.hpp>
@@ -28,8 +28,8 @@ TEST(Views, read_members_of_structs) {
     std::vector<Particle> particles;
     for (int i = 0; i < 4; ++i)
         particles.push_back({0.5, {i + 0.1, i + 0.2, i + 0.3}, 10.0 + i, 20.0 + i, i});
-    const Points arrays = member_points(particles, &Particle::position);
-    const Points members = member_points(particles, &Particle::x, &Particle::y);
+    const Points arrays(particles, &Particle::position);
+    const Points members(particles, &Particle::x, &Particle::y);
     ASSERT_EQ(arrays.count, 4u);
     ASSERT_EQ(members.dimension, 2);
     for (LocalIndex i = 0; i < 4; ++i) {
@@ -38,19 +38,19 @@ TEST(Views, read_members_of_structs) {
     }
     EXPECT_EQ(bounding_box(arrays).upper, particles[3].position);
     particles.clear();
-    EXPECT_EQ(member_points(particles, &Particle::x).count, 0u);
-    EXPECT_EQ(member_points(particles, &Particle::position).dimension, 3);
+    EXPECT_EQ(Points(particles, &Particle::x).count, 0u);
+    EXPECT_EQ(Points(particles, &Particle::position).dimension, 3);
 }
 
 TEST(Views, read_members_that_are_floats) {
     const std::vector<FloatParticle> particles{{{0.1f, 0.2f}, 0.3f, 1}, {{1.1f, 1.2f}, 1.3f, 2}};
-    const Points arrays = member_points(particles, &FloatParticle::position);
+    const Points arrays(particles, &FloatParticle::position);
     EXPECT_EQ(arrays.position(1), (Vector{1.1f, 1.2f, 0}));
-    EXPECT_EQ(member_points(particles, &FloatParticle::x).position(0), (Vector{0.3f, 0, 0}));
+    EXPECT_EQ(Points(particles, &FloatParticle::x).position(0), (Vector{0.3f, 0, 0}));
     EXPECT_EQ(bounding_box(arrays).lower[1], 0.2f);
 }
 
-/// As much of a std::mdspan with layout_stride as view_points() uses; the library has none yet.
+/// As much of a std::mdspan with layout_stride as Points() uses; the library has none yet.
 template <class T, std::size_t Rank>
 struct Strided {
     using element_type = T;
@@ -66,11 +66,11 @@ struct Strided {
 
 TEST(Views, read_views_of_points_and_axes_in_any_order) {
     const std::vector<float> values{1, 2, 3, 4, 5, 6};
-    const Points rows = view_points(Strided<const float, 2>{values.data(), {3, 2}, {2, 1}});
-    const Points columns = view_points(Strided<const float, 2>{values.data(), {3, 2}, {1, 3}});
+    const Points rows(Strided<const float, 2>{values.data(), {3, 2}, {2, 1}});
+    const Points columns(Strided<const float, 2>{values.data(), {3, 2}, {1, 3}});
     EXPECT_EQ(rows.position(1), (Vector{3, 4, 0}));
     EXPECT_EQ(columns.position(1), (Vector{2, 5, 0}));
-    const Points padded = view_points(Strided<const float, 2>{values.data(), {2, 2}, {3, 1}});
+    const Points padded(Strided<const float, 2>{values.data(), {2, 2}, {3, 1}});
     EXPECT_EQ(padded.position(1), (Vector{4, 5, 0}));
     EXPECT_EQ(bounding_box(padded).upper[1], 5);
 }
@@ -78,14 +78,14 @@ TEST(Views, read_views_of_points_and_axes_in_any_order) {
 TEST(Views, read_a_view_of_each_axis) {
     std::vector<double> values{1, 2, 3, 4, 5, 6};
     using Axis = Strided<double, 1>;
-    const Points apart = view_points(Axis{values.data(), {3}, {1}}, Axis{&values[3], {3}, {1}});
+    const Points apart(Axis{values.data(), {3}, {1}}, Axis{&values[3], {3}, {1}});
     EXPECT_EQ(apart.position(2), (Vector{3, 6, 0}));
-    const Points even = view_points(Axis{values.data(), {3}, {2}}, Axis{&values[1], {3}, {2}});
+    const Points even(Axis{values.data(), {3}, {2}}, Axis{&values[1], {3}, {2}});
     EXPECT_EQ(even.position(2), (Vector{5, 6, 0}));
     const Axis first{values.data(), {3}, {1}};
     for (const Axis& other : {Axis{values.data(), {3}, {2}}, Axis{values.data(), {2}, {1}}})
-        EXPECT_THROW(bounding_box(view_points(first, other)), Error);
-    EXPECT_THROW(bounding_box(view_points(Axis{&values[5], {3}, {-1}})), Error);
+        EXPECT_THROW(bounding_box(Points(first, other)), Error);
+    EXPECT_THROW(bounding_box(Points(Axis{&values[5], {3}, {-1}})), Error);
 }
 
 #ifdef RRCB_WITH_KOKKOS
@@ -94,12 +94,12 @@ void expect_positions() {
     Kokkos::View<float* [3], Layout, Kokkos::HostSpace> view("positions", 5);
     for (int i = 0; i < 5; ++i)
         for (int a = 0; a < 3; ++a) view(i, a) = static_cast<float>(10 * i + a);
-    const Points points = view_points(view);
+    const Points points(view);
     ASSERT_EQ(points.count, 5u);
     EXPECT_EQ(points.position(4), (Vector{40, 41, 42}));
     const auto x = Kokkos::subview(view, Kokkos::ALL, 0);
     const auto z = Kokkos::subview(view, Kokkos::ALL, 2);
-    EXPECT_EQ(view_points(x, z).position(3), (Vector{30, 32, 0}));
+    EXPECT_EQ(Points(x, z).position(3), (Vector{30, 32, 0}));
 }
 
 TEST(Views, read_views_of_kokkos) {

@@ -18,7 +18,7 @@ std::uint64_t sum_of(const std::vector<Object>& objects) {
         weights.push_back(object.weight);
         parts.push_back(object.part);
     }
-    return checksum_of(interleaved_points(coordinates, 2, weights), parts);
+    return checksum_of(Points(coordinates, 2, weights), parts);
 }
 
 TEST(Checksum, adds_up_over_ranks_in_any_order) {

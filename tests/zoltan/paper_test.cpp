@@ -20,7 +20,7 @@ struct Crowded : Program {
     }
 
     Points points(const std::vector<double>& as_doubles) const {
-        return interleaved_points(coordinates, dimension, as_doubles);
+        return Points(coordinates, dimension, as_doubles);
     }
 };
 
@@ -43,7 +43,7 @@ TEST(PaperDomains, give_the_parts_of_balance_as_in_paper) {
             Crowded program(settings);
             const std::vector<double> weights(program.weights.begin(), program.weights.end());
             const Balance expected =
-                balance_as_in_paper(program.points(weights), options, MPI_COMM_WORLD);
+                balance_as_in_paper(program.points(weights), MPI_COMM_WORLD, options);
             EXPECT_EQ(parts_by(program), expected.parts);
         }
     };
@@ -82,7 +82,7 @@ TEST(PaperDomains, keep_the_sizes_of_parts) {
     options.part_sizes = {2, 0, 1};
     const std::vector<double> weights(program.weights.begin(), program.weights.end());
     EXPECT_EQ(parts_by(program),
-              balance_as_in_paper(program.points(weights), options, MPI_COMM_WORLD).parts);
+              balance_as_in_paper(program.points(weights), MPI_COMM_WORLD, options).parts);
 }
 
 TEST(PaperDomains, take_more_parts_than_one_rank_makes_otherwise) {

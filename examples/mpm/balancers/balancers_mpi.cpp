@@ -34,8 +34,7 @@ void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
 
 rrcb::Points points_of(mpm::Positions positions) {
     const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
-    return rrcb::column_points(
-        std::span(columns).first(static_cast<std::size_t>(positions.dimension)));
+    return rrcb::Points(std::span(columns).first(static_cast<std::size_t>(positions.dimension)));
 }
 
 /// Returns the closed box of a part. Points on a cut at a face of cells belong to the part above
@@ -66,7 +65,7 @@ mpm::Balancer paper_balancer(bool of_all_points) {
     rrcb::PaperOptions options;
     if (of_all_points) options.domain = rrcb::PaperDomain::points;
     return [options](mpm::Positions positions, MPI_Comm comm) {
-        rrcb::Balance balance = rrcb::balance_as_in_paper(points_of(positions), options, comm);
+        rrcb::Balance balance = rrcb::balance_as_in_paper(points_of(positions), comm, options);
         return decomposition_of(balance, false);
     };
 }
@@ -83,7 +82,7 @@ mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weig
         rrcb::Points points = points_of(positions);
         points.weights = weight;
         if (!reuses_cuts) last->cuts = {};
-        rrcb::balance_into(*last, points, options, last->cuts, comm);
+        rrcb::balance_into(*last, points, comm, options, last->cuts);
         return decomposition_of(*last, !options.axes.grid.empty());
     };
 }

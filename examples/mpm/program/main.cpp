@@ -133,7 +133,7 @@ class Schedule {
         // for others.
         const double start = MPI_Wtime();
         simulation.rebalance(balancer);
-        if (controller_) controller_->rebalanced(MPI_Wtime() - start);
+        if (controller_) controller_->rebalanced({.cost = MPI_Wtime() - start});
     }
 
   private:
@@ -142,7 +142,8 @@ class Schedule {
         if (model_)
             model_->step(seconds, simulation.work_columns());
         else if (controller_)
-            controller_->step(seconds, static_cast<double>(simulation.positions().size()));
+            controller_->step(
+                {.load = seconds, .weight = static_cast<double>(simulation.positions().size())});
     }
 
     int every_;

@@ -152,8 +152,8 @@ RRCB_API int rrcb_part_of(const rrcb_balancer* balancer, const double* position,
  * @param parts    gets the part of each point */
 RRCB_API int rrcb_assign(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
 
-/** Writes the part of every point, as rrcb::assign_all: if one rank fails, all fail in the same
- * way. Collective.
+/** Writes the part of every point, as rrcb::assign with a communicator: if one rank fails, all fail
+ * in the same way. Collective.
  *
  * @param balancer with cuts
  * @param points   of this rank, of the dimension of the cuts; weights are ignored

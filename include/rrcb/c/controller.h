@@ -21,23 +21,16 @@ RRCB_API int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller)
  * @param controller as for rrcb_balancer_destroy */
 RRCB_API void rrcb_controller_destroy(rrcb_controller** controller);
 
-/** Records a step. Collective.
+/** Records a step, as rrcb::Controller::step. Collective.
  *
  * @param controller of this loop
  * @param load       of this rank's own work, without waiting, in the unit of the costs of
  * rebalances
+ * @param weight     of this rank's points: the sum of the weights given to rrcb_balance, or their
+ * number without weights; give it with measured loads, which are then smoothed. Null: not given
  * @param due        gets 1 if a rebalance is due, else 0; may be null */
-RRCB_API int rrcb_controller_step(rrcb_controller* controller, double load, int* due);
-
-/** Records a step and smooths the load; prefer it for measured loads. Collective.
- *
- * @param controller of this loop
- * @param load       as for rrcb_controller_step
- * @param weight     of this rank's points: the sum of the weights given to rrcb_balance; without
- * weights their number
- * @param due        as for rrcb_controller_step */
-RRCB_API int rrcb_controller_step_weight(rrcb_controller* controller, double load, double weight,
-                                         int* due);
+RRCB_API int rrcb_controller_step(rrcb_controller* controller, double load, const double* weight,
+                                  int* due);
 
 /** Writes whether a rebalance is due before the next step. Not collective.
  *

@@ -12,9 +12,9 @@ typedef struct rrcb_ghosts rrcb_ghosts;
 
 /** Determines whose radius counts if points have different radii; as rrcb::Needs. */
 typedef enum rrcb_needs {
-    RRCB_NEEDS_SENDER = 0,   /**< a rank gets the points whose radii reach one of its parts */
-    RRCB_NEEDS_RECEIVER = 1, /**< it gets the points within the radius of one of its points */
-    RRCB_NEEDS_EITHER = 2    /**< it gets both */
+    RRCB_NEEDS_SCATTER = 0,  /**< a rank gets the points whose radii reach one of its parts */
+    RRCB_NEEDS_GATHER = 1,   /**< it gets the points within the radius of one of its points */
+    RRCB_NEEDS_SYMMETRIC = 2 /**< it gets both */
 } rrcb_needs;
 
 /** Distances within which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
@@ -33,7 +33,7 @@ typedef struct rrcb_ghost_options {
 
 /** Options without a radius and without a periodic box, with the needs of senders. */
 #define RRCB_GHOST_OPTIONS_INIT \
-    { sizeof(rrcb_ghost_options), 0, NULL, NULL, NULL, NULL, 0, RRCB_NEEDS_SENDER }
+    { sizeof(rrcb_ghost_options), 0, NULL, NULL, NULL, NULL, 0, RRCB_NEEDS_SCATTER }
 
 /** Lists of the points sent and received as ghosts, as rrcb::GhostPlan; indices count from 0. */
 typedef struct rrcb_ghost_plan {

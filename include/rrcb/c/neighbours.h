@@ -32,7 +32,7 @@ typedef struct rrcb_neighbour_options {
 
 /** Options without distances and without a periodic box, with the needs of senders. */
 #define RRCB_NEIGHBOUR_OPTIONS_INIT \
-    { sizeof(rrcb_neighbour_options), 0, 0, NULL, NULL, NULL, 0, RRCB_NEEDS_SENDER }
+    { sizeof(rrcb_neighbour_options), 0, 0, NULL, NULL, NULL, 0, RRCB_NEEDS_SCATTER }
 
 /** An array that calls lengthen or shorten, like a std::vector. If it has no room for the points
  * that arrive, the call makes room, so that no point is lost unless memory runs out. */
@@ -93,7 +93,7 @@ RRCB_API int rrcb_neighbours_migrate(rrcb_neighbours* neighbours, const rrcb_poi
                                      size_t num_columns, rrcb_array* columns);
 
 /** Finds the points that other ranks need, as rrcb::Neighbours::find_ghosts. Sends no messages,
- * except with RRCB_NEEDS_RECEIVER or RRCB_NEEDS_EITHER.
+ * except with RRCB_NEEDS_GATHER or RRCB_NEEDS_SYMMETRIC.
  *
  * @param neighbours get the lists
  * @param points     of this rank
@@ -137,7 +137,7 @@ RRCB_API int rrcb_neighbours_sum(rrcb_neighbours* neighbours, const rrcb_shared_
  *
  * @param neighbours own the lists, until the next call
  * @param plan       gets a view of them */
-RRCB_API int rrcb_neighbours_ghosts(const rrcb_neighbours* neighbours, rrcb_ghost_plan* plan);
+RRCB_API int rrcb_neighbours_ghost_plan(const rrcb_neighbours* neighbours, rrcb_ghost_plan* plan);
 
 /** Moves fetched positions to those of the images, as rrcb_ghosts_apply_shifts. Not collective.
  *

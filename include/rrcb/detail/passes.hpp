@@ -198,7 +198,7 @@ class RRCB_API PointPasses {
 /// Throws the same Error on every rank, as balance(), and for what passes throw. Cost: see
 /// docs/design/how_it_works.md. Only summaries, cells, totals and collected points are copied out
 /// of the passes.
-RRCB_API Balance balance(PointPasses& points, const Options& options, const Cuts& previous,
-                         MPI_Comm comm);
+RRCB_API Balance balance(PointPasses& points, MPI_Comm comm, const Options& options = {},
+                         const Cuts& previous = {});
 
 }  // namespace rrcb

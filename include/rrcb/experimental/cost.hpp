@@ -20,7 +20,7 @@ namespace rrcb::experimental {
 ///         if (controller.due()) {
 ///             weights = model.weights(columns_of_points);       // (1, share of a cell) each
 ///             ...                                               // balance() and transfer()
-///             controller.rebalanced(balance.report, seconds);
+///             controller.rebalanced({.cost = seconds, .report = &balance.report});
 ///         }
 ///         model.step(seconds_of_work, {{points, cells}});       // after a step of the simulation
 ///     }

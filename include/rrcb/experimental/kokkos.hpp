@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace rrcb::detail {
 
 template <class Execution>
 concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
+
+template <class T>
+concept KokkosView = Kokkos::is_view<T>::value;
 
 template <class Views>
 concept KokkosPoints = Kokkos::is_view<typename ViewOf<Views>::Type>::value;
@@ -40,38 +44,38 @@ struct KokkosBalance {
 /// @param x        View<T**> or View<T*[3]> of floats or doubles, points by axes, at any stride; or
 ///                 a std::array of one View<T*> for each axis
 /// @param weights  a view of one float or double for each point; empty: every point weighs 1
+/// @param comm     as for Points
 /// @param options  the same on every rank
 /// @param previous as for Points; may be `result.cuts`
-/// @param comm     as for Points
 /// Throws the same Error on every rank, as balance(const Points&), also if Kokkos is not
 /// initialized on one rank. Cuts may differ from those of Points by rounding. Cost: see
 /// docs/kokkos.md.
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views, class Weights>
 void balance_into(KokkosBalance<detail::MemoryOf<Views>>& result, const Execution& exec,
-                  const Views& x, const Weights& weights, const Options& options,
-                  const Cuts& previous, MPI_Comm comm) {
+                  const Views& x, const Weights& weights, MPI_Comm comm,
+                  const Options& options = {}, const Cuts& previous = {}) {
     result.parts = {};
     KokkosPasses<Execution, Views, Weights> passes(exec, x, weights, result.memory);
-    Balance on_host = balance(static_cast<PointPasses&>(passes), options, previous, comm);
+    Balance on_host = balance(static_cast<PointPasses&>(passes), comm, options, previous);
     result = {std::move(on_host.cuts), std::move(on_host.report), passes.device_parts(),
               passes.memory()};
 }
 
 /// Divides points in views, as the function with the same name for Points. Collective.
 ///
-///     auto balance = rrcb::experimental::balance(exec, x, weights, options, {}, comm);
+///     auto balance = rrcb::experimental::balance(exec, x, weights, comm, options);
 ///
 /// @param exec     as for balance_into()
 /// @param x        positions
 /// @param weights  a view, empty if every point weighs 1
+/// @param comm     as for Points
 /// @param options  the same on every rank
 /// @param previous as for Points
-/// @param comm     as for Points
-template <detail::KokkosSpace Execution, detail::KokkosPoints Views, detail::KokkosPoints Weights>
-auto balance(const Execution& exec, const Views& x, const Weights& weights, const Options& options,
-             const Cuts& previous, MPI_Comm comm) {
+template <detail::KokkosSpace Execution, detail::KokkosPoints Views, detail::KokkosView Weights>
+auto balance(const Execution& exec, const Views& x, const Weights& weights, MPI_Comm comm,
+             const Options& options = {}, const Cuts& previous = {}) {
     KokkosBalance<detail::MemoryOf<Views>> result;
-    balance_into(result, exec, x, weights, options, previous, comm);
+    balance_into(result, exec, x, weights, comm, options, previous);
     return result;
 }
 
@@ -79,27 +83,16 @@ auto balance(const Execution& exec, const Views& x, const Weights& weights, cons
 ///
 /// @param exec     as for balance_into()
 /// @param x        positions
+/// @param comm     of the ranks with points
 /// @param options  the same on every rank
 /// @param previous cuts of an earlier call, or none
-/// @param comm     of the ranks with points
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
-auto balance(const Execution& exec, const Views& x, const Options& options, const Cuts& previous,
-             MPI_Comm comm) {
+auto balance(const Execution& exec, const Views& x, MPI_Comm comm, const Options& options = {},
+             const Cuts& previous = {}) {
     KokkosBalance<detail::MemoryOf<Views>> result;
     const detail::UnitWeights<detail::MemoryOf<Views>> weights;
-    balance_into(result, exec, x, weights, options, previous, comm);
+    balance_into(result, exec, x, weights, comm, options, previous);
     return result;
-}
-
-/// Divides points in views that all weigh 1, from scratch. Collective.
-///
-/// @param exec    as for balance_into()
-/// @param x       positions
-/// @param options the same on every rank
-/// @param comm    of the ranks with points
-template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
-auto balance(const Execution& exec, const Views& x, const Options& options, MPI_Comm comm) {
-    return balance(exec, x, options, Cuts{}, comm);
 }
 
 /// Writes the part of every point in a view. Not collective.
@@ -113,7 +106,7 @@ auto balance(const Execution& exec, const Views& x, const Options& options, MPI_
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 void assign(const Execution& exec, const Cuts& cuts, const Views& x,
             const Kokkos::View<Part*, detail::MemoryOf<Views>>& parts) {
-    assign(cuts, Points{.dimension = cuts.dimension}, {});  // checks the cuts
+    assign(cuts, Points({}, cuts.dimension), std::span<Part>());  // checks the cuts
     using Memory = detail::MemoryOf<Views>;
     KokkosPasses<Execution, Views, detail::UnitWeights<Memory>> passes(exec, x, {}, {parts, {}});
     detail::require_on_device(passes.dimension() == cuts.dimension,
@@ -129,7 +122,7 @@ void assign(const Execution& exec, const Cuts& cuts, const Views& x,
 
 /// Destinations of this rank's points.
 template <class MemorySpace>
-struct KokkosPlan {
+struct KokkosPointsByRank {
     Kokkos::View<int*, MemorySpace> ranks{};         ///< of each point, in the form that Cabana's
                                                      ///< Distributor takes
     Kokkos::View<LocalIndex*, MemorySpace> order{};  ///< points sorted by rank, ascending for each
@@ -141,19 +134,16 @@ struct KokkosPlan {
 /// Returns for each point the rank that gets it, in the form that Cabana::Distributor takes. Not
 /// collective.
 ///
-/// @param exec    as for balance(); the call ends with a fence of it
-/// @param balance of the points of this rank
-/// @param comm    of the balance
+/// @param exec      as for balance(); the call ends with a fence of it
+/// @param balance   of the points of this rank
+/// @param rank      this one, of the communicator of the balance
+/// @param num_ranks size of that communicator
 /// Throws Error if Kokkos is not initialized.
 template <detail::KokkosSpace Execution, class MemorySpace>
 Kokkos::View<int*, MemorySpace> destinations(const Execution& exec,
-                                             const KokkosBalance<MemorySpace>& balance,
-                                             MPI_Comm comm) {
+                                             const KokkosBalance<MemorySpace>& balance, int rank,
+                                             int num_ranks) {
     detail::require_kokkos();
-    int rank = 0;
-    int num_ranks = 1;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &num_ranks);
     std::vector<int> rank_of_part;
     for (Part part = 0; part < balance.cuts.num_parts; ++part) {
         const RankRange to = ranks_of_part(part, balance.cuts.num_parts, num_ranks);
@@ -172,16 +162,16 @@ Kokkos::View<int*, MemorySpace> destinations(const Execution& exec,
 
 /// Lists points by the rank that gets their part, as plan() does on the host. Not collective.
 ///
-/// @param exec    as for balance()
-/// @param balance of the points of this rank
-/// @param comm    of the balance
+/// @param exec      as for balance()
+/// @param balance   of the points of this rank
+/// @param rank      as for destinations()
+/// @param num_ranks as for destinations()
 /// Throws Error as destinations(), which takes less memory and time if you need no lists.
 template <detail::KokkosSpace Execution, class MemorySpace>
-KokkosPlan<MemorySpace> plan(const Execution& exec, const KokkosBalance<MemorySpace>& balance,
-                             MPI_Comm comm) {
-    const auto ranks = destinations(exec, balance, comm);
-    int num_ranks = 1;
-    MPI_Comm_size(comm, &num_ranks);
+KokkosPointsByRank<MemorySpace> points_by_rank(const Execution& exec,
+                                               const KokkosBalance<MemorySpace>& balance, int rank,
+                                               int num_ranks) {
+    const auto ranks = destinations(exec, balance, rank, num_ranks);
     detail::Device<Execution, MemorySpace> device(exec);
     const auto order = device.template allocate<LocalIndex>(ranks.extent(0));
     return {ranks, order, detail::list_by_rank(device, num_ranks, ranks, order)};

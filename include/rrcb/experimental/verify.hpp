@@ -19,9 +19,9 @@ struct VerifyOptions {
     /// Maximum number of points, over all ranks, whose neighbours are searched.
     std::size_t sample = 1000;
     /// True cut-off radius, if the ghosts were found with a skin; NaN: the radius given to
-    /// ghosts().
+    /// ghost_plan().
     double radius = std::numeric_limits<double>::quiet_NaN();
-    std::optional<std::span<const double>> radii{};       ///< needed if ghosts() got some
+    std::optional<std::span<const double>> radii{};       ///< needed if ghost_plan() got some
     std::optional<std::span<const std::uint64_t>> ids{};  ///< of the points; else their indices
     /// Ids of this rank's points before a transfer. Each of them must still exist.
     std::optional<std::span<const std::uint64_t>> ids_before{};
@@ -47,16 +47,16 @@ struct Verification {
 /// Compares ghosts with all pairs of a random sample of the points, and compares ids between the
 /// ranks. Collective.
 ///
-///     const auto seen = rrcb::experimental::verify(near, points, {.sample = 1000}, comm);
+///     const auto seen = rrcb::experimental::verify(near, points, comm, {.sample = 1000});
 ///
 /// Prints nothing.
-/// @param near    from ghosts(), or made in another way
+/// @param near    from ghost_plan(), or made in another way
 /// @param points  of this rank, whose ghosts these are
 /// @param options number of points, radii, ids
 /// @param comm    of the plan
 /// Throws Error as fetch(). Cost: each rank stores the sample and reads its points once; time for
 /// the points near the sample; messages for their pairs, for all ghosts and for all ids.
-RRCB_API Verification verify(const GhostPlan& near, const Points& points,
-                             const VerifyOptions& options, MPI_Comm comm);
+RRCB_API Verification verify(const GhostPlan& near, const Points& points, MPI_Comm comm,
+                             const VerifyOptions& options = {});
 
 }  // namespace rrcb::experimental

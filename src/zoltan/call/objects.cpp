@@ -138,8 +138,8 @@ class Collector {
             std::copy_n(weights_, count, converted);
             weights = {converted, count};
         }
-        objects_.points = interleaved_points({coordinates, count * dimension},
-                                             objects_.points.dimension, weights);
+        objects_.points =
+            Points({coordinates, count * dimension}, objects_.points.dimension, weights);
     }
 
     void read_geometry(std::size_t count, double* coordinates) {

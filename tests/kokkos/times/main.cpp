@@ -69,20 +69,19 @@ void print_row(std::int64_t count, bool is_sorted) {
     const rrcb::Options options{.num_parts = 8};
     rrcb::Cuts cuts;
     bytes_out = 0;
-    cuts = rrcb::experimental::balance(Device(), x, options, MPI_COMM_WORLD).cuts;
+    cuts = rrcb::experimental::balance(Device(), x, MPI_COMM_WORLD, options).cuts;
     const std::uint64_t bytes = bytes_out;
     const double cold =
-        least_time([&] { rrcb::experimental::balance(Device(), x, options, MPI_COMM_WORLD); });
+        least_time([&] { rrcb::experimental::balance(Device(), x, MPI_COMM_WORLD, options); });
     const double again = least_time(
-        [&] { rrcb::experimental::balance(Device(), x, options, cuts, MPI_COMM_WORLD); });
+        [&] { rrcb::experimental::balance(Device(), x, MPI_COMM_WORLD, options, cuts); });
     const auto copy = Kokkos::create_mirror(x);
     const double copying = least_time([&] { Kokkos::deep_copy(copy, x); });
     const double host =
-        least_time([&] { rrcb::balance(rrcb::view_points(copy), options, {}, MPI_COMM_WORLD); });
-    auto result = rrcb::experimental::balance(Device(), x, options, MPI_COMM_WORLD);
+        least_time([&] { rrcb::balance(rrcb::Points(copy), MPI_COMM_WORLD, options); });
+    auto result = rrcb::experimental::balance(Device(), x, MPI_COMM_WORLD, options);
     const double into = least_time([&] {
-        rrcb::experimental::balance_into(result, Device(), x, NoWeights(), options, {},
-                                         MPI_COMM_WORLD);
+        rrcb::experimental::balance_into(result, Device(), x, NoWeights(), MPI_COMM_WORLD, options);
     });
     std::printf("| %lld | %s | %.2f | %.2f | %.2f | %.2f | %.2f | %llu |\n",
                 static_cast<long long>(count), is_sorted ? "sorted" : "random", cold, into, again,

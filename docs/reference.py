@@ -12,8 +12,8 @@ from pathlib import Path
 import reference_members
 import reference_python
 
-CPP = ("points", "views", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts", "neighbours",
-       "groups", "remap", "quality", "part_sizes", "controller", "restart", "error", "version", "eigen", "paper",
+CPP = ("points", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts", "neighbours",
+       "groups", "remap", "quality", "part_sizes", "controller", "restart", "error", "version", "paper",
        "teuchos/parameters", "teuchos/zoltan_parameters", "experimental/cost", "experimental/join_keys",
        "experimental/verify", "experimental/kokkos", "experimental/kokkos/passes")
 C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/neighbours", "c/groups", "c/controller",
@@ -21,7 +21,7 @@ C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/neighbours", "c/
 FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "arrays.F90", "neighbours.f90", "groups.f90",
            "controllers.F90", "functions.f90", "experimental.F90")
 # What a header is for, in the lists of headers.
-TASKS = {"points": "describe points", "views": "describe views", "kokkos": "divide on a device", "options": "choose", "balance": "divide",
+TASKS = {"points": "describe points", "kokkos": "divide on a device", "options": "choose", "balance": "divide",
          "cuts": "look up", "plan": "plan a move", "transfer": "move columns", "balancer": "divide, look up, move",
          "balancers": "divide, look up, move", "ghosts": "find neighbours and answer queries",
          "neighbours": "exchange in each step", "arrays": "hold arrays that grow", "groups": "keep points together", "remap": "keep numbers of parts", "quality": "measure", "part_sizes": "even out loads",

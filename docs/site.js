@@ -1,4 +1,4 @@
-// A button on each block of code copies it.
+// A button on each block of code copies it. A click on a picture opens it in full size.
 document.addEventListener("DOMContentLoaded", () => {
   for (const block of document.querySelectorAll("div.highlight")) {
     const button = document.createElement("button");
@@ -10,5 +10,8 @@ document.addEventListener("DOMContentLoaded", () => {
       setTimeout(() => { button.textContent = "Copy"; }, 1500);
     });
     block.append(button);
+  }
+  for (const picture of document.querySelectorAll("article img")) {
+    picture.addEventListener("click", () => { window.location = picture.src; });
   }
 });

@@ -74,15 +74,15 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
 
 /// Explains the columns of a table in a few lines.
 constexpr const char* definitions =
-    "imbalance: heaviest part / mean part, of 10 seeds the median.\n"
-    "time: slowest rank, median of the repeats, first call left out.\n"
-    "95 %: confidence interval of the median, for 6 repeats or more.\n"
-    "speed-up: zoltan-rcb's time / this method's.\n"
-    "bytes: given to MPI and received from it in one call, all ranks.\n"
+    "imbalance: heaviest part / mean part; with several seeds their median.\n"
+    "time: on the slowest rank; median of the repeats without the first call.\n"
+    "95 %: confidence interval of the median, if there are 6 repeats or more.\n"
+    "speed-up: time of zoltan-rcb / time of the method.\n"
+    "bytes: passed to MPI and received from it in one call, on all ranks.\n"
     "ghosts: copies of points that parts need from others: a point counts once for each "
     "other\n"
-    "part that has a point within the radius of it.\n"
-    "table.csv has more columns, run.txt versions, parameters and seeds.\n";
+    "part that has a point within the radius.\n"
+    "table.csv has more columns; run.txt has versions, parameters and seeds.\n";
 
 void check_surroundings(const Arguments& arguments, MPI_Comm comm) {
     const int size = size_of(comm);

@@ -45,7 +45,8 @@ int main(int argc, char** argv) {
         std::printf("imbalance %.4f, moved %.0f %%\n", balance.report.imbalance, 100 * moved);
         std::printf("rank 0 sends %zu points and receives %zu\n", plan.export_indices.size(),
                     plan.import_indices.size());
-        std::printf("it holds %zu and knows %zu near them\n", here.size() / 2, ghosts.size() / 2);
+        std::printf("it has %zu, and copies of %zu near its box\n", here.size() / 2,
+                    ghosts.size() / 2);
     }
     MPI_Finalize();
 }
@@ -54,4 +55,4 @@ int main(int argc, char** argv) {
 // 16000 points in 4 parts
 // imbalance 1.0000, moved 50 %
 // rank 0 sends 0 points and receives 2400
-// it holds 4000 and knows 80 near them
+// it has 4000, and copies of 80 near its box

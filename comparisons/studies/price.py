@@ -136,8 +136,8 @@ def choice_table(rows: pd.DataFrame, parts: int) -> pd.DataFrame:
 
 
 def draw(rows: pd.DataFrame) -> Figure:
-    """The price of accuracy: a call of RRCB by the tolerance asked for, a line for each cloud (2-D solid, 3-D
-    dashed) and a column for each number of parts. Grey: other methods, geometric means over the clouds."""
+    """The price of accuracy: a call of RRCB over the tolerance. Each cloud has a line (solid in 2-D, dashed in 3-D), and
+    each number of parts a column. Grey lines are other methods, as geometric means over the clouds."""
     parts = sorted(rows["ranks"].unique())
     names = [name for name in LOOKS if name != "time" or rows["is_timed"].any()]
     figure, grid = plot.panels(len(names), len(parts), 3.6 * len(parts) + 0.6, 2.2 * len(names) + 0.9,

@@ -62,8 +62,8 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
 }
 
 /// Limits the overlaps of this rank to 16 for each part that a rank has, plus its share of 65,536.
-/// Overlaps that keep their present number and the largest others remain; the points of the rest
-/// lose their origin.
+/// Overlaps that keep their present number come first, then the largest others. The overlaps beyond
+/// the limit get no_origin, so that they do not influence the new numbers.
 void limit_overlaps(const NumberRule& rule, std::vector<Overlap>& overlaps) {
     const auto parts_per_rank = static_cast<std::size_t>((rule.num_parts - 1) / rule.num_ranks + 1);
     const std::size_t limit =

@@ -1,4 +1,4 @@
-// The shortest loop of a particle code: its seconds decide when the particles are divided anew.
+// The shortest loop of a particle code. The seconds of its steps determine when to rebalance.
 #include "particles.hpp"
 
 #include <rrcb/rrcb.hpp>

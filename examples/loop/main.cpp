@@ -1,8 +1,8 @@
-// The loop of a particle code: each particle meets its neighbours within a cut-off. The time of the
-// steps decides when the particles are divided anew, and how much each of them weighs.
+// The loop of a particle code, in which each particle meets its neighbours within a cut-off. The
+// times of the steps determine when the particles are rebalanced, and how much each of them weighs.
 //
-// loop [steps [file]]: the run ends after so many steps. It begins from the file, if it is there,
-// and writes it at the end.
+// loop [steps [file]]: the run ends after `steps` steps. If the file exists, the run continues from
+// it. At the end the run writes the file.
 #include "particles.hpp"
 #include "restart.hpp"
 
@@ -17,11 +17,11 @@
 #include <optional>
 #include <vector>
 
-// Loads and the cost of a rebalance count pairs of neighbours, so that all runs are alike; a
-// simulation takes the seconds of its own work, and of its rebalances with what they move.
+// Here loads and the cost of a rebalance are numbers of pairs, so that all runs print the same. A
+// simulation uses the seconds of its own work, and those of its rebalances including the migration.
 constexpr double cost = 100000;
 
-// A row of columns for each particle.
+// Returns a row of columns for each particle.
 std::vector<double> rows_of(const std::vector<double>& neighbours) {
     std::vector<double> rows;
     for (const double count : neighbours) rows.insert(rows.end(), {1.0, count});

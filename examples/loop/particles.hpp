@@ -1,4 +1,4 @@
-// Particles of a unit square, which drift to one side and meet their neighbours within a cut-off.
+// Particles in a unit square, which move to one side and meet their neighbours within a cut-off.
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <vector>
 
 constexpr double radius = 0.01;
-constexpr double travel = 0.005;  // the furthest that move() takes a particle
+constexpr double travel = 0.005;  // largest distance that move() moves a particle
 
-// A unit square of 200 x 200 particles, a strip of it on each rank.
+// Returns this rank's strip of a unit square of 200 x 200 particles.
 inline std::vector<double> strip_of(int rank, int num_ranks) {
     std::vector<double> positions;
     for (int i = 200 * rank / num_ranks; i < 200 * (rank + 1) / num_ranks; ++i) {
@@ -23,7 +23,8 @@ inline std::vector<double> strip_of(int rank, int num_ranks) {
     return positions;
 }
 
-// How many particles, own ones and ghosts, lie within the radius of each own one, itself included.
+// Returns how many particles and ghosts are within the radius of each local particle, which counts
+// as well.
 inline std::vector<double> count_neighbours(const std::vector<double>& own,
                                             const std::vector<double>& ghosts) {
     using Cell = std::pair<std::int64_t, std::int64_t>;
@@ -52,7 +53,7 @@ inline std::vector<double> count_neighbours(const std::vector<double>& own,
     return counts;
 }
 
-// All drift to the wall at x = 0, where they crowd.
+// Moves all particles towards the wall at x = 0, where they become dense.
 inline void move(std::vector<double>& positions) {
     for (std::size_t i = 0; i < positions.size(); i += 2)
         positions[i] -= 0.02 * positions[i] * (1 - positions[i]);

@@ -1,4 +1,4 @@
-// The state of a run in a file, from which as many ranks, or others, continue.
+// Writes the state of a run to a file, from which the same or another number of ranks can continue.
 #pragma once
 
 #include <mpi.h>
@@ -11,11 +11,12 @@
 #include <string>
 #include <vector>
 
-// A run between two steps; without cuts it is yet to be divided among these ranks.
+// The state of a run between two steps. If it has no cuts, it must first be divided among the
+// ranks.
 struct Run {
     int step = 0;
     int rebalances = 0;
-    double heaviest = 0;  // sum over the steps
+    double heaviest = 0;  // largest load of a rank, summed over the steps
     double total = 0;
     std::vector<std::byte> controller{};
     std::vector<std::byte> model{};
@@ -24,7 +25,7 @@ struct Run {
     std::vector<double> rows{};  // of each particle: 1, its neighbours
 };
 
-// Returns the values of all ranks on rank 0, those of lower ranks first.
+// Returns the values of all ranks on rank 0, in the order of the ranks.
 inline std::vector<double> gathered(const std::vector<double>& mine, MPI_Comm comm) {
     int rank = 0;
     int num_ranks = 1;
@@ -41,7 +42,7 @@ inline std::vector<double> gathered(const std::vector<double>& mine, MPI_Comm co
     return all;
 }
 
-// A record of a file: its length, then the values.
+// Writes a record: the number of its values, then the values.
 template <class Value>
 void put(std::ofstream& file, const std::vector<Value>& values) {
     const std::uint64_t length = values.size();
@@ -60,7 +61,7 @@ std::vector<Value> next_of(std::ifstream& file) {
     return values;
 }
 
-// Rank 0 writes all; the bytes of save() are the same on every rank.
+// Rank 0 writes the particles of all ranks, and the bytes of save(), which every rank has.
 inline void write_run(const std::string& path, const Run& run, MPI_Comm comm) {
     const std::vector<double> sizes = gathered({static_cast<double>(run.rows.size())}, comm);
     const std::vector<double> positions = gathered(run.positions, comm);
@@ -78,8 +79,8 @@ inline void write_run(const std::string& path, const Run& run, MPI_Comm comm) {
     put(file, rows);
 }
 
-// Every rank reads the file and keeps its own particles, or an equal share and no cuts on another
-// number of ranks.
+// Every rank reads the file. If the number of ranks is that of the file, each keeps its own
+// particles. Otherwise each takes an equal share, and the cuts are dropped.
 inline Run read_run(const std::string& path, MPI_Comm comm) {
     int rank = 0;
     int num_ranks = 1;

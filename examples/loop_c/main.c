@@ -1,4 +1,5 @@
-// The loop of examples/loop in C: the same numbers on as many ranks, and the same file.
+// The loop of examples/loop in C. It prints the same numbers on the same number of ranks, and
+// writes the same file.
 #include "restart.h"
 
 #include <rrcb/experimental/cost.h>
@@ -12,10 +13,10 @@
 
 enum { cells_per_axis = 101 };
 static const double radius = 0.01;
-static const double travel = 0.005;  // the furthest that a particle moves in a step
+static const double travel = 0.005;  // largest distance that a particle moves in a step
 static const double cost = 100000;
 
-// Ends all ranks if a call fails; an error is the same on each.
+// Ends all ranks if a call fails. The error is the same on each rank.
 static void check(int code) {
     if (code == RRCB_OK) return;
     fprintf(stderr, "%s\n", rrcb_last_error());
@@ -26,7 +27,7 @@ static double* array_of(size_t length) {
     return malloc((length + 1) * sizeof(double));
 }
 
-// A unit square of 200 x 200 particles, a strip of it on each rank.
+// Returns this rank's strip of a unit square of 200 x 200 particles.
 static double* strip_of(int rank, int num_ranks, size_t* count) {
     const int first = 200 * rank / num_ranks;
     const int end = 200 * (rank + 1) / num_ranks;
@@ -92,7 +93,7 @@ static double count_neighbours(const rrcb_array* x, const rrcb_array* ghosts, do
     return sum;
 }
 
-// All drift to the wall at x = 0, where they crowd.
+// Moves all particles towards the wall at x = 0, where they become dense.
 static void move(double* positions, size_t count) {
     for (size_t i = 0; i < 2 * count; i += 2)
         positions[i] -= 0.02 * positions[i] * (1 - positions[i]);

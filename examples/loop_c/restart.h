@@ -1,4 +1,5 @@
-// The state of a run in a file, as examples/loop writes it: as many ranks, or others, continue.
+// Writes the state of a run to a file, in the format of examples/loop. The same or another number
+// of ranks can continue from it.
 #ifndef RRCB_EXAMPLES_LOOP_C_RESTART_H
 #define RRCB_EXAMPLES_LOOP_C_RESTART_H
 
@@ -13,17 +14,18 @@ struct bytes {
     size_t size;
 };
 
-// A run between two steps: numbers are the step, rebalances, heaviest loads and all loads. Without
-// cuts it is yet to be divided among these ranks.
+// The state of a run between two steps. The numbers are the step, the rebalances, the sum of the
+// heaviest loads and the sum of all loads. If there are no cuts, the run must first be divided
+// among the ranks.
 struct run {
     double numbers[4];
     struct bytes controller, model, cuts;
     size_t count;
     double* positions;
-    double* rows;  // of each particle: 1, its neighbours
+    double* rows;  // for each particle 1 and the number of its neighbours
 };
 
-// A record of a file: the number of its values, then these.
+// Writes a record: the number of its values, then the values.
 static void put(FILE* file, const void* values, size_t length, size_t size) {
     const uint64_t number = length;
     fwrite(&number, sizeof number, 1, file);
@@ -39,7 +41,7 @@ static void* next_of(FILE* file, size_t size, size_t* length) {
     return values;
 }
 
-// Writes the values of all ranks, those of lower ranks first.
+// Writes the values of all ranks, in the order of the ranks.
 static void put_all(FILE* file, const double* mine, size_t length, MPI_Comm comm) {
     int num_ranks = 1;
     MPI_Comm_size(comm, &num_ranks);
@@ -58,7 +60,7 @@ static void put_all(FILE* file, const double* mine, size_t length, MPI_Comm comm
     free(all);
 }
 
-// Rank 0 writes all; the bytes of the library are the same on every rank.
+// Rank 0 writes the particles of all ranks, and the bytes of the library, which every rank has.
 static void write_run(const char* path, const struct run* run, MPI_Comm comm) {
     int rank = 0;
     MPI_Comm_rank(comm, &rank);
@@ -83,8 +85,8 @@ static double* copy_of(double* values, size_t begin, size_t end) {
     return copy;
 }
 
-// Every rank reads the file and keeps its own particles, or an equal share and no cuts on another
-// number of ranks.
+// Every rank reads the file. If the number of ranks is that of the file, each keeps its own
+// particles. Otherwise each takes an equal share, and the cuts are dropped.
 static void read_run(FILE* file, struct run* run, MPI_Comm comm) {
     int rank = 0;
     int num_ranks = 1;

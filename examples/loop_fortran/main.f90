@@ -1,4 +1,5 @@
-! The loop of examples/loop in Fortran: the same numbers on as many ranks, and the same file.
+! The loop of examples/loop in Fortran. It prints the same numbers on the same number of ranks, and
+! writes the same file.
 program loop
   use, intrinsic :: iso_c_binding
   use mpi_f08
@@ -87,7 +88,7 @@ program loop
     call neighbours%fetch([rrcb_column(positions, positions)], ghosts, error); call check(error)
     call ghosts(1)%give(fetched)
     columns = rows_of(count_neighbours(positions, fetched))
-    ! All drift to the wall at x = 0, where they crowd.
+    ! All particles move towards the wall at x = 0, where they become dense.
     positions(1, :) = positions(1, :) - 0.02_dp*positions(1, :)*(1 - positions(1, :))
     load = sum(columns(2, :))
     call model%step(load, [real(size(positions, 2), dp), load], error); call check(error)
@@ -115,7 +116,7 @@ program loop
 
 contains
 
-  ! Ends all ranks if a call fails; an error is the same on each.
+  ! Ends all ranks if a call fails. The error is the same on each rank.
   subroutine check(code)
     integer, intent(in) :: code
     if (code == rrcb_ok) return
@@ -123,7 +124,7 @@ contains
     call MPI_Abort(MPI_COMM_WORLD, code)
   end subroutine
 
-  ! Returns the values of all ranks on rank 0, those of lower ranks first.
+  ! Returns the values of all ranks on rank 0, in the order of the ranks.
   function gathered(mine) result(all)
     real(dp), intent(in) :: mine(:)
     real(dp), allocatable :: all(:)
@@ -174,8 +175,8 @@ contains
     read (file) numbers
   end function
 
-  ! Every rank reads the file and keeps its own particles, or an equal share and no cuts on another
-  ! number of ranks.
+  ! Every rank reads the file. If the number of ranks is that of the file, each keeps its own
+  ! particles. Otherwise each takes an equal share, and the cuts are dropped.
   subroutine read_run(path)
     character(*), intent(in) :: path
     real(dp), allocatable :: numbers(:), sizes(:), x(:), rows(:)
@@ -205,7 +206,7 @@ contains
     columns = reshape(rows(begin + 1:last), [2, (last - begin)/2])
   end subroutine
 
-  ! A unit square of 200 x 200 particles, a strip of it on each rank.
+  ! Returns this rank's strip of a unit square of 200 x 200 particles.
   function strip_of(rank, num_ranks) result(strip)
     integer, intent(in) :: rank, num_ranks
     real(dp), allocatable :: strip(:, :)

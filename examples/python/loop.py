@@ -1,4 +1,5 @@
-"""The loop of examples/loop: the same numbers on as many ranks, and the same file."""
+"""The loop of examples/loop in Python. It prints the same numbers on the same number of ranks, and
+writes the same file."""
 import os
 import sys
 
@@ -9,11 +10,11 @@ import rrcb
 
 comm = MPI.COMM_WORLD
 RADIUS = 0.01
-TRAVEL = 0.005  # the furthest that a particle moves in a step
-STRIDE = 104  # cells of a row, with empty ones at the ends
+TRAVEL = 0.005  # largest distance that a particle moves in a step
+STRIDE = 104  # number of cells in a row, with empty cells at the ends
 
-# Loads and the cost of a rebalance count pairs of neighbours, so that all runs are alike; a
-# simulation takes the seconds of its own work, and of its rebalances with what they move.
+# Here loads and the cost of a rebalance are numbers of pairs, so that all runs print the same. A
+# simulation uses the seconds of its own work, and those of its rebalances including the migration.
 COST = 100_000.0
 
 
@@ -31,7 +32,7 @@ def count_neighbours(x, count):
     order = np.argsort(numbers, kind="stable")
     ends = np.cumsum(np.bincount(numbers, minlength=STRIDE**2))
     neighbours = np.zeros(count)
-    for row in (-1, 0, 1):  # Three cells of a row are one after the other.
+    for row in (-1, 0, 1):  # Three neighbouring cells of a row are consecutive.
         middle = numbers[:count] + row * STRIDE
         first = ends[middle - 2]
         lengths = ends[middle + 1] - first
@@ -107,7 +108,7 @@ with controller, model:
         neighbours = count_neighbours(np.concatenate([x, near.fetch(x)]), len(x))
         columns = np.stack([np.ones(len(x)), neighbours], axis=1)
         load = neighbours.sum()
-        # All drift to the wall at x = 0, where they crowd.
+        # All particles move towards the wall at x = 0, where they become dense.
         x[:, 0] -= 0.02 * x[:, 0] * (1 - x[:, 0])
         model.step(load, [len(x), load])
         heaviest += comm.allreduce(load, MPI.MAX)

@@ -1,5 +1,5 @@
-// Balances points that lie unevenly on the ranks, moves them, and fetches the neighbours of each
-// rank's: arrays and a communicator are all it takes.
+// Balances points that are unevenly distributed over the ranks, moves them, and fetches copies of
+// the points near each rank's box. The calls need only arrays and a communicator.
 #include <rrcb/rrcb.hpp>
 
 #include <mpi.h>
@@ -7,7 +7,8 @@
 #include <cstdio>
 #include <vector>
 
-// A row of unit squares of 40 x 40 points; rank r holds the next r + 1 of them.
+// Returns the points of this rank. Unit squares of 40 x 40 points form a row; rank r has r + 1 of
+// them, which follow those of rank r - 1.
 std::vector<double> squares_of(int rank) {
     const int first = rank * (rank + 1) / 2;
     std::vector<double> coordinates;

@@ -1,18 +1,20 @@
-// Balances points that lie unevenly on the ranks, and moves them: the quick start in C.
+// The quick start in C: balances points that are unevenly distributed over the ranks, and moves
+// them.
 #include <rrcb/rrcb.h>
 
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-// Ends all ranks where a call fails; an error is the same on each.
+// Ends all ranks if a call fails. The error is the same on each rank.
 static void check(int code) {
     if (code == RRCB_OK) return;
     fprintf(stderr, "%s\n", rrcb_last_error());
     MPI_Abort(MPI_COMM_WORLD, code);
 }
 
-// A row of unit squares of 40 x 40 points; rank r holds the next r + 1 of them.
+// Returns the points of this rank. Unit squares of 40 x 40 points form a row; rank r has r + 1 of
+// them, which follow those of rank r - 1.
 static double* squares_of(int rank, size_t* count) {
     *count = (size_t)(rank + 1) * 1600;
     double* coordinates = malloc(2 * *count * sizeof *coordinates);

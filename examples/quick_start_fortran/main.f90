@@ -1,4 +1,5 @@
-! Balances points that lie unevenly on the ranks, and moves them: the quick start in Fortran.
+! The quick start in Fortran: balances points that are unevenly distributed over the ranks, and
+! moves them.
 program quick_start
   use, intrinsic :: iso_c_binding
   use mpi_f08
@@ -44,7 +45,7 @@ program quick_start
 
 contains
 
-  ! Ends all ranks where a call fails; an error is the same on each.
+  ! Ends all ranks if a call fails. The error is the same on each rank.
   subroutine check(code)
     integer, intent(in) :: code
     if (code == rrcb_ok) return
@@ -52,7 +53,8 @@ contains
     call MPI_Abort(MPI_COMM_WORLD, code)
   end subroutine
 
-  ! A row of unit squares of 40 x 40 points; rank r holds the next r + 1 of them.
+  ! Returns the points of this rank. Unit squares of 40 x 40 points form a row; rank r has r + 1 of
+  ! them, which follow those of rank r - 1.
   function squares_of(rank) result(points)
     integer, intent(in) :: rank
     real(c_double), allocatable :: points(:, :)

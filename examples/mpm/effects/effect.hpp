@@ -18,7 +18,7 @@ struct EffectBuilder {
     double wave_speed;     ///< largest wave speed of the scene's materials, m/s
 };
 
-/// An effect: one file in effects/, named in effects.inc.
+/// An effect: one file in effects/ or paper/, named in effects.inc.
 struct EffectKind {
     std::string name;
     std::vector<Rule> rules;  ///< of its parameters

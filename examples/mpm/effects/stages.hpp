@@ -14,14 +14,8 @@ namespace mpm {
 struct NodeField {
     std::string name;
     Column column;
-    /// The weights are the shape functions' derivatives along this axis. -1: the shape functions
-    /// themselves. on_each_node: 1.
-    int axis = -1;
     int component = -1;  ///< component of a vector, whose sign changes in the mirror image of a
                          ///< wall; -1: a scalar
-    /// Index of an earlier field. Only nodes at which it is above 0 need the sum. -1: all nodes
-    /// need it.
-    int where = -1;
 };
 
 /// Acceleration of gravity at its full strength, reduced by buoyancy, m/s^2.
@@ -45,12 +39,11 @@ template <int D>
 struct Stages {
     /// called once, when the points are placed
     std::vector<std::function<void(Particles&)>> preparations;
-    std::vector<NodeField> fields;                    ///< summed with mass, momentum and force
-    std::vector<Named<ScatterKernel<D>>> scatters;    ///< add to the sums of this rank
-    std::vector<Named<NodeKernel<D>>> forces;         ///< change the sums over all ranks
-    std::vector<Named<NodeKernel<D>>> constraints;    ///< called after all forces
-    std::vector<Named<NodeKernel<D>>> moved;          ///< called after the nodes have moved
-    std::vector<Named<GradientKernel<D>>> gradients;  ///< called after points have moved
+    std::vector<NodeField> fields;                  ///< summed with mass, momentum and force
+    std::vector<Named<ScatterKernel<D>>> scatters;  ///< add to the sums of this rank
+    std::vector<Named<NodeKernel<D>>> forces;       ///< change the sums over all ranks
+    std::vector<Named<NodeKernel<D>>> constraints;  ///< called after all forces
+    std::vector<Named<NodeKernel<D>>> moved;        ///< called after the nodes have moved
     /// called when the stresses are the new ones
     std::vector<Named<PointKernel<D>>> after_materials;
     std::vector<Named<StepKernel>> ends;  ///< called after all points have moved

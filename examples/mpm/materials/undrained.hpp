@@ -21,9 +21,7 @@ struct UndrainedStrength {
     double surface = 0;         ///< level of the surface at the start, m
     double residual_ratio = 1;  ///< share of the strength that is left after large strains
     double softening_strain =
-        1;                      ///< plastic shear strain after which 95 % of the loss has occurred
-    double rate_factor = 0;     ///< relative gain for each tenfold increase of the strain rate
-    double reference_rate = 1;  ///< shear strain rate below which there is no gain, 1/s
+        1;  ///< plastic shear strain after which 95 % of the loss has occurred
 
     double intact(double level) const {
         return at_surface + gradient * std::max(surface - level, 0.0);
@@ -33,9 +31,6 @@ struct UndrainedStrength {
     double softened(double plastic_strain) const {
         return residual_ratio +
                (1 - residual_ratio) * std::exp(-3 * plastic_strain / softening_strain);
-    }
-    double quickened(double rate) const {
-        return 1 + rate_factor * std::log10(std::max(rate / reference_rate, 1.0));
     }
 };
 
@@ -48,29 +43,7 @@ inline UndrainedStrength undrained_of(const Values& values) {
         clay.residual_ratio = values.number("residual_ratio");
         clay.softening_strain = values.number("softening_strain");
     }
-    if (values.has("rate_factor")) {
-        clay.rate_factor = values.number("rate_factor");
-        clay.reference_rate = values.number("reference_rate");
-    }
     return clay;
-}
-
-/// Returns the rate of engineering shear strain of point `k` of a block, 1/s. It is 2 sqrt(J2) of
-/// the deviator of the rate of deformation.
-template <int D>
-double shear_rate(const PointBlock<D>& block, std::size_t k) {
-    double volumetric = 0, square = 0;
-    for (std::size_t i = 0; i < D; ++i) volumetric += block.gradient(i, i)[k];
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double along = (i < D ? block.gradient(i, i)[k] : 0) - volumetric / 3;
-        square += 0.5 * along * along;
-    }
-    for (std::size_t i = 0; i < D; ++i)
-        for (std::size_t j = i + 1; j < D; ++j) {
-            const double half = 0.5 * (block.gradient(i, j)[k] + block.gradient(j, i)[k]);
-            square += half * half;
-        }
-    return 2 * std::sqrt(square);
 }
 
 /// Returns a trial stress to von Mises' condition sqrt(J2) <= strength. Clay that flows in plane

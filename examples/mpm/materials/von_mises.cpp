@@ -16,9 +16,9 @@ struct Columns {
                                            ///< requests it
 };
 
-/// Returns the kernel of the return mapping. There is one for each combination of softening and
-/// rate, so that a clay without them does not pay for them.
-template <int D, bool softens, bool has_rate>
+/// Returns the kernel of the return mapping. There is one without softening, so that a clay without
+/// it does not pay for it.
+template <int D, bool softens>
 PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus,
                              const Columns<D>& columns) {
     return [=](Particles& particles, const PointBlock<D>& block) {
@@ -27,11 +27,9 @@ PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus
         double* const plastic = softens ? particles.data(columns.plastic_strain.value()) : nullptr;
         for (std::size_t p = block.begin; p < block.end; ++p) {
             double strength = clay.intact(level[p]);
-            if constexpr (softens) strength *= clay.softened(plastic[p]);
-            if constexpr (has_rate)
-                strength *= clay.quickened(shear_rate<D>(block, p - block.begin));
             const Stress<D> trial = load<D>(stresses, p);
             if constexpr (softens) {
+                strength *= clay.softened(plastic[p]);
                 const double tau = std::sqrt(second_invariant(deviator(trial, mean(trial))));
                 plastic[p] += std::max(tau - strength, 0.0) / shear_modulus;
             }
@@ -41,25 +39,15 @@ PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus
 }
 
 template <int D>
-PointKernel<D> make_kernel(const Values& values, const Columns<D>& columns) {
-    const UndrainedStrength clay = undrained_of(values);
-    const double shear = elastic_of(values).shear_modulus();
-    const bool has_rate = values.has("rate_factor");
-    if (columns.plastic_strain)
-        return has_rate ? return_kernel<D, true, true>(clay, shear, columns)
-                        : return_kernel<D, true, false>(clay, shear, columns);
-    return has_rate ? return_kernel<D, false, true>(clay, shear, columns)
-                    : return_kernel<D, false, false>(clay, shear, columns);
-}
-
-template <int D>
 MaterialModel<D> build(const Values& values, Particles& particles) {
     MaterialModel<D> model = elastic_model<D>(values, particles);
     Columns<D> columns{
         add_stress_columns<D>(particles), particles.add_column(start_level_column), {}};
     if (values.has("residual_ratio") || values.word("plastic_strain") == "kept")
         columns.plastic_strain = particles.add_column("plastic_strain");
-    model.kernels.push_back({"von_mises", make_kernel<D>(values, columns)});
+    const auto make = columns.plastic_strain ? return_kernel<D, true> : return_kernel<D, false>;
+    model.kernels.push_back(
+        {"von_mises", make(undrained_of(values), elastic_of(values).shear_modulus(), columns)});
     return model;
 }
 
@@ -71,8 +59,7 @@ MaterialKind von_mises_material() {
         elastic_rules(
             {not_negative("strength", "Pa"), not_negative("strength_gradient", "Pa/m", 0.0),
              number("surface", "m", 0.0), optional(within("residual_ratio", "", 0, 1)),
-             positive("softening_strain", "", 1.0), optional(not_negative("rate_factor", "")),
-             positive("reference_rate", "1/s", 1.0), choice("plastic_strain", {"none", "kept"})}),
+             positive("softening_strain", "", 1.0), choice("plastic_strain", {"none", "kept"})}),
         elastic_wave_speed, build<2>, build<3>};
 }
 

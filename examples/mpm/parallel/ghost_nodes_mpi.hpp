@@ -30,8 +30,6 @@ class GhostNodes {
     /// neighbours.
     void sum(GridPatch<D>& patch);
 
-    /// Returns the nodes of the patch that a neighbour may reach, ascending.
-    const std::vector<std::size_t>& common() const { return common_; }
     /// Returns the number of nodes that this rank has sent to other ranks in the last sum.
     std::size_t num_shared() const { return reached_.size(); }
 

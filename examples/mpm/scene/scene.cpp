@@ -57,11 +57,10 @@ void check_plane(const Scene& scene, const Plane& plane) {
 
 /// Throws if a parameter is given without the other one that makes use of it.
 void check_partners(const Material& material) {
-    for (const auto& [key, partner] : {std::pair("softening_strain", "residual_ratio"),
-                                       std::pair("reference_rate", "rate_factor")})
-        if (material.parameters.contains(key) && !material.parameters.contains(partner))
-            throw std::invalid_argument("materials / " + material.name + ": '" + key +
-                                        "' has no effect without '" + partner + "'");
+    if (material.parameters.contains("softening_strain") &&
+        !material.parameters.contains("residual_ratio"))
+        throw std::invalid_argument("materials / " + material.name +
+                                    ": 'softening_strain' has no effect without 'residual_ratio'");
 }
 
 /// Throws unless all effects of water have the same density.

@@ -75,7 +75,6 @@ class Stepper final : public Simulation::Model {
     void load_state(const std::string& path);
     void append_own(std::span<const double> rows);
     void divide_by(Decomposition next);
-    void sum_fields();
     void advance_nodes();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
@@ -107,7 +106,7 @@ class Stepper final : public Simulation::Model {
     std::vector<NodeRange<D>> ranges_;  ///< nodes of the box of each rank
     Box home_;                          ///< the part of this rank's box that the patch covers
     std::optional<GhostNodes<D>> ghosts_;
-    std::vector<CellRun<D>> runs_, field_runs_;
+    std::vector<CellRun<D>> runs_;
     std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();
     std::size_t num_sorted_runs_ = 0;  ///< runs in the first step after a sort; 0 before it
 };

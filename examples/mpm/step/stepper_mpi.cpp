@@ -2,7 +2,6 @@
 #include "parallel/communicator_mpi.hpp"
 #include "particles/vectors.hpp"
 #include "step/stepper.hpp"
-#include "transfer/scatter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,28 +135,15 @@ bool Stepper<D>::fits_patch(std::size_t first) const {
     return true;
 }
 
-/// Sums the fields of effects. Fields with the same `where` are consecutive.
-template <int D>
-void Stepper<D>::sum_fields() {
-    int found = -1;  // the field that determines field_runs_
-    for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
-        const NodeField& field = stages_.fields[f];
-        if (field.where >= 0 && field.where != found)
-            find_runs_at<D>(patch_.fields[static_cast<std::size_t>(field.where)], ghosts_->common(),
-                            patch_, runs_, field_runs_);
-        found = field.where;
-        std::ranges::fill(patch_.fields[f], 0.0);
-        transfers_->scatter(particles, field.column, field.axis,
-                            field.where < 0 ? runs_ : field_runs_, patch_, patch_.fields[f]);
-    }
-}
-
 template <int D>
 void Stepper<D>::advance_nodes() {
     transfers_->find_runs(particles, patch_, runs_);
     if (num_sorted_runs_ == 0) num_sorted_runs_ = runs_.size();
     transfers_->p2g(particles, runs_, stages_.volume_change, patch_);
-    sum_fields();
+    for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
+        std::ranges::fill(patch_.fields[f], 0.0);
+        transfers_->scatter(particles, stages_.fields[f].column, runs_, patch_, patch_.fields[f]);
+    }
     for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
     work.pause();
     ghosts_->sum(patch_);
@@ -176,11 +162,7 @@ void Stepper<D>::advance_points() {
     for (; block.begin < particles.size(); block.begin = block.end) {
         block.block_begin = block.begin;
         block.end = std::min(block.begin + block_size, particles.size());
-        const std::size_t first_run = run;
         run = transfers_->g2p(particles, patch_, runs_, run, stages_.volume_change, block);
-        for (const auto& effect : stages_.gradients)
-            effect.kernel(particles, patch_, std::span(runs_).subspan(first_run, run - first_run),
-                          block);
         apply_materials(block);
         for (const auto& effect : stages_.after_materials) effect.kernel(particles, block);
     }

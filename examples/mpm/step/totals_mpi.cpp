@@ -34,7 +34,6 @@ std::vector<std::string> Stepper<D>::kernels() const {
     names.push_back("move_nodes");
     append_names(stages_.moved, names);
     append_transfer("g2p");
-    append_names(stages_.gradients, names);
     for (const MaterialModel<D>& material : materials_) append_names(material.kernels, names);
     append_names(stages_.after_materials, names);
     append_names(stages_.ends, names);

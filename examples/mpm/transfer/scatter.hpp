@@ -8,23 +8,6 @@
 
 namespace mpm {
 
-/// Finds the runs that reach a node at which the field is above 0, or a shared node. The field at a
-/// shared node may become positive when it is summed over the ranks.
-template <int D>
-void find_runs_at(const std::vector<double>& field, std::span<const std::size_t> shared,
-                  const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
-                  std::vector<CellRun<D>>& found) {
-    std::vector<char> has_field(field.size());
-    for (std::size_t n = 0; n < field.size(); ++n) has_field[n] = field[n] > 0;
-    for (const std::size_t n : shared) has_field[n] = 1;
-    found.clear();
-    for (const CellRun<D>& run : runs) {
-        char any = 0;
-        visit_run_nodes<D>(patch, run, [&](std::size_t n) { any |= has_field[n]; });
-        if (any != 0) found.push_back(run);
-    }
-}
-
 /// The number of consecutive points that are skipped together if a column is 0 for all of them.
 inline constexpr std::size_t skipped_together = 32;
 
@@ -42,7 +25,7 @@ inline constexpr std::size_t skipped_together = 32;
 }
 
 /// Adds a column of the points to a field of the nodes, with the weights of Transfers::scatter.
-template <int D, class Shape, int axis>
+template <int D, class Shape>
 MPM_VECTOR_CLONES void scatter_column(const std::array<const double*, D>& at,
                                       std::span<const double> values, const Shape& shape,
                                       std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
@@ -61,12 +44,8 @@ MPM_VECTOR_CLONES void scatter_column(const std::array<const double*, D>& at,
             unrolled<D>([&](auto a) __attribute__((always_inline)) {
                 weights[a] = shape.at((at[a][p] - run.corner[a]) * inverse_spacing);
             });
-            if constexpr (axis >= 0)
-                for (std::size_t i = 0; i < N; ++i)
-                    weights[axis].value[i] = inverse_spacing * weights[axis].slope[i];
             unrolled<power(N, D)>([&](auto n) __attribute__((always_inline)) {
-                const double weight = axis == on_each_node ? 1 : weight_of<D, N, n>(weights);
-                sums[n] += weight * values[p];
+                sums[n] += weight_of<D, N, n>(weights) * values[p];
             });
         }
         for (std::size_t n = 0; n < sums.size(); ++n) field[run.node + offsets[n]] = sums[n];

@@ -66,19 +66,10 @@ class TransfersOf final : public Transfers<D> {
         return transfer(particles, columns_, shape_, patch, runs, first_run, block);
     }
 
-    void scatter(const Particles& particles, Column column, int axis,
-                 std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
-                 std::vector<double>& field) const override {
-        const auto at = positions(particles);
-        const auto add = [&]<int kind>(std::integral_constant<int, kind>) {
-            scatter_column<D, Shape, kind>(at, particles[column], shape_, runs, patch,
-                                           field.data());
-        };
-        if (axis == on_each_node) return add(std::integral_constant<int, on_each_node>{});
-        if (axis < 0) return add(std::integral_constant<int, -1>{});
-        unrolled<D>([&](auto a) {
-            if (axis == static_cast<int>(a)) add(std::integral_constant<int, int{a}>{});
-        });
+    void scatter(const Particles& particles, Column column, const std::vector<CellRun<D>>& runs,
+                 const GridPatch<D>& patch, std::vector<double>& field) const override {
+        scatter_column<D>(positions(particles), particles[column], shape_, runs, patch,
+                          field.data());
     }
 
   private:

@@ -98,11 +98,6 @@ template <int D>
 using ScatterKernel =
     std::function<void(const Particles&, std::span<const CellRun<D>>, GridPatch<D>&)>;
 
-/// Changes the velocity gradients or columns of a block of points, using the nodes of its runs.
-template <int D>
-using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
-                                          std::span<const CellRun<D>>, const PointBlock<D>&)>;
-
 /// Advances a block of points. Never called for a single point.
 template <int D>
 using PointKernel = std::function<void(Particles&, const PointBlock<D>&)>;
@@ -128,9 +123,6 @@ struct TransferColumns {
     MotionColumns motion;
     StressColumns<D> stress;
 };
-
-/// Passed instead of an axis: a point has the weight 1 on each of its nodes.
-inline constexpr int on_each_node = -2;
 
 /// The transfers between points and nodes, for one dimension and one shape function.
 template <int D>
@@ -159,10 +151,9 @@ class Transfers {
                             const std::vector<CellRun<D>>& runs, std::size_t first_run,
                             VolumeChange change, const PointBlock<D>& block) const = 0;
 
-    /// Adds a column of the points to a field of the nodes. The weights are the shape functions if
-    /// `axis` is -1, 1 if it is on_each_node, and otherwise the derivatives along `axis`.
-    virtual void scatter(const Particles& particles, Column column, int axis,
-                         std::span<const CellRun<D>> runs, const GridPatch<D>& patch,
+    /// Adds a column of the points to a field of the nodes, weighted by the shape functions.
+    virtual void scatter(const Particles& particles, Column column,
+                         const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
                          std::vector<double>& field) const = 0;
 };
 

@@ -37,7 +37,6 @@ def without(text: str, effect: str) -> str:
 COSTS = (
     ("slope", "locking_cure", lambda text: without(text, "locking_cure"), str, 1.1),
     ("slope", "a far plane", str, lambda text: text + FAR_PLANE, 1.12),
-    ("submarine_slide", "water_drag", lambda text: without(text, "water_drag"), str, 1.4),
 )
 
 

@@ -1,4 +1,4 @@
-#include "effects/penetrator/penetrator.hpp"
+#include "paper/penetrator.hpp"
 #include "variations.hpp"
 #include "words.hpp"
 
@@ -158,11 +158,9 @@ double deepest(const Simulation& simulation, Penetrator<2> body) {
 
 /// Soft clay at rest, with air above it, and a plate with a wedge that strikes it.
 Scene struck_clay(double cell_size, const Penetrator<2>& plate) {
-    Material clay = clay_material(2e6, 2e3, 1.5e3);
-    clay.parameters.insert({{"rate_factor", 0.15}, {"reference_rate", 0.1}});
     return {.name = "struck",
             .grid = {.lower = {-6, -9}, .spacing = cell_size, .num_cells = {30, 38}},
-            .materials = {clay},
+            .materials = {clay_material(2e6, 2e3, 1.5e3)},
             .bodies = {{.contains = half_space_region({0, 0}, {0, 1}),
                         .points_per_cell = {3, 3, 1},
                         .material = "clay"}},

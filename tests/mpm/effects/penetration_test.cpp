@@ -9,23 +9,17 @@ namespace {
 
 constexpr double g = 9.81, density = 1600;
 constexpr double radius = 0.6, cone_height = 0.6, mass = 1200, speed = 6;
-constexpr double rate_factor = 0.15, reference_rate = 0.1;
 constexpr double section = std::numbers::pi / 4 * radius * radius;               // of a quarter
 constexpr double length = 4, volume = section * (length - cone_height * 2 / 3);  // of a quarter
 constexpr double deepest = 2.8, slow_speed = 2, slowing = 1.5 * g;
 
 /// A quarter of an anchor, `lift` of whose weight a fluid carries, above clay that rests under its
 /// weight.
-Scene anchor_scene(double body_mass, double lift, double first_speed, bool has_rate) {
-    Material clay = clay_material(1e6, 2e3, 1.5e3);
-    if (has_rate) {
-        clay.parameters["rate_factor"] = rate_factor;
-        clay.parameters["reference_rate"] = reference_rate;
-    }
+Scene anchor_scene(double body_mass, double lift, double first_speed) {
     return {.name = "anchor",
             .dimension = 3,
             .grid = {.lower = {0, -4.8, 0}, .spacing = 0.3, .num_cells = {7, 18, 7}},
-            .materials = {clay},
+            .materials = {clay_material(1e6, 2e3, 1.5e3)},
             .bodies = {{.contains = half_space_region({0, 0, 0}, {0, 1, 0}), .material = "clay"}},
             .walls = {.left = Wall::roller,
                       .right = Wall::roller,
@@ -82,8 +76,8 @@ Way follow(const Scene& scene, double first_speed) {
 }
 
 /// Pushed at a constant speed, or slowed down at a given rate.
-Way push(double first_speed, bool has_rate, double slowed_by = 0) {
-    return follow(anchor_scene(1e12, 1 + slowed_by / g, first_speed, has_rate), first_speed);
+Way push(double first_speed, double slowed_by = 0) {
+    return follow(anchor_scene(1e12, 1 + slowed_by / g, first_speed), first_speed);
 }
 
 double buoyancy(double depth) {
@@ -92,14 +86,10 @@ double buoyancy(double depth) {
     return density * g * section * (height + std::max(depth - cone_height, 0.0));
 }
 
-double log_rate(double at_speed) {
-    return std::log10(std::max(at_speed / (2 * radius) / reference_rate, 1.0));
-}
-
-/// What pushes tell: force = buoyancy + resistance * (1 + rate * log_rate) + drag * v^2, and mass.
+/// Results of pushes: force = buoyancy + resistance + drag * v^2, and mass.
 struct Measured {
     std::vector<double> depth, resistance, drag;
-    double rate = 0, added_mass = 0;
+    double added_mass = 0;
 
     double at(const std::vector<double>& column, double where) const {
         const double place = std::clamp((where - depth[0]) / (depth[1] - depth[0]), 0.0,
@@ -111,10 +101,9 @@ struct Measured {
 };
 
 Measured measure() {
-    const Way slow = push(slow_speed, false), fast = push(speed, false);
-    const Way with_rate = push(speed, true), slowed = push(speed, false, slowing);
+    const Way slow = push(slow_speed), fast = push(speed), slowed = push(speed, slowing);
     Measured measured;
-    double gain = 0, strength = 0, lag = 0;
+    double lag = 0;
     int num_lags = 0;
     for (double depth = 0.2; depth < deepest - 0.25; depth += 0.05) {
         const double drag =
@@ -125,15 +114,12 @@ Measured measure() {
         measured.drag.push_back(drag);
         measured.resistance.push_back(resistance);
         if (depth < cone_height) continue;
-        gain += with_rate.force(depth) - fast.force(depth);
-        strength += resistance;
         if (depth + 0.2 > slowed.depth.back() || slowed.at(slowed.speed, depth) < 0.25 * speed)
             continue;
         const double square = std::pow(slowed.at(slowed.speed, depth), 2);
         lag += (resistance + buoyancy(depth) + drag * square - slowed.force(depth)) / slowing;
         ++num_lags;
     }
-    measured.rate = gain / strength / log_rate(speed);
     measured.added_mass = lag / num_lags;
     return measured;
 }
@@ -142,8 +128,7 @@ Measured measure() {
 Way integrate(const Measured& measured) {
     const auto acceleration = [&](double depth, double at_speed) {
         const double share = std::clamp(depth / 0.2, 0.0, 1.0);
-        const double resistance = share * measured.at(measured.resistance, depth) *
-                                  (1 + measured.rate * log_rate(at_speed));
+        const double resistance = share * measured.at(measured.resistance, depth);
         const double drag = share * measured.at(measured.drag, depth) * at_speed * at_speed;
         const double inertia =
             mass + measured.added_mass * std::clamp(depth / cone_height, 0.0, 1.0);
@@ -168,7 +153,7 @@ Way integrate(const Measured& measured) {
 // the end and takes more from it before; that, and the clay's elastic return, are the few per cent.
 TEST(Penetration, ends_where_the_equation_of_motion_ends) {
     const Measured measured = measure();
-    const Way fall = follow(anchor_scene(mass, 0, speed, true), speed);
+    const Way fall = follow(anchor_scene(mass, 0, speed), speed);
     const Way expected = integrate(measured);
     const double depth = expected.depth.back();
     EXPECT_NEAR(fall.depth.back(), depth, 0.06 * depth);

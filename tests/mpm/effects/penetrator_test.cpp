@@ -1,4 +1,4 @@
-#include "effects/penetrator/penetrator.hpp"
+#include "paper/penetrator.hpp"
 
 #include "support.hpp"
 

@@ -26,21 +26,17 @@ TEST(Undrained, returns_to_the_strength_at_the_same_mean_stress) {
     EXPECT_EQ(returned<2>(0.0, Stress<2>{}).xx, 0);
 }
 
-TEST(Undrained, is_stronger_at_depth_and_rate_and_weaker_after_strain) {
+TEST(Undrained, is_stronger_at_depth_and_weaker_after_strain) {
     const UndrainedStrength clay{.at_surface = 2e3,
                                  .gradient = 1.5e3,
                                  .surface = 10,
                                  .residual_ratio = 0.2,
-                                 .softening_strain = 0.5,
-                                 .rate_factor = 0.1,
-                                 .reference_rate = 1e-3};
+                                 .softening_strain = 0.5};
     EXPECT_EQ(clay.intact(6), 8e3);
     EXPECT_EQ(clay.intact(12), 2e3);
     EXPECT_EQ(clay.softened(0), 1);
     EXPECT_NEAR(clay.softened(0.5), 0.2 + 0.8 * 0.049787068367863944, 1e-15);
     EXPECT_NEAR(clay.softened(50), 0.2, 1e-15);
-    EXPECT_EQ(clay.quickened(1e-9), 1);
-    EXPECT_NEAR(clay.quickened(1), 1.3, 1e-15);
 }
 
 // E = 26, nu = 0.3: G = 10, lambda = 15.

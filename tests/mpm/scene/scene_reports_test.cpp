@@ -131,8 +131,13 @@ TEST(Scene, that_contradicts_itself_is_refused) {
     expect_scene_refused(scene, {"effects / geostatic", "same density"});
     scene = resting(1);
     scene.effects.push_back({"buoyancy", {{"water_density", 1000.0}}});
-    scene.effects.push_back({"water_drag", {{"water_density", 1025.0}, {"drag_coefficient", 1.0}}});
-    expect_scene_refused(scene, {"effects / water_drag", "'water_density'", "other effects"});
+    scene.effects.push_back({"penetrator",
+                             {{"tip", std::vector<double>{2, 3}},
+                              {"radius", 0.5},
+                              {"length", 1.0},
+                              {"mass", 1.0},
+                              {"fluid_density", 1025.0}}});
+    expect_scene_refused(scene, {"effects / buoyancy", "'water_density'", "other effects"});
     scene = resting(1);
     scene.probes = {{"two\nlines", {0.5, 0.5, 0}}};
     expect_scene_refused(scene, {"probe 'two", "one line"});

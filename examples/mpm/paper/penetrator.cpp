@@ -1,4 +1,4 @@
-#include "effects/penetrator/penetrator.hpp"
+#include "paper/penetrator.hpp"
 
 #include "effects/effect.hpp"
 #include "materials/material.hpp"
@@ -45,13 +45,12 @@ class SoilStrength {
             plastic_strain_ = builder.particles.find_column("plastic_strain");
     }
 
-    /// Returns the strength of point `p` of the block at its depth, softening and strain rate, Pa.
-    double at(const Particles& particles, const PointBlock<D>& block, std::size_t p) const {
+    /// Returns the strength of point `p` at its depth and softening, Pa.
+    double at(const Particles& particles, std::size_t p) const {
         const double number = material_ ? particles[*material_][p] : 0;
         const UndrainedStrength& clay = clays_[static_cast<std::size_t>(number)];
         double strength = clay.intact(particles[start_level_][p]);
         if (plastic_strain_) strength *= clay.softened(particles[*plastic_strain_][p]);
-        if (clay.rate_factor > 0) strength *= clay.quickened(shear_rate<D>(block, p - block.begin));
         return strength;
     }
 
@@ -83,11 +82,7 @@ class Pusher {
   public:
     Pusher(RigidContact<D>& contact, const Settings<D>& settings, const Particles& particles,
            const PointBlock<D>& block)
-        : contact_(contact),
-          settings_(settings),
-          particles_(particles),
-          block_(block),
-          body_(contact.body) {
+        : contact_(contact), settings_(settings), particles_(particles), body_(contact.body) {
         // The force acts in the next step, when the body has moved on.
         body_.tip[1] += block.time_step * body_.velocity;
         time_ = settings.contact_time(body_.velocity, block.time_step);
@@ -134,16 +129,14 @@ class Pusher {
 
     double friction_on(std::size_t p, double height, double push) const {
         if (!contact_.bands) return contact_.friction * push;
-        contact_.bands->add(
-            height, push,
-            settings_.adhesion_factor * settings_.strength->at(particles_, block_, p));
+        contact_.bands->add(height, push,
+                            settings_.adhesion_factor * settings_.strength->at(particles_, p));
         return contact_.bands->most_at(height, contact_.friction) * push;
     }
 
     RigidContact<D>& contact_;
     const Settings<D>& settings_;
     const Particles& particles_;
-    const PointBlock<D>& block_;
     Penetrator<D> body_;
     double time_ = 0;   ///< contact time, s
     double ahead_ = 0;  ///< distance that the body moves in it, m
@@ -168,7 +161,7 @@ void add_contact(const EffectBuilder<D>& builder, const std::shared_ptr<RigidCon
     const std::size_t first = stages.fields.size();
     for (std::size_t a = 0; a < D; ++a) {
         settings.force[a] = builder.particles.add_column(std::string("contact_force_") + "xyz"[a]);
-        stages.fields.push_back({"contact", settings.force[a], -1, static_cast<int>(a)});
+        stages.fields.push_back({"contact", settings.force[a], static_cast<int>(a)});
     }
     stages.forces.push_back({"contact", [=](GridPatch<D>& patch, const StepTime&) {
                                  for (std::size_t a = 0; a < D; ++a)

@@ -227,7 +227,7 @@ PlaneColumns<D> add_columns(const std::string& plane, bool has_friction, Particl
                             .reach = particles.add_column(plane + "_reach")};
     for (std::size_t a = 0; a < D; ++a) {
         columns.force[a] = particles.add_column(plane + "_force_" + "xyz"[a]);
-        stages.fields.push_back({"plane_friction", columns.force[a], -1, static_cast<int>(a)});
+        stages.fields.push_back({"plane_friction", columns.force[a], static_cast<int>(a)});
     }
     if (!has_friction) return columns;
     FrictionColumns<D>& friction = columns.friction.emplace();

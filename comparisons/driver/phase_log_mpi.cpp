@@ -48,9 +48,14 @@ double PhaseLog::last_s(int num_ranks) const {
 PathCost PhaseLog::cost(MPI_Comm comm) const {
     const int num_ranks = size_of(comm);
     std::vector<double> network_s;
-    for (const Traffic& traffic : traffic_)
-        network_s.push_back(network_seconds(traffic, num_ranks, Network{}, waits_));
     PathCost cost;
+    for (const Traffic& traffic : traffic_) {
+        network_s.push_back(network_seconds(traffic, num_ranks, Network{}, waits_));
+        cost.messages += traffic.messages;
+        cost.bytes += traffic.bytes;
+    }
+    for (std::int64_t* count : {&cost.messages, &cost.bytes})
+        MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, comm);
     cost.work_s = std::accumulate(work_s_.begin(), work_s_.end(), 0.0);
     cost.root_s = cost.work_s;
     MPI_Bcast(&cost.root_s, 1, MPI_DOUBLE, 0, comm);

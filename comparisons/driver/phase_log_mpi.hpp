@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace comparisons {
@@ -31,6 +32,7 @@ struct PathCost {
     double root_s = 0;     ///< processor time of rank 0, for which the others may wait
     double network_s = 0;  ///< network_seconds() of the busiest rank of each phase, summed over the
                            ///< phases
+    std::int64_t messages = 0, bytes = 0;  ///< of all ranks and phases, as Traffic counts them
 };
 
 /// Records the work and traffic of this rank in a sequence of phases.

@@ -128,7 +128,9 @@ void add_cost(Row& row, const std::string& phase, const PathCost& cost) {
     row.add(phase + "_work_s", cost.work_s)
         .add(phase + "_path_s", cost.path_s)
         .add(phase + "_root_s", cost.root_s)
-        .add(phase + "_network_s", cost.network_s);
+        .add(phase + "_network_s", cost.network_s)
+        .add(phase + "_messages", cost.messages)
+        .add(phase + "_bytes", cost.bytes);
 }
 
 /// Returns the row of a round. The first round has the number 1.

@@ -58,6 +58,7 @@ def _add_simulations(report: Report, results: Results) -> None:
     size = f"{first['points']:,} points, {first['steps']:,} steps, {first['ranks']} ranks"
     caption = f"Simulations: {size}, rebalanced {every}"
     report.table(caption, simulation_table(runs, results.rounds))
+    report.table("Counted in the simulations, on any machine alike", counted_table(runs))
     shown = {
         "method": runs["method"],
         "imbalance": _numbers(runs["mean_imbalance"], ".4f"),
@@ -131,6 +132,26 @@ def simulation_table(runs: pd.DataFrame, rounds: pd.DataFrame) -> pd.DataFrame:
             "rebalances": _numbers(runs["rebalances"], ".0f"),
             "moved %": _numbers(100 * runs["moved_fraction"], ".1f"),
             "wall s": _texts(runs, "wall_s", digits),
+        }
+    )
+
+
+def counted_table(runs: pd.DataFrame) -> pd.DataFrame:
+    """Work by the points of the fullest rank, which the others wait for, and messages."""
+    steps, rebalances = runs["steps"], runs["rebalances"].where(runs["rebalances"] > 0)
+    none = runs.loc[runs["method"] == "none", "path_points"]
+    gain = (none.iloc[0] if len(none) else float("nan")) / runs["path_points"]
+    return pd.DataFrame(
+        {
+            "method": runs["method"],
+            "imbalance, mean of the steps": _numbers(runs["mean_imbalance"], ".3f"),
+            "largest": _numbers(runs["worst_imbalance"], ".3f"),
+            "work of the fullest rank: none / this": _numbers(gain, ".2f"),
+            "messages in a step": _numbers(runs["step_messages"] / steps, ".1f"),
+            "kB in a step": _numbers(runs["step_bytes"] / steps / 1e3, ".1f"),
+            "rebalances": _numbers(runs["rebalances"], ".0f"),
+            "messages in a rebalance": _numbers(runs["balance_messages"] / rebalances, ".1f"),
+            "kB in a rebalance": _numbers(runs["balance_bytes"] / rebalances / 1e3, ".1f"),
         }
     )
 

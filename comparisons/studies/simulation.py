@@ -17,6 +17,7 @@ KEY = ["ranks", "points", "steps", "every"]
 MEDIANS = (
     "wall_s balance_s step_s mean_imbalance worst_imbalance front_x_m moved_m mass_kg path_points"
     " step_work_s step_path_s step_root_s step_network_s"
+    " step_messages step_bytes balance_messages balance_bytes"
     " balance_work_s balance_path_s balance_root_s balance_network_s"
     " decide_s decide_work_s decide_path_s decide_root_s decide_network_s"
 ).split()

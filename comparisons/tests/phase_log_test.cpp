@@ -69,6 +69,20 @@ TEST(PhaseLog, adds_the_slowest_rank_of_each_phase) {
     EXPECT_DOUBLE_EQ(cost.network_s, n * rounds * Network{}.latency_s);
 }
 
+// In each of three phases every rank takes part in a reduction of two doubles, in and out.
+TEST(PhaseLog, counts_messages_and_bytes_of_all_ranks) {
+    const int n = rrcb::test::num_ranks();
+    PhaseLog log;
+    for (int phase = 0; phase < 3; ++phase)
+        log.record([] {
+            double numbers[2] = {};
+            MPI_Allreduce(MPI_IN_PLACE, numbers, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+        });
+    const PathCost cost = log.cost(MPI_COMM_WORLD);
+    EXPECT_EQ(cost.messages, 3 * n);
+    EXPECT_EQ(cost.bytes, 3 * n * 2 * 16);
+}
+
 TEST(PhaseLog, ends_a_phase_that_fails) {
     PhaseLog log;
     EXPECT_THROW(log.record([] { throw std::runtime_error("no"); }), std::runtime_error);

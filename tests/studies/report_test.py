@@ -108,6 +108,16 @@ class SentenceTest(FolderTest):
         self.assertEqual(paid.loc["none", ["uneven points %", "uneven time %"]].tolist(), ["60.00", "58.00"])
         self.assertEqual(paid.loc["rrcb", ["uneven points %", "uneven time %"]].tolist(), ["0.00", "10.00"])
 
+    def test_counts_give_the_gain_on_any_machine(self) -> None:
+        counted = report.counted_table(self.results(ROWS, ROUNDS).runs).set_index("method")
+        # 4,000 points of the fullest rank over 2,500; 60 messages and 48 kB in ten steps, and 20
+        # messages and 3 kB in two rebalances.
+        gain = "work of the fullest rank: none / this"
+        self.assertEqual(counted[gain][["none", "rrcb"]].tolist(), ["1.00", "1.60"])
+        sent = ["messages in a step", "kB in a step", "messages in a rebalance", "kB in a rebalance"]
+        self.assertEqual(counted.loc["rrcb", sent].tolist(), ["6.0", "4.8", "10.0", "1.5"])
+        self.assertEqual(counted.loc["none", sent].tolist(), ["6.0", "4.8", "–", "–"])
+
     def test_a_step_pays_for_rank_0(self) -> None:
         run = simulated("rrcb", 0, 20, step_root_s=6, balance_root_s=4, decide_root_s=1)
         paid = report.paid_table(pd.DataFrame([run])).set_index("method")

@@ -20,18 +20,20 @@ struct Measurement {
     std::string method;
     std::string error;             ///< empty unless the method failed
     std::vector<double> times_ms;  ///< time on the slowest rank, for each repeat
-    std::vector<double>
-        imbalances;  ///< for each seed; a single value if the method draws no points
-    double worst_unbalance_percent = 0;  ///< Lu of the largest absolute value, for the seed with
-                                         ///< the median imbalance
+    /// For each seed; a single value if the method draws no points.
+    std::vector<double> imbalances;
+    /// Lu of the largest absolute value, for the seed with the median of this value.
+    double worst_unbalance_percent = 0;
     double moved_fraction = 0;  ///< median over the seeds
-    Traffic traffic;            ///< of one call: messages and bytes of all ranks, the most
-                                ///< collectives and communicators of any rank
-    std::optional<int> rounds;  ///< of counting in a call of our own methods, by the interface: 1
-                                ///< where the estimate was accepted, 0 where none was refined
-    std::map<std::string, CallCount> calls;  ///< the same call by MPI function, over all ranks
-    Ghosts ghosts;                           ///< of these parts; 0 of a method that failed
-    std::vector<rrcb::Part> parts;  ///< of this rank's points, as the counted call made them
+    /// Traffic of one call. Messages and bytes are sums over all ranks; collectives and
+    /// communicators are those of the rank with most of them.
+    Traffic traffic;
+    /// Rounds of counting in a call of the library's own methods, from the report: 1 if the
+    /// estimate was accepted, 0 if cuts are not refined.
+    std::optional<int> rounds;
+    std::map<std::string, CallCount> calls;  ///< that traffic by MPI function, over all ranks
+    Ghosts ghosts;                           ///< of these parts; 0 if the method failed
+    std::vector<rrcb::Part> parts;           ///< of this rank's points, in the counted call
 };
 
 /// The number of seeds with which a method that uses pseudo-random points is judged.

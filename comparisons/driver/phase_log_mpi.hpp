@@ -27,8 +27,8 @@ double network_seconds(const Traffic& traffic, int num_ranks, const Network& net
 /// The cost of a sequence of phases. All ranks start each phase together.
 struct PathCost {
     double work_s = 0;  ///< processor time outside MPI, summed over the ranks
-    double path_s =
-        0;  ///< processor time of the slowest rank of each phase, summed over the phases
+    /// Processor time of the slowest rank of each phase, summed over the phases.
+    double path_s = 0;
     double root_s = 0;     ///< processor time of rank 0, for which the others may wait
     double network_s = 0;  ///< network_seconds() of the busiest rank of each phase, summed over the
                            ///< phases

@@ -6,9 +6,8 @@
 #include <cstdio>
 
 struct Loads {
-    double pairs = 0;  // sum over all ranks and steps
-    double heaviest =
-        0;  // largest load of a rank, summed over the steps of the pairs on the busiest rank
+    double pairs = 0;     // sum over all ranks and steps
+    double heaviest = 0;  // pairs on the busiest rank, summed over the steps
 
     void add(double own, MPI_Comm comm) {
         double sum = own;

@@ -216,8 +216,8 @@ void append_piece(std::size_t piece, const Tilted& density, double lower, double
 
 std::vector<DensityPiece> entropy_density_of(double mean, double deviation, double lower,
                                              double upper) {
-    constexpr double reach =
-        4;  // in standard deviations; almost no weight is farther from the mean
+    // This is in standard deviations. Almost no weight is farther from the mean.
+    constexpr double reach = 4;
     const AxisDensity simple = density_of(mean, deviation, lower, upper);
     std::vector<DensityPiece> pieces(simple.begin(),
                                      simple.begin() + (simple[1].share > 0 ? 2 : 1));

@@ -119,8 +119,8 @@ Below divide(const Along& along, std::span<const int> axes, double target, Vecto
         const Below of_jump = divide_jump(along, range.lower, axes, target - below, at);
         if (of_jump == Below::none && below == 0) return Below::none;
     } else if (slope > error && rest > error) {
-        constexpr int most_steps =
-            2000;  // enough to bisect from the largest double to the smallest
+        // This is enough to bisect from the largest double to the smallest.
+        constexpr int most_steps = 2000;
         const Profile::Range inside = profile.range_of(axis, target, error, most_steps, range);
         cut = slope - rest > error ? (std::isfinite(inside.value) ? inside.value : inside.lower)
                                    : after_slope(along, range.upper);

@@ -55,8 +55,8 @@ void count(const Collected& collected, const Entries& entries, int axis, const B
 
 void count_sums(const Collected& collected, const Entries& entries, int axis, const Bins& bins,
                 const HistogramLayout& layout, std::span<double> sums) {
-    const Bins of_axis =
-        bins;  // a local copy, so that the compiler knows that sums do not alias it
+    // A local copy lets the compiler assume that `sums` does not alias it.
+    const Bins of_axis = bins;
     const std::span<double> weights = sums.first(layout.is_weighted ? layout.num_slots() : 0);
     const std::span<double> counts = sums.last(layout.num_slots());
     for (const LocalIndex i : entries) {

@@ -38,11 +38,11 @@ struct PartTree {
     std::span<const int> cut_axes{};  ///< axes of all cuts in preorder; empty: free
     std::span<const int> axes{};      ///< axes that free cuts may cross
     bool crosses_longest = false;     ///< in a spread search, whether free cuts cross the longest
-                                   ///< axis; otherwise they minimize ghosts
+                                      ///< axis; otherwise they minimize ghosts
     TargetRule rule{};
     bool plain_cuts = false;
-    bool centres_cuts =
-        false;  ///< whether cuts are moved to the middle between points of all ranks
+    /// Whether cuts are moved to the middle between the points of all ranks.
+    bool centres_cuts = false;
     bool divides_coincident = false;  ///< whether cuts may divide coincident points, see Coincident
     std::array<AxisLimits, max_dimension> limits{};  ///< only in a central search
 };
@@ -52,8 +52,8 @@ struct Guide {
     Cuts& cuts;                         ///< the search moves these cuts, but keeps their axes
     std::span<const Bracket> brackets;  ///< intervals in which the cuts are searched first
     CutLimits* limits;                  ///< null if cuts are not limited
-    std::span<const double>
-        sums;         ///< weights of the parts that the cuts make, if they were counted
+    /// Weights of the parts that the cuts make, if they were counted.
+    std::span<const double> sums;
     bool is_counted;  ///< whether the sums belong to these cuts
     Box box;          ///< contains the points of this rank
 };

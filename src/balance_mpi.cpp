@@ -53,8 +53,9 @@ Options introduce(const Given& given, const PointSummary& summary, Contribution&
     Options options = complete(given.options, given.ranks, given.previous);
     check_options(options, dimension);
     const bool spread = is_spread(options, given.ranks.number);
-    require(options.tree.dealt == 0 || !spread,
-            "tree.dealt must be 0 if many ranks make the parts; raise tuning.central_parts");
+    require(options.tree.round_robin_block == 0 || !spread,
+            "tree.round_robin_block must be 0 if many ranks make the parts; raise "
+            "tuning.central_parts");
     if (given.previous) check_previous(*given.previous, options, dimension);
     mine.summary = summarize(summary, given.points.has_weights(), mpi::rank_of(self.comm));
     mine.summary.request = request_of(options, dimension, given.previous);

@@ -6,6 +6,7 @@
 #include "statistics.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
 #include <zoltan.h>

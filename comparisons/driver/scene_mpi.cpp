@@ -6,6 +6,7 @@
 #include "row.hpp"
 #include "scene_choice_mpi.hpp"
 
+#include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
 #include <algorithm>

@@ -116,7 +116,7 @@ static void divide(rrcb_balancer* balancer, rrcb_cost_model* model, const double
     check(rrcb_get_plan(balancer, &plan));
     double* here = array_of(2 * plan.num_points_after);
     const rrcb_column moved = RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, x->values, here);
-    check(rrcb_transfer(balancer, 1, &moved, NULL, NULL));
+    check(rrcb_transfer(balancer, 1, &moved, NULL));
     free(parts);
     free(weights);
     free(x->values);

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     check(rrcb_get_plan(balancer, &plan));
     double* here = malloc(2 * plan.num_points_after * sizeof *here);
     const rrcb_column column = RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, coordinates, here);
-    check(rrcb_transfer(balancer, 1, &column, NULL, NULL));
+    check(rrcb_transfer(balancer, 1, &column, NULL));
 
     rrcb_report report = RRCB_REPORT_INIT;
     check(rrcb_get_report(balancer, &report));

@@ -11,9 +11,9 @@ namespace rrcb {
 
 /// Statistics of a call. They are the same on every rank.
 struct ReportDetails {
-    GlobalCount num_points = 0;   ///< over all ranks
-    GlobalCount num_records = 0;  ///< cells that were bisected
-    double total_weight = 0;      ///< over all ranks
+    GlobalCount num_points = 0;  ///< over all ranks
+    GlobalCount num_cells = 0;   ///< cells that were bisected
+    double total_weight = 0;     ///< over all ranks
     double estimated_imbalance =
         1;  ///< of the statistical domain, see quality.hpp; NaN if there is no such domain,
             ///< because earlier cuts were kept or many ranks have made the parts
@@ -25,7 +25,7 @@ struct ReportDetails {
                               ///< separates; counted by the refinement
     int rounds = 0;           ///< how often the refinement has counted the points of all ranks
     bool all_weights_zero = false;  ///< if true, points were balanced by their number instead
-    int surplus_parts = 0;  ///< parts that stay empty because there are fewer points than parts
+    int num_empty_parts = 0;  ///< parts that stay empty because there are fewer points than parts
 };
 
 /// Result of a call. It is the same on every rank.

@@ -65,7 +65,7 @@ struct Cuts {
                                : numbers[static_cast<std::size_t>(end)];
     }
     /// Returns true if end k of the tree has part k, for all k. Not collective.
-    bool is_numbered_in_order() const { return numbers.empty() && shape.dealt == 0; }
+    bool is_numbered_in_order() const { return numbers.empty() && shape.round_robin_block == 0; }
 };
 
 /// Stands for no part.

@@ -124,13 +124,13 @@ namespace detail {
 RRCB_API void apply_shifts(const GhostPlan& plan, const Points& positions);
 
 RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,
-                   const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
+                   const TransferOptions& options, MPI_Comm comm);
 
 /// Moves columns of ghosts to the ranks of their points, where they are in the order of
 /// plan.send_indices. Copies the columns of the points to their results. Collective.
 RRCB_API void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
-                        std::span<const ByteColumn> of_points, const TransferLimits& limits,
-                        TransferReport* report, MPI_Comm comm);
+                        std::span<const ByteColumn> of_points, const TransferOptions& options,
+                        MPI_Comm comm);
 
 /// A plan of ghosts, along which ranks send rows back.
 struct Replies {
@@ -138,7 +138,7 @@ struct Replies {
 };
 
 RRCB_API void move(const Replies& replies, std::span<const ByteColumn> columns,
-                   const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
+                   const TransferOptions& options, MPI_Comm comm);
 
 template <class T>
 void add_each(std::span<const LocalIndex> points, std::size_t components, const T* values,
@@ -155,7 +155,7 @@ template <class... T>
 std::tuple<std::vector<T>...> accumulated(const GhostPlan& plan,
                                           const std::tuple<Column<T>...>& of_ghosts,
                                           const std::tuple<Column<T>...>& of_points, MPI_Comm comm,
-                                          const TransferLimits& limits, TransferReport* report) {
+                                          const TransferOptions& options) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
         std::tuple<std::vector<T>...> arrived;
         std::tuple<std::vector<T>...> sums;
@@ -163,7 +163,7 @@ std::tuple<std::vector<T>...> accumulated(const GhostPlan& plan,
             byte_column(std::get<I>(of_ghosts), std::get<I>(arrived))...};
         const std::array<ByteColumn, sizeof...(T)> kept{
             byte_column(std::get<I>(of_points), std::get<I>(sums))...};
-        move_back(plan, sent, kept, limits, report, comm);
+        move_back(plan, sent, kept, options, comm);
         (add_each(plan.send_indices, std::get<I>(of_points).components, std::get<I>(arrived).data(),
                   std::get<I>(sums).data()),
          ...);
@@ -174,9 +174,9 @@ std::tuple<std::vector<T>...> accumulated(const GhostPlan& plan,
 
 template <class GhostColumn, class PointColumn>
 auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const PointColumn& of_points,
-                 MPI_Comm comm, const TransferLimits& limits, TransferReport* report) {
+                 MPI_Comm comm, const TransferOptions& options) {
     return std::get<0>(accumulated(plan, std::tuple(column(of_ghosts)),
-                                   std::tuple(column(of_points)), comm, limits, report));
+                                   std::tuple(column(of_points)), comm, options));
 }
 
 }  // namespace detail
@@ -208,14 +208,13 @@ void apply_shifts(const GhostPlan& plan, Structs& ghosts, Member first, Others..
 /// @param plan    from ghost_plan()
 /// @param columns one entry, or `components`, for each of plan.num_points points
 /// @param comm    of the plan
-/// @param limits  as for transfer()
-/// @param report  as for transfer()
+/// @param options  as for transfer()
 /// @return ghosts in ascending order of ranks, then in the order of send_indices on their rank
 /// Throws Error as transfer(), and if the points were transferred since the plan was made.
 template <class Columns>
 [[nodiscard]] auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
-                         const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return detail::moved(plan, columns, comm, limits, report);
+                         const TransferOptions& options = {}) {
+    return detail::moved(plan, columns, comm, options);
 }
 
 /// Returns the rows that the ranks of the ghosts send back, such as answers to queries. Collective.
@@ -227,14 +226,13 @@ template <class Columns>
 /// @param plan          from ghost_plan()
 /// @param ghost_columns one entry, or `components`, for each ghost, in the order of fetch()
 /// @param comm          of the plan
-/// @param limits        as for transfer()
-/// @param report        as for transfer()
+/// @param options        as for transfer()
 /// @return a row for each entry of plan.send_indices: row k belongs to point send_indices[k]
 /// Throws Error as transfer(). Cost: as fetch().
 template <class GhostColumns>
 [[nodiscard]] auto reply(const GhostPlan& plan, const GhostColumns& ghost_columns, MPI_Comm comm,
-                         const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return detail::moved(detail::Replies{plan}, ghost_columns, comm, limits, report);
+                         const TransferOptions& options = {}) {
+    return detail::moved(detail::Replies{plan}, ghost_columns, comm, options);
 }
 
 /// Returns columns of the points, to which the values of their ghosts on other ranks have been
@@ -245,16 +243,15 @@ template <class GhostColumns>
 /// order of fetch()
 /// @param columns       numbers of the same types for each of plan.num_points points
 /// @param comm          of the plan
-/// @param limits        as for transfer()
-/// @param report        as for transfer()
+/// @param options        as for transfer()
 /// @return for each point its value plus the values of its ghosts, added in ascending order of
 /// ranks; the same arguments give bit-identical results. Integers must be able to hold the sums
 /// Throws Error as transfer(). Cost: as fetch(), and memory for the values that arrive.
 template <class GhostColumns, class Columns>
 [[nodiscard]] auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns,
                               const Columns& columns, MPI_Comm comm,
-                              const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return detail::accumulated(plan, ghost_columns, columns, comm, limits, report);
+                              const TransferOptions& options = {}) {
+    return detail::accumulated(plan, ghost_columns, columns, comm, options);
 }
 
 }  // namespace rrcb

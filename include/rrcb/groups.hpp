@@ -46,7 +46,7 @@ struct Groups {
 /// Finds the groups of all points with equal keys, over all ranks. Collective.
 ///
 /// Balance groups.points() in place of the points; a group that is heavier than a part stays in one
-/// part. Then fetch(groups, balance.parts, comm) returns the parts of the points, for plan().
+/// part. Then to_points(groups, balance.parts, comm) returns the parts of the points, for plan().
 /// Between rebalances call assign() instead of balance().
 /// @param points of this rank
 /// @param keys   one for each point; no_group for a point that is in no group
@@ -70,13 +70,13 @@ RRCB_API Groups groups(const Points& points, std::span<const std::uint64_t> keys
 ///
 /// Each rank adds in the order of its points; then partial sums are added in ascending order of
 /// ranks. Throws Error as accumulate().
-RRCB_API std::vector<double> sums(const Groups& groups, std::span<const double> values,
-                                  MPI_Comm comm, std::size_t components = 1);
+RRCB_API std::vector<double> group_sums(const Groups& groups, std::span<const double> values,
+                                        MPI_Comm comm, std::size_t components = 1);
 
 namespace detail {
 
 RRCB_API void move(const Groups& groups, std::span<const ByteColumn> columns,
-                   const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
+                   const TransferOptions& options, MPI_Comm comm);
 
 }  // namespace detail
 
@@ -85,14 +85,13 @@ RRCB_API void move(const Groups& groups, std::span<const ByteColumn> columns,
 /// @param groups  from groups()
 /// @param columns one entry, or `components`, for each group of this rank
 /// @param comm    of the groups
-/// @param limits  as for transfer()
-/// @param report  as for transfer()
+/// @param options  as for transfer()
 /// @return as many values for each point of this rank
 /// Throws Error as transfer().
 template <class Columns>
-[[nodiscard]] auto fetch(const Groups& groups, const Columns& columns, MPI_Comm comm,
-                         const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return detail::moved(groups, columns, comm, limits, report);
+[[nodiscard]] auto to_points(const Groups& groups, const Columns& columns, MPI_Comm comm,
+                             const TransferOptions& options = {}) {
+    return detail::moved(groups, columns, comm, options);
 }
 
 }  // namespace rrcb

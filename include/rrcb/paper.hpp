@@ -6,6 +6,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 /// @file
@@ -54,5 +55,15 @@ struct PaperOptions {
 /// that are drawn or gathered.
 RRCB_API Balance balance_as_in_paper(const Points& points, MPI_Comm comm,
                                      const PaperOptions& options = {});
+
+/// Returns the load unbalance of each part in percent: (ideal - actual) / ideal * 100, which is Lu
+/// in the paper of CILAMCE 2020. Not collective.
+///
+/// @param part_weights weight of each part
+/// @param part_sizes   as for imbalance()
+/// @return one entry per part; it is negative if the part has too much weight, and 0 for a part of
+/// size 0
+RRCB_API std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
+                                                    std::span<const double> part_sizes = {});
 
 }  // namespace rrcb

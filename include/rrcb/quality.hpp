@@ -22,23 +22,6 @@ struct Balance;
 RRCB_API double imbalance(std::span<const double> part_weights,
                           std::span<const double> part_sizes = {});
 
-/// Returns the load unbalance of each part in percent: (ideal - actual) / ideal * 100, which is Lu
-/// in the paper of CILAMCE 2020. Not collective.
-///
-/// @param part_weights weight of each part
-/// @param part_sizes   as for imbalance()
-/// @return one entry per part; it is negative if the part has too much weight, and 0 for a part of
-/// size 0
-RRCB_API std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
-                                                    std::span<const double> part_sizes = {});
-
-/// Returns the largest absolute value of load_unbalance_percent(). Not collective.
-///
-/// @param part_weights weight of each part
-/// @param part_sizes   as for imbalance()
-RRCB_API double worst_load_unbalance_percent(std::span<const double> part_weights,
-                                             std::span<const double> part_sizes = {});
-
 /// Returns the weight of every part over all ranks, on every rank. Collective: two reductions.
 ///
 /// @param points    of this rank

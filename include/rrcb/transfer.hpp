@@ -81,19 +81,20 @@ auto columns(const Columns&... each) {
     return std::tuple(column(each)...);
 }
 
-/// Limits of one call. They must be the same on every rank.
-struct TransferLimits {
-    /// Maximum memory for messages on each rank, in addition to the columns themselves: half of it
-    /// is for points that leave, half for points that arrive. Each half must have room for one
-    /// point with all its columns.
-    std::size_t bytes = std::size_t{64} << 20;
-};
-
 /// Memory and messages of a call on this rank.
 struct TransferReport {
     std::size_t peak_bytes = 0;    ///< largest memory in use for messages at the same time
     std::size_t bytes_sent = 0;    ///< bytes of columns that were sent
     std::size_t num_messages = 0;  ///< messages that were sent
+};
+
+/// Options of a call that moves columns.
+struct TransferOptions {
+    /// Maximum memory for messages on each rank, the same on every rank, in addition to the columns
+    /// themselves: half of it is for points that leave, half for points that arrive. Each half must
+    /// have room for one point with all its columns.
+    std::size_t max_bytes = std::size_t{64} << 20;
+    TransferReport* report = nullptr;  ///< gets memory and messages; null: is not wanted
 };
 
 namespace detail {
@@ -157,7 +158,7 @@ ByteColumn byte_column(const WritableColumn<Array>& column) {
 }
 
 RRCB_API void move(const Plan& plan, std::span<const ByteColumn> columns,
-                   const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
+                   const TransferOptions& options, MPI_Comm comm);
 
 /// Moves columns whose results are their own arrays. Collective.
 RRCB_API void move_in_place(const Plan& plan, std::span<const ByteColumn> columns, MPI_Comm comm);
@@ -165,8 +166,7 @@ RRCB_API void move_in_place(const Plan& plan, std::span<const ByteColumn> column
 /// Moves columns by a plan for which there is a `move` as above. Collective.
 template <class AnyPlan, class... T>
 std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column<T>...>& columns,
-                                    MPI_Comm comm, const TransferLimits& limits,
-                                    TransferReport* report) {
+                                    MPI_Comm comm, const TransferOptions& options) {
     std::tuple<std::vector<T>...> results;
     const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
         return std::array<ByteColumn, sizeof...(T)>{
@@ -175,20 +175,20 @@ std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column
     (std::index_sequence_for<T...>{});
     // This call is not in the lambda, because nvcc 13 does not find a `move` there that is declared
     // later.
-    move(plan, each, limits, report, comm);
+    move(plan, each, options, comm);
     return results;
 }
 
 template <class AnyPlan, class T>
 std::vector<T> moved(const AnyPlan& plan, const Column<T>& column, MPI_Comm comm,
-                     const TransferLimits& limits, TransferReport* report) {
-    return std::get<0>(moved(plan, std::tuple(column), comm, limits, report));
+                     const TransferOptions& options) {
+    return std::get<0>(moved(plan, std::tuple(column), comm, options));
 }
 
 template <class AnyPlan, std::ranges::contiguous_range Values>
-auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const TransferLimits& limits,
-           TransferReport* report) {
-    return moved(plan, column(values), comm, limits, report);
+auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm,
+           const TransferOptions& options) {
+    return moved(plan, column(values), comm, options);
 }
 
 }  // namespace detail
@@ -201,17 +201,16 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 /// @param plan    of the points of this rank
 /// @param columns the same in the same order on every rank; empty on a rank without points
 /// @param comm    of the plan, or a congruent one
-/// @param limits  memory for messages, the same on every rank
-/// @param report  may be null
+/// @param options memory for messages, and a report
 /// @return a tuple of vectors for columns(), otherwise a vector: the points that stay in their
 /// order, then those that arrive in that of the import lists; separate calls give the same order
 /// Throws the same Error on every rank if columns or limits of one do not fit the plan or the other
 /// ranks, or if memory runs out; if a message fails, on its rank only. Cost: as plan(); several
-/// messages for a pair of ranks if one would exceed `limits.bytes`.
+/// messages for a pair of ranks if one would exceed `options.max_bytes`.
 template <class Columns>
 [[nodiscard]] auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
-                            const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return detail::moved(plan, columns, comm, limits, report);
+                            const TransferOptions& options = {}) {
+    return detail::moved(plan, columns, comm, options);
 }
 
 /// Moves points along a plan within the vectors that contain them. Collective.

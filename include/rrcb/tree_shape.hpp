@@ -13,8 +13,8 @@ namespace rrcb {
 struct TreeShape {
     int group_size = 1;         ///< number of parts in a group, >= 1; the last group may have fewer
     bool larger_below = false;  ///< whether the larger half of an odd number is below the cut
-    int dealt = 0;  ///< number of consecutive parts dealt to a group before the next group gets its
-                    ///< turn; 0: all parts of a group are consecutive
+    int round_robin_block = 0;  ///< number of consecutive parts dealt to a group before the next
+                                ///< group gets its turn; 0: all parts of a group are consecutive
 
     /// Returns how many of a node's parts are below its cut; `num_parts` must be at least 2. Not
     /// collective.
@@ -26,32 +26,36 @@ struct TreeShape {
     /// Returns the part at an end of a tree of `num_parts` parts. number_fits() must be true for
     /// `num_parts`. Not collective.
     constexpr int part_at(int end, int num_parts) const {
-        if (dealt == 0) return end;
-        const int turn = end % group_size / dealt * num_groups(num_parts) + end / group_size;
-        return turn * dealt + end % dealt;
+        if (round_robin_block == 0) return end;
+        const int turn =
+            end % group_size / round_robin_block * num_groups(num_parts) + end / group_size;
+        return turn * round_robin_block + end % round_robin_block;
     }
 
     /// Returns the end of the tree that has a part. This is the reverse of part_at(). Not
     /// collective.
     constexpr int end_of(int part, int num_parts) const {
-        if (dealt == 0) return part;
-        const int turn = part / dealt;
+        if (round_robin_block == 0) return part;
+        const int turn = part / round_robin_block;
         const int groups = num_groups(num_parts);
-        return turn % groups * group_size + turn / groups * dealt + part % dealt;
+        return turn % groups * group_size + turn / groups * round_robin_block +
+               part % round_robin_block;
     }
 
     /// Returns true if this number of parts can be dealt to the groups: all groups get the same
     /// number, or the last group gets one turn less. Not collective.
     constexpr bool number_fits(int num_parts) const {
-        if (dealt == 0) return true;
-        return dealt > 0 && group_size % dealt == 0 && num_parts % dealt == 0 &&
-               (num_parts % group_size == 0 || num_parts % group_size == group_size - dealt);
+        if (round_robin_block == 0) return true;
+        return round_robin_block > 0 && group_size % round_robin_block == 0 &&
+               num_parts % round_robin_block == 0 &&
+               (num_parts % group_size == 0 ||
+                num_parts % group_size == group_size - round_robin_block);
     }
 
     /// Returns true if both shapes give every node the same numbers of parts. Not collective.
     friend constexpr bool operator==(const TreeShape& a, const TreeShape& b) {
         return a.group_size == b.group_size && a.larger_below == b.larger_below &&
-               a.dealt == b.dealt;
+               a.round_robin_block == b.round_robin_block;
     }
 
   private:

@@ -265,7 +265,7 @@ def move(
 ) -> Any:
     """Moves the columns of local() by a function of the library. Returns what arrives. Collective."""
     columns = prepare(comm, local, Columns.signature)
-    c.call(function, own, *columns.as_bytes(), None, None)
+    c.call(function, own, *columns.as_bytes(), None)
     return columns.result()
 
 

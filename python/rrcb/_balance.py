@@ -29,11 +29,11 @@ class Report:
     total_weight: float
     least_imbalance: float  #: lower bound of the imbalance of any partition
     estimated_imbalance: float  #: before the cuts were corrected; nan from earlier cuts
-    num_records: int  #: cells bisected
+    num_cells: int  #: cells bisected
     rounds: int  #: of counting, to correct the cuts
     coincident_cuts: int  #: that would divide points which no allowed cut separates
     all_weights_zero: bool  #: balanced by count instead
-    surplus_parts: int  #: parts that stay empty: more than points
+    num_empty_parts: int  #: parts that stay empty: more than points
 
     def __repr__(self) -> str:
         values = dataclasses.asdict(self)

@@ -133,6 +133,6 @@ def cuts_of(balancer: c.Handle) -> Cuts:
     shown = c.Cuts()
     c.call("get_cuts", balancer, shown)
     tree = copied(shown.tree, (shown.num_parts - 1,), CUT)
-    shape = (shown.group_size, shown.larger_below, shown.dealt)
+    shape = (shown.group_size, shown.larger_below, shown.round_robin_block)
     numbers = copied(shown.numbers, (shown.num_parts,), np.int32) if shown.numbers else None
     return Cuts(shown.dimension, shown.num_parts, tree, shape, numbers, shown.debt)

@@ -96,7 +96,7 @@ class Ghosts:
         columns = prepare(
             self.comm, lambda: numbers_of(data, self.count, self.num_points), Columns.signature
         )
-        c.call("ghosts_accumulate", self._own, *columns.as_numbers(), None, None)
+        c.call("ghosts_accumulate", self._own, *columns.as_numbers(), None)
         return columns.result()
 
     def _fetch(self, data: Any, check: Callable[[], None]) -> Any:

@@ -38,7 +38,7 @@ class Groups:
     def __repr__(self) -> str:
         return f"<rrcb.Groups: {len(self.x)} of {self._num_points} points>"
 
-    def fetch(self, data: Any) -> Any:
+    def to_points(self, data: Any) -> Any:
         """Returns for each point the data of its group, in the form of `data`. Collective.
 
         `data` has a row for each group of this rank, as for Balance.transfer().
@@ -47,7 +47,7 @@ class Groups:
         def local() -> Columns:
             return Columns(data, len(self.x), "groups", self._num_points)
 
-        return move(self.comm, "groups_fetch", self._own, local)
+        return move(self.comm, "groups_to_points", self._own, local)
 
     def sums(self, values: Any) -> Array:
         """Returns the sum over the points of each group of this rank. Collective.
@@ -73,7 +73,7 @@ class Groups:
 
     def distribution(self, balance: Balance) -> Distribution:
         """Returns the parts of the points, from a balance of the groups. Collective."""
-        return Distribution(self.comm, balance._own, self.fetch(balance.parts))
+        return Distribution(self.comm, balance._own, self.to_points(balance.parts))
 
 
 def groups(

@@ -46,7 +46,7 @@ class Cuts(Sized):
 
     _fields_ = members(
         dimension=c_int, num_parts=c_int, tree=c_void_p, group_size=c_int, larger_below=c_int,
-        dealt=c_int, numbers=c_void_p, debt=c_double
+        round_robin_block=c_int, numbers=c_void_p, debt=c_double
     )
 
 
@@ -56,8 +56,8 @@ class Report(Sized):
     _fields_ = members(
         imbalance=c_double, within_tolerance=c_int, kept=c_int, num_points=c_int64,
         total_weight=c_double, least_imbalance=c_double, estimated_imbalance=c_double,
-        num_records=c_int64, rounds=c_int, coincident_cuts=c_int, all_weights_zero=c_int,
-        surplus_parts=c_int
+        num_cells=c_int64, rounds=c_int, coincident_cuts=c_int, all_weights_zero=c_int,
+        num_empty_parts=c_int
     )
 
 
@@ -151,7 +151,7 @@ class Verification(Structure):
 
     _fields_ = members(
         num_pairs=c_int64, num_faults=c_int64, num_missing=c_size_t, missing=c_void_p,
-        num_twice=c_size_t, twice=c_void_p, num_strangers=c_size_t, strangers=c_void_p
+        num_duplicates=c_size_t, duplicates=c_void_p, num_not_mine=c_size_t, not_mine=c_void_p
     )
 
 
@@ -184,16 +184,16 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "ranks_of_part": (c_int32, c_int, c_int, POINTER(RankRange)),
     "plan": (c_void_p, c_size_t, Address),
     "get_plan": (c_void_p, POINTER(Plan)),
-    "transfer": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "transfer": (c_void_p, c_size_t, c_void_p, c_void_p),
     "ghosts_create": (c_void_p, POINTER(Points), POINTER(GhostOptions), HANDLE),
     "ghosts_get_plan": (c_void_p, POINTER(GhostPlan)),
-    "ghosts_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
-    "ghosts_reply": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
-    "ghosts_accumulate": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "ghosts_fetch": (c_void_p, c_size_t, c_void_p, c_void_p),
+    "ghosts_reply": (c_void_p, c_size_t, c_void_p, c_void_p),
+    "ghosts_accumulate": (c_void_p, c_size_t, c_void_p, c_void_p),
     "ghosts_verify": (c_void_p, POINTER(Points), POINTER(VerifyOptions), POINTER(Verification)),
     "groups_create": (c_void_p, POINTER(Points), Address, c_int, HANDLE),
     "groups_points": (c_void_p, POINTER(Points)),
-    "groups_fetch": (c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "groups_to_points": (c_void_p, c_size_t, c_void_p, c_void_p),
     "groups_sums": (c_void_p, c_size_t, Address, Address),
     "join_keys": (c_void_p, c_size_t, c_size_t, Address, Address),
     "ghosts_apply_shifts": (c_void_p, POINTER(Points)),

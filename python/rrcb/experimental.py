@@ -32,8 +32,8 @@ class Verification:
     num_pairs: int  #: of the sample, over all ranks
     num_faults: int  #: over all ranks
     missing: Array  #: near points that are no ghosts, ids that are lost
-    twice: Array  #: ghosts that came twice, ids that another rank has too
-    strangers: Array  #: own points that came as ghosts, new ids
+    duplicates: Array  #: ghosts that came twice, ids that another rank has too
+    not_mine: Array  #: own points that came as ghosts, new ids
 
 
 def values_of(columns: Any) -> Any:
@@ -206,8 +206,8 @@ def verify(
         copied(address, (count,), FAULT)
         for address, count in (
             (seen.missing, seen.num_missing),
-            (seen.twice, seen.num_twice),
-            (seen.strangers, seen.num_strangers),
+            (seen.duplicates, seen.num_duplicates),
+            (seen.not_mine, seen.num_not_mine),
         )
     ]
     return Verification(seen.num_pairs, seen.num_faults, *lists)

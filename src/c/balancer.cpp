@@ -42,7 +42,7 @@ Cuts copy_of(const rrcb_cuts& given) {
     if (given.larger_below != 0 && given.larger_below != 1)
         reject("larger_below must be 0 or 1, not " + std::to_string(given.larger_below));
     Cuts cuts{given.dimension, given.num_parts, std::vector<Cut>(size)};
-    cuts.shape = {given.group_size, given.larger_below != 0, given.dealt};
+    cuts.shape = {given.group_size, given.larger_below != 0, given.round_robin_block};
     std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
         return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
     });
@@ -142,8 +142,8 @@ int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
         rrcb::c::copy_out(
             {0, from.imbalance, from.within_tolerance ? 1 : 0, from.kept ? 1 : 0,
              details.num_points, details.total_weight, details.least_imbalance,
-             details.estimated_imbalance, details.num_records, details.rounds,
-             details.coincident_cuts, details.all_weights_zero ? 1 : 0, details.surplus_parts},
+             details.estimated_imbalance, details.num_cells, details.rounds,
+             details.coincident_cuts, details.all_weights_zero ? 1 : 0, details.num_empty_parts},
             report);
     });
 }
@@ -155,7 +155,7 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
         rrcb::c::copy_out(
             {0, own.cuts.dimension, own.cuts.num_parts,
              reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()), own.cuts.shape.group_size,
-             own.cuts.shape.larger_below ? 1 : 0, own.cuts.shape.dealt,
+             own.cuts.shape.larger_below ? 1 : 0, own.cuts.shape.round_robin_block,
              own.cuts.numbers.empty() ? nullptr : own.cuts.numbers.data(), own.cuts.debt},
             cuts);
     });

@@ -45,13 +45,17 @@ std::vector<detail::ByteColumn> columns_of(std::span<const rrcb_column> columns,
     return result;
 }
 
-TransferLimits limits_of(const rrcb_transfer_limits* limits) {
-    static_assert(rrcb_transfer_limits RRCB_TRANSFER_LIMITS_INIT.bytes == TransferLimits{}.bytes);
-    if (limits == nullptr) return {};
-    return {copy_in(limits, "limits").bytes};
+GivenTransferOptions::GivenTransferOptions(const rrcb_transfer_options* options) {
+    static_assert(rrcb_transfer_options RRCB_TRANSFER_OPTIONS_INIT.max_bytes ==
+                  TransferOptions{}.max_bytes);
+    if (options == nullptr) return;
+    const rrcb_transfer_options given = copy_in(options, "options");
+    if (given.report != nullptr) require_sized(given.report, "report");
+    max_bytes = given.max_bytes;
+    report = given.report;
 }
 
-void store(const TransferReport& from, rrcb_transfer_report* report) {
+void GivenTransferOptions::store(const TransferReport& from) const {
     if (report != nullptr)
         copy_out({0, from.peak_bytes, from.bytes_sent, from.num_messages}, report);
 }

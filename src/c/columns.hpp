@@ -41,24 +41,24 @@ inline std::vector<rrcb_column> given_columns(const rrcb_column* columns, std::s
     return copy_all_in(columns, count, "columns");
 }
 
-/// Returns the limits passed to a call, or the default if they are null.
-TransferLimits limits_of(const rrcb_transfer_limits* limits);
+/// Options passed to a call that moves columns, or the default if they are null. Throws Error if
+/// the size of the options or of their report is not set.
+struct GivenTransferOptions {
+    GivenTransferOptions() = default;
+    explicit GivenTransferOptions(const rrcb_transfer_options* options);
 
-/// Writes a report, unless it is null.
-void store(const TransferReport& from, rrcb_transfer_report* report);
+    std::size_t max_bytes = TransferOptions{}.max_bytes;
+    rrcb_transfer_report* report = nullptr;
+
+    /// Writes the report, if it is wanted.
+    void store(const TransferReport& from) const;
+};
 
 /// Arguments of a function that moves columns.
 struct ColumnCall {
     std::size_t num_columns;
     const rrcb_column* columns;
-    const rrcb_transfer_limits* limits;
-    rrcb_transfer_report* report;
-
-    /// Returns the limits. Throws Error if the size of the limits or of the report is not set.
-    TransferLimits checked_limits() const {
-        if (report != nullptr) require_sized(report, "report");
-        return limits_of(limits);
-    }
+    const rrcb_transfer_options* options;
 
     /// Moves columns of `num_from` points to `num_to` points, along a plan or from groups.
     /// Collective.
@@ -66,14 +66,14 @@ struct ColumnCall {
     void move_by(const AnyPlan& plan, LocalIndex num_from, LocalIndex num_to,
                  Participant& self) const {
         std::vector<detail::ByteColumn> moved;
-        TransferLimits within;
+        GivenTransferOptions given;
         self.attempt([&] {
             moved = columns_of(given_columns(columns, num_columns), num_from, num_to);
-            within = checked_limits();
+            given = GivenTransferOptions(options);
         });
         TransferReport made;
-        move(plan, moved, within, &made, self);
-        store(made, report);
+        move(plan, moved, {given.max_bytes, &made}, self);
+        given.store(made);
     }
 };
 

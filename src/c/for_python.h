@@ -30,14 +30,14 @@ typedef struct rrcb_fault {
 
 /** Result of rrcb_ghosts_verify, as rrcb::experimental::Verification. */
 typedef struct rrcb_verification {
-    int64_t num_pairs;           /**< of the sample, over all ranks */
-    int64_t num_faults;          /**< over all ranks */
-    size_t num_missing;          /**< length of `missing`, and so on */
-    const rrcb_fault* missing;   /**< near points that are no ghosts, ids that are lost */
-    size_t num_twice;            /**< */
-    const rrcb_fault* twice;     /**< ghosts that came twice, ids that another rank has too */
-    size_t num_strangers;        /**< */
-    const rrcb_fault* strangers; /**< own points that came as ghosts, new ids */
+    int64_t num_pairs;            /**< of the sample, over all ranks */
+    int64_t num_faults;           /**< over all ranks */
+    size_t num_missing;           /**< length of `missing`, and so on */
+    const rrcb_fault* missing;    /**< near points that are no ghosts, ids that are lost */
+    size_t num_duplicates;        /**< */
+    const rrcb_fault* duplicates; /**< ghosts that came twice, ids that another rank has too */
+    size_t num_not_mine;          /**< */
+    const rrcb_fault* not_mine;   /**< own points that came as ghosts, new ids */
 } rrcb_verification;
 
 /** Compares ghosts with all pairs of a sample of the points, as rrcb::experimental::verify.

@@ -96,13 +96,14 @@ void verify(rrcb_ghosts& own, const rrcb_points* given, const rrcb_verify_option
         options = options_of(given_options, points.count);
     });
     own.seen = experimental::verify(own.plan, points, options, self);
-    const auto& [num_pairs, num_faults, missing, twice, strangers] = own.seen;
-    *seen = {num_pairs,    num_faults,       missing.size(),   faults_at(missing),
-             twice.size(), faults_at(twice), strangers.size(), faults_at(strangers)};
+    const auto& [num_pairs, num_faults, missing, duplicates, not_mine] = own.seen;
+    *seen = {num_pairs,          num_faults,         missing.size(),
+             faults_at(missing), duplicates.size(),  faults_at(duplicates),
+             not_mine.size(),    faults_at(not_mine)};
 }
 
 void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
-                const TransferLimits& limits, TransferReport& report, Participant& self) {
+                const TransferOptions& options, Participant& self) {
     std::vector<detail::ByteColumn> of_ghosts;
     std::vector<detail::ByteColumn> of_points;
     std::vector<ByteResult> arrived;
@@ -119,7 +120,7 @@ void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
                 arrived.emplace_back(ByteResult{of_ghosts[k].value_bytes}).result_of(of_ghosts[k]);
         }
     });
-    move_back(own.plan, of_ghosts, of_points, limits, &report, self);
+    move_back(own.plan, of_ghosts, of_points, options, self);
     for (std::size_t k = 0; k < columns.size(); ++k)
         visit_type(columns[k].type, [&]<class T>(T) {
             if constexpr (!std::is_same_v<T, std::byte>)
@@ -158,36 +159,34 @@ int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {
 }
 
 int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_column* columns,
-                      const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
+                      const rrcb_transfer_options* options) {
     return guarded_together(CallName::fetch, ghosts, [&](const auto& own, Participant& self) {
-        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+        const rrcb::c::ColumnCall call{num_columns, columns, options};
         call.move_by(own.plan, own.plan.num_points, rrcb::total(own.plan.receive), self);
     });
 }
 
 int rrcb_ghosts_reply(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_column* columns,
-                      const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
+                      const rrcb_transfer_options* options) {
     return guarded_together(CallName::reply, ghosts, [&](const auto& own, Participant& self) {
-        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+        const rrcb::c::ColumnCall call{num_columns, columns, options};
         call.move_by(rrcb::detail::Replies{own.plan}, rrcb::total(own.plan.receive),
                      own.plan.send_indices.size(), self);
     });
 }
 
 int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
-                           const rrcb_column* columns, const rrcb_transfer_limits* limits,
-                           rrcb_transfer_report* report) {
+                           const rrcb_column* columns, const rrcb_transfer_options* options) {
     return guarded_together(CallName::accumulate, ghosts, [&](const auto& own, Participant& self) {
-        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
         std::vector<rrcb_column> given;
-        rrcb::TransferLimits within;
+        rrcb::c::GivenTransferOptions within;
         self.attempt([&] {
             given = rrcb::c::given_columns(columns, num_columns);
-            within = call.checked_limits();
+            within = rrcb::c::GivenTransferOptions(options);
         });
         rrcb::TransferReport made;
-        rrcb::c::accumulate(own, given, within, made, self);
-        rrcb::c::store(made, report);
+        rrcb::c::accumulate(own, given, {within.max_bytes, &made}, self);
+        within.store(made);
     });
 }
 

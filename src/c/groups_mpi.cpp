@@ -73,11 +73,11 @@ int rrcb_groups_points(const rrcb_groups* groups, rrcb_points* points) {
     });
 }
 
-int rrcb_groups_fetch(const rrcb_groups* groups, size_t num_columns, const rrcb_column* columns,
-                      const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
+int rrcb_groups_to_points(const rrcb_groups* groups, size_t num_columns, const rrcb_column* columns,
+                          const rrcb_transfer_options* options) {
     return guarded_together(
         CallName::fetch_from_groups, groups, [&](const auto& own, Participant& self) {
-            const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+            const rrcb::c::ColumnCall call{num_columns, columns, options};
             call.move_by(own.groups, own.groups.weights.size(), own.groups.of_points.size(), self);
         });
 }
@@ -91,6 +91,7 @@ int rrcb_groups_sums(const rrcb_groups* groups, size_t components, const double*
             rrcb::c::require_array(length, values, "values");
             rrcb::c::require_array(from.weights.size() * components, sums, "sums");
         });
-        std::ranges::copy(rrcb::sums(from, rrcb::c::view(values, length), components, self), sums);
+        std::ranges::copy(rrcb::group_sums(from, rrcb::c::view(values, length), components, self),
+                          sums);
     });
 }

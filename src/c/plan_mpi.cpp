@@ -58,12 +58,12 @@ int rrcb_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) {
 }
 
 int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column* columns,
-                  const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
+                  const rrcb_transfer_options* options) {
     return guarded_together(CallName::transfer, balancer, [&](auto& own, Participant& self) {
         self.attempt([&] { rrcb::c::require_plan(own); });
         const rrcb::Plan none;
         const rrcb::Plan& plan = own.plan ? *own.plan : none;
-        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+        const rrcb::c::ColumnCall call{num_columns, columns, options};
         call.move_by(plan, plan.num_points, rrcb::c::num_points_after(plan), self);
         own.lower_count(rrcb::c::num_points_after(plan));
     });

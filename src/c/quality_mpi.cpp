@@ -43,28 +43,11 @@ int rrcb_imbalance(size_t num_parts, const double* part_weights, const double* p
     });
 }
 
-int rrcb_load_unbalance_percent(size_t num_parts, const double* part_weights,
-                                const double* part_sizes, double* percent) {
-    return guarded([&] {
-        const auto weights = weights_of_parts(num_parts, part_weights, percent);
-        const auto sizes = view(part_sizes, num_parts);
-        std::ranges::copy(rrcb::load_unbalance_percent(weights, sizes), percent);
-    });
-}
-
 int rrcb_balanced_sizes(size_t num_parts, const double* loads, const double* part_sizes,
                         double* sizes) {
     return guarded([&] {
         const auto of_parts = weights_of_parts(num_parts, loads, sizes);
         std::ranges::copy(rrcb::balanced_sizes(of_parts, view(part_sizes, num_parts)), sizes);
-    });
-}
-
-int rrcb_worst_load_unbalance_percent(size_t num_parts, const double* part_weights,
-                                      const double* part_sizes, double* percent) {
-    return guarded([&] {
-        const auto weights = weights_of_parts(num_parts, part_weights, percent);
-        *percent = rrcb::worst_load_unbalance_percent(weights, view(part_sizes, num_parts));
     });
 }
 

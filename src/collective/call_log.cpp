@@ -16,7 +16,7 @@ std::string_view name_of(CallName call) {
                                "accumulate",
                                "groups",
                                "fetch of groups",
-                               "sums",
+                               "group_sums",
                                "part_weights",
                                "moved_fraction",
                                "assign",

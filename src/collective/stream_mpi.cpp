@@ -24,7 +24,7 @@ Stream::Stream(std::size_t record_bytes, std::size_t limit)
     if (record_bytes_ > std::min(lane_bytes_, mpi::longest_message))
         throw Error(ErrorCode::invalid_argument,
                     "a point has " + std::to_string(record_bytes_) +
-                        " bytes in these columns; TransferLimits::bytes must hold two, and a "
+                        " bytes in these columns; TransferOptions::max_bytes must hold two, and a "
                         "message one");
     const std::size_t bytes = std::min(lane_bytes_ / pieces_under_way, mpi::longest_message);
     most_records_ = std::max(std::size_t{1}, bytes / record_bytes_);

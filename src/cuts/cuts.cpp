@@ -30,7 +30,8 @@ void check_shape(const Cuts& cuts) {
     require(cuts.num_parts >= 1 && cuts.tree.size() == num_nodes,
             "the tree must hold one cut less than there are parts");
     const TreeShape& shape = cuts.shape;
-    require(shape.dealt == 0 || (shape.group_size >= 1 && shape.number_fits(cuts.num_parts)),
+    require(shape.round_robin_block == 0 ||
+                (shape.group_size >= 1 && shape.number_fits(cuts.num_parts)),
             "the shape of the cuts must be one for so many parts; keep it with the cuts");
     require(cuts.numbers.empty() || std::ssize(cuts.numbers) == cuts.num_parts, illegal_numbers);
 }

@@ -207,14 +207,14 @@ Verdict verdict_of(const Summary& summary, std::span<const double> estimated,
 Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes) {
     Report report;
     report.details.num_points = verdict.num_points;
-    report.details.num_records = verdict.num_cells;
+    report.details.num_cells = verdict.num_cells;
     report.details.total_weight = verdict.weight;
     report.details.estimated_imbalance = verdict.estimated_imbalance;
     report.imbalance = verdict.measured_imbalance;
     if (verdict.num_points == 0) report_measured(1, 1, report);
     report.details.all_weights_zero = verdict.num_points > 0 && verdict.weight == 0;
     report.details.least_imbalance = least_imbalance(verdict, num_parts, part_sizes);
-    report.details.surplus_parts =
+    report.details.num_empty_parts =
         static_cast<int>(std::max(GlobalCount{0}, num_parts - verdict.num_points));
     return report;
 }

@@ -127,7 +127,7 @@ contains
     integer(c_int32_t), pointer :: numbers(:)
     call settle(c_get_cuts(self%handle, from), error)
     call c_f_pointer(from%tree, tree, [from%num_parts - 1])
-    cuts = rrcb_cuts(from%dimension, from%group_size, from%dealt, from%larger_below == 1, tree, &
+    cuts = rrcb_cuts(from%dimension, from%group_size, from%round_robin_block, from%larger_below == 1, tree, &
                      debt=from%debt)
     cuts%tree%axis = cuts%tree%axis + 1
     if (.not. c_associated(from%numbers)) return
@@ -147,7 +147,7 @@ contains
     if (allocated(cuts%tree)) tree = cuts%tree
     tree%axis = tree%axis - 1
     given = c_cuts(dimension=cuts%dimension, num_parts=size(tree) + 1, group_size=cuts%group_size, &
-                   larger_below=merge(1, 0, cuts%larger_below), dealt=cuts%dealt, debt=cuts%debt)
+                   larger_below=merge(1, 0, cuts%larger_below), round_robin_block=cuts%round_robin_block, debt=cuts%debt)
     if (size(tree) > 0) given%tree = c_loc(tree)
     if (allocated(cuts%numbers)) then
       numbers = cuts%numbers
@@ -277,19 +277,19 @@ contains
   !> Moves columns along the plan: the points that stay come first, then those that arrive.
   !> Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   maximum bytes of messages on each rank, the same on every rank
+  !> @param max_bytes  maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
-  subroutine transfer_columns(self, columns, error, limit, report)
+  subroutine transfer_columns(self, columns, error, max_bytes, report)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out), optional :: error
-    integer(c_size_t), intent(in), optional :: limit
-    type(rrcb_transfer_report), intent(inout), optional :: report
+    integer(c_size_t), intent(in), optional :: max_bytes
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
     type(c_plan) :: plan
     integer(c_int) :: code
     code = c_get_plan(self%handle, plan)
     call settle(c_transfer(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, plan%num_points, plan%num_points_after), limits_of(limit), report), error)
+      columns_in_c(columns, plan%num_points, plan%num_points_after), transfer_options(max_bytes, report)), error)
   end subroutine
 
   !> Numbers the parts of the cuts so that many points stay. Collective.

@@ -36,13 +36,12 @@ module rrcb_c_functions
       import
       type(c_ptr), value :: handle
     end function
-    integer(c_int) function move(handle, num_columns, columns, limits, report) bind(c)
+    integer(c_int) function move(handle, num_columns, columns, options) bind(c)
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
       type(c_column), intent(in) :: columns(*)
-      type(c_limits), intent(in) :: limits
-      type(rrcb_transfer_report), intent(inout), optional :: report
+      type(c_transfer_options), intent(in) :: options
     end function
     integer(c_int) function measure(num_parts, part_weights, part_sizes, result) bind(c)
       import
@@ -88,11 +87,10 @@ module rrcb_c_functions
   procedure(move), bind(c, name="rrcb_ghosts_fetch") :: c_ghosts_fetch
   procedure(move), bind(c, name="rrcb_ghosts_reply") :: c_ghosts_reply
   procedure(move), bind(c, name="rrcb_ghosts_accumulate") :: c_ghosts_accumulate
-  procedure(move), bind(c, name="rrcb_groups_fetch") :: c_groups_fetch
+  procedure(move), bind(c, name="rrcb_groups_to_points") :: c_groups_to_points
   procedure(shift), bind(c, name="rrcb_ghosts_apply_shifts") :: c_ghosts_apply_shifts
   procedure(shift), bind(c, name="rrcb_neighbours_apply_shifts") :: c_neighbours_apply_shifts
   procedure(measure), bind(c, name="rrcb_imbalance") :: c_imbalance
-  procedure(measure), bind(c, name="rrcb_worst_load_unbalance_percent") :: c_worst_load_unbalance_percent
   procedure(save_state), bind(c, name="rrcb_save_cuts") :: c_save_cuts
   procedure(save_state), bind(c, name="rrcb_controller_save") :: c_controller_save
   procedure(save_state), bind(c, name="rrcb_cost_model_save") :: c_cost_model_save
@@ -101,13 +99,6 @@ module rrcb_c_functions
   procedure(ask), bind(c, name="rrcb_cost_model_num_columns") :: c_cost_model_num_columns
 
   interface
-    integer(c_int) function c_load_unbalance_percent(num_parts, part_weights, part_sizes, percent) &
-      bind(c, name="rrcb_load_unbalance_percent")
-      import
-      integer(c_size_t), value :: num_parts
-      type(c_ptr), value :: part_weights, part_sizes
-      real(c_double), intent(inout) :: percent(*)
-    end function
     integer(c_int) function c_balanced_sizes(num_parts, loads, part_sizes, sizes) &
       bind(c, name="rrcb_balanced_sizes")
       import

@@ -8,7 +8,7 @@ module rrcb_c_types
     integer(c_size_t) :: size = 56
     integer(c_int) :: dimension = 0, num_parts = 1
     type(c_ptr) :: tree = c_null_ptr
-    integer(c_int) :: group_size = 1, larger_below = 0, dealt = 0
+    integer(c_int) :: group_size = 1, larger_below = 0, round_robin_block = 0
     type(c_ptr) :: numbers = c_null_ptr
     real(c_double) :: debt = 0
   end type
@@ -73,17 +73,20 @@ module rrcb_c_types
     integer(c_size_t) :: count = 0
   end type
 
-  type, bind(c) :: c_limits
-    integer(c_size_t) :: size = 16, bytes = 64*2**20
+  type, bind(c) :: c_transfer_options
+    integer(c_size_t) :: size = 24, max_bytes = 64*2**20
+    type(c_ptr) :: report = c_null_ptr
   end type
 
 contains
 
-  !> Returns limits of this many bytes, or the library's default.
-  pure function limits_of(bytes) result(limits)
-    integer(c_size_t), intent(in), optional :: bytes
-    type(c_limits) :: limits
-    if (present(bytes)) limits%bytes = bytes
+  !> Returns options with this many bytes, or the library's default, and the address of a report.
+  function transfer_options(max_bytes, report) result(options)
+    integer(c_size_t), intent(in), optional :: max_bytes
+    type(rrcb_transfer_report), intent(in), target, optional :: report
+    type(c_transfer_options) :: options
+    if (present(max_bytes)) options%max_bytes = max_bytes
+    if (present(report)) options%report = c_loc(report)
   end function
 
 end module rrcb_c_types

@@ -8,7 +8,7 @@ module rrcb_functions
   implicit none
   private
   public :: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, rrcb_ranks_of_part, &
-    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, rrcb_balanced_sizes, &
+    rrcb_imbalance, rrcb_balanced_sizes, &
     text_of, save_by, settle, three_of
 
 contains
@@ -135,36 +135,6 @@ contains
     real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
     call settle(c_imbalance(size(part_weights, kind=c_size_t), weights_at(part_weights, part_sizes), &
       address_of(part_sizes), imbalance), error)
-  end subroutine
-
-  !> Computes (ideal - actual) / ideal * 100 for the weight of each part.
-  !> @param part_weights weight of each part
-  !> @param percent      gets one for each part
-  !> @param part_sizes   relative, one for each part
-  subroutine rrcb_load_unbalance_percent(part_weights, percent, error, part_sizes)
-    real(c_double), intent(in), target, contiguous :: part_weights(:)
-    real(c_double), intent(inout), contiguous :: percent(:)
-    integer, intent(out), optional :: error
-    real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
-    type(c_ptr) :: weights
-    weights = weights_at(part_weights, part_sizes)
-    if (size(percent) < size(part_weights)) weights = c_null_ptr
-    call settle(c_load_unbalance_percent(size(part_weights, kind=c_size_t), weights, &
-      address_of(part_sizes), percent), error)
-  end subroutine
-
-  !> Computes the largest absolute value of rrcb_load_unbalance_percent.
-  !> @param part_weights weight of each part
-  !> @param percent      gets the value
-  !> @param part_sizes   relative, one for each part
-  subroutine rrcb_worst_load_unbalance_percent(part_weights, percent, error, part_sizes)
-    real(c_double), intent(in), target, contiguous :: part_weights(:)
-    real(c_double), intent(inout) :: percent
-    integer, intent(out), optional :: error
-    real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
-    call settle(c_worst_load_unbalance_percent(size(part_weights, kind=c_size_t), &
-      weights_at(part_weights, part_sizes), &
-      address_of(part_sizes), percent), error)
   end subroutine
 
   !> Computes sizes of the parts that make their loads more even.

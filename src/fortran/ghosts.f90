@@ -106,54 +106,54 @@ contains
 
   !> Fetches columns of the ghosts from those of the points. Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   maximum bytes of messages on each rank, the same on every rank
+  !> @param max_bytes  maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
-  subroutine fetch(self, columns, error, limit, report)
+  subroutine fetch(self, columns, error, max_bytes, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out), optional :: error
-    integer(c_size_t), intent(in), optional :: limit
-    type(rrcb_transfer_report), intent(inout), optional :: report
+    integer(c_size_t), intent(in), optional :: max_bytes
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
     type(c_ghost_plan) :: plan
     integer(c_int) :: code
     code = c_ghosts_get_plan(self%handle, plan)
     call settle(c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, plan%num_points, plan%num_ghosts), limits_of(limit), report), error)
+      columns_in_c(columns, plan%num_points, plan%num_ghosts), transfer_options(max_bytes, report)), error)
   end subroutine
 
   !> Fetches rows that the ranks of the ghosts send back: `from` has an entry for each ghost, `to`
   !> gets one for each entry of send_indices of the plan. Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   maximum bytes of messages on each rank, the same on every rank
+  !> @param max_bytes  maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
-  subroutine reply(self, columns, error, limit, report)
+  subroutine reply(self, columns, error, max_bytes, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out), optional :: error
-    integer(c_size_t), intent(in), optional :: limit
-    type(rrcb_transfer_report), intent(inout), optional :: report
+    integer(c_size_t), intent(in), optional :: max_bytes
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
     type(c_ghost_plan) :: plan
     integer(c_int) :: code
     code = c_ghosts_get_plan(self%handle, plan)
     call settle(c_ghosts_reply(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, plan%num_ghosts, plan%num_sent), limits_of(limit), report), error)
+      columns_in_c(columns, plan%num_ghosts, plan%num_sent), transfer_options(max_bytes, report)), error)
   end subroutine
 
   !> Adds columns of the ghosts, `from`, to those of their points, `to`. Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   maximum bytes of messages on each rank, the same on every rank
+  !> @param max_bytes  maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
-  subroutine accumulate(self, columns, error, limit, report)
+  subroutine accumulate(self, columns, error, max_bytes, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out), optional :: error
-    integer(c_size_t), intent(in), optional :: limit
-    type(rrcb_transfer_report), intent(inout), optional :: report
+    integer(c_size_t), intent(in), optional :: max_bytes
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
     type(c_ghost_plan) :: plan
     integer(c_int) :: code
     code = c_ghosts_get_plan(self%handle, plan)
     call settle(c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, plan%num_ghosts, plan%num_points), limits_of(limit), report), error)
+      columns_in_c(columns, plan%num_ghosts, plan%num_points), transfer_options(max_bytes, report)), error)
   end subroutine
 
   !> Moves fetched positions to those of the images: positions(dimension, ghosts). Not collective.

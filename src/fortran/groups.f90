@@ -16,7 +16,7 @@ module rrcb_group_lists
     procedure :: create
     procedure :: destroy
     procedure :: points => points_of_groups
-    procedure :: fetch
+    procedure :: to_points
     procedure :: sums
   end type
 
@@ -62,19 +62,19 @@ contains
 
   !> Fetches for each point the values of its group, for example its part. Collective.
   !> @param columns the same in the same order on every rank
-  !> @param limit   maximum bytes of messages on each rank, the same on every rank
+  !> @param max_bytes  maximum bytes of messages on each rank, the same on every rank
   !> @param report  gets memory and messages
-  subroutine fetch(self, columns, error, limit, report)
+  subroutine to_points(self, columns, error, max_bytes, report)
     class(rrcb_groups), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out), optional :: error
-    integer(c_size_t), intent(in), optional :: limit
-    type(rrcb_transfer_report), intent(inout), optional :: report
+    integer(c_size_t), intent(in), optional :: max_bytes
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
     type(rrcb_points) :: groups
     integer(c_int) :: code
     code = c_groups_points(self%handle, groups)
-    call settle(c_groups_fetch(self%handle, size(columns, kind=c_size_t), &
-      columns_in_c(columns, groups%count, self%num_points), limits_of(limit), report), error)
+    call settle(c_groups_to_points(self%handle, size(columns, kind=c_size_t), &
+      columns_in_c(columns, groups%count, self%num_points), transfer_options(max_bytes, report)), error)
   end subroutine
 
   !> Adds up values over the points of each group. Collective.

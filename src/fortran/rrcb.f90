@@ -13,8 +13,7 @@ module rrcb
     rrcb_column_points, rrcb_column, rrcb_cut, rrcb_cuts, rrcb_report, rrcb_plan_lists, rrcb_ghost_plan, rrcb_rank_range, &
     rrcb_transfer_report, rrcb_remap_report
   use rrcb_functions, only: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, &
-    rrcb_ranks_of_part, rrcb_imbalance, rrcb_load_unbalance_percent, &
-    rrcb_worst_load_unbalance_percent, rrcb_balanced_sizes
+    rrcb_ranks_of_part, rrcb_imbalance, rrcb_balanced_sizes
   use rrcb_balancers, only: rrcb_balancer
   use rrcb_ghost_lists, only: rrcb_ghosts
   use rrcb_arrays, only: rrcb_array

@@ -53,7 +53,7 @@ module rrcb_types
 
   !> The tree of cuts in preorder. It has one cut less than there are parts.
   type, public :: rrcb_cuts
-    integer :: dimension = 0, group_size = 1, dealt = 0
+    integer :: dimension = 0, group_size = 1, round_robin_block = 0
     logical :: larger_below = .false.
     type(rrcb_cut), allocatable :: tree(:)
     !> Part at each end of the tree; not allocated: the shape determines it.
@@ -68,8 +68,8 @@ module rrcb_types
     integer(c_int) :: within_tolerance = 0, kept = 0
     integer(c_int64_t) :: num_points = 0
     real(c_double) :: total_weight = 0, least_imbalance = 1, estimated_imbalance = 1
-    integer(c_int64_t) :: num_records = 0
-    integer(c_int) :: rounds = 0, coincident_cuts = 0, all_weights_zero = 0, surplus_parts = 0
+    integer(c_int64_t) :: num_cells = 0
+    integer(c_int) :: rounds = 0, coincident_cuts = 0, all_weights_zero = 0, num_empty_parts = 0
   end type
 
   !> Lists of the points whose rank changes.

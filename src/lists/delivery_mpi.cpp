@@ -143,13 +143,13 @@ bool is_like_before(const Delivery& delivery, std::span<const ByteColumn> column
 
 /// Returns true if the messages to some ranks, each sent as one piece, take at most half of the
 /// limit.
-bool are_within(const TransferLimits& limits, std::span<const ByteColumn> columns,
+bool are_within(const TransferOptions& options, std::span<const ByteColumn> columns,
                 std::span<const RankCount> counts) {
     std::size_t bytes = 0;
     for (const RankCount& one : counts)
         bytes +=
             NeighbourExchange::header_bytes(columns.size()) + message_bytes(columns, one.count);
-    return bytes <= limits.bytes / 2;
+    return bytes <= options.max_bytes / 2;
 }
 
 void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, Participant& self) {
@@ -222,7 +222,7 @@ void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int
 }
 
 Delivered deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, Participant& self) {
+                  const TransferOptions& options, Participant& self) {
     std::size_t point_bytes = 0;
     self.attempt([&] {
         for (const ByteColumn& column : columns)
@@ -231,7 +231,7 @@ Delivered deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
     });
     const auto overtaking = static_cast<double>(delivery.overtaking);
     const bool fits =
-        are_within(limits, columns, delivery.to) && are_within(limits, columns, delivery.from);
+        are_within(options, columns, delivery.to) && are_within(options, columns, delivery.from);
     Flags flags{0, overtaking, -overtaking, !fits ? 2. : delivery.to.empty() ? 0. : 1.};
     const std::vector<RankCount> sent = exchange_counts(delivery.to, self, &flags);
     self.compare([&] {
@@ -244,7 +244,7 @@ Delivered deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
     std::optional<Stream> stream;
     std::vector<Lane> lanes;
     self.attempt([&] {
-        stream.emplace(point_bytes, limits.bytes);
+        stream.emplace(point_bytes, options.max_bytes);
         stream->allocate(delivery.to, delivery.from, mpi::rank_of(self.comm),
                          mpi::size_of(self.comm));
         lanes = make_results(columns, delivery.num_kept + total(delivery.from));
@@ -252,15 +252,16 @@ Delivered deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
             for (Lane& lane : lanes) lane.from = lane.to;
     });
     std::array shared{Shared{"the type of a column", hash_of_columns(columns)},
-                      Shared{"TransferLimits::bytes", limits.bytes}};
+                      Shared{"TransferOptions::max_bytes", options.max_bytes}};
     const std::size_t differing = find_difference(self, shared);
     if (differing == 0) refuse_types(columns, self);
     if (differing < shared.size()) refuse(shared[differing], self);
     if (!delivery.is_in_place)
         for (const Lane& lane : lanes) keep(delivery, lane);
     run(*stream, delivery, lanes, self);
-    if (report != nullptr)
-        *report = {stream->num_bytes(), point_bytes * total(delivery.to), stream->num_messages()};
+    if (options.report != nullptr)
+        *options.report = {stream->num_bytes(), point_bytes * total(delivery.to),
+                           stream->num_messages()};
     return {flags[3] > 0, flags[3] < 2, is_like_before(delivery, columns, lanes)};
 }
 

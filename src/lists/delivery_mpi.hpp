@@ -70,6 +70,6 @@ struct Delivered {
 /// Collective: exchange_counts(), one reduction and the messages. If a rank has failed before, all
 /// ranks throw its error.
 Delivered deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, Participant& self);
+                  const TransferOptions& options, Participant& self);
 
 }  // namespace rrcb

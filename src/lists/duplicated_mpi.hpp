@@ -28,7 +28,7 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self);
 
 /// As transfer(), for columns without their types.
 void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
-          const TransferLimits& limits, TransferReport* report, Participant& self);
+          const TransferOptions& options, Participant& self);
 
 /// As transfer_in_place(), for columns without their types.
 void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns,
@@ -38,19 +38,19 @@ GhostPlan ghost_plan(const Cuts& cuts, const Points& points, const GhostOptions&
                      Participant& self);
 // These return true if all messages of the same columns fit into the limits, each as one piece.
 bool move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
-          const TransferLimits& limits, TransferReport* report, Participant& self);
+          const TransferOptions& options, Participant& self);
 bool move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_ghosts,
-               std::span<const detail::ByteColumn> of_points, const TransferLimits& limits,
-               TransferReport* report, Participant& self);
+               std::span<const detail::ByteColumn> of_points, const TransferOptions& options,
+               Participant& self);
 void move(const detail::Replies& replies, std::span<const detail::ByteColumn> columns,
-          const TransferLimits& limits, TransferReport* report, Participant& self);
+          const TransferOptions& options, Participant& self);
 
 Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPlace place,
               Participant& self);
 void move(const Groups& groups, std::span<const detail::ByteColumn> columns,
-          const TransferLimits& limits, TransferReport* report, Participant& self);
-std::vector<double> sums(const Groups& groups, std::span<const double> values,
-                         std::size_t components, Participant& self);
+          const TransferOptions& options, Participant& self);
+std::vector<double> group_sums(const Groups& groups, std::span<const double> values,
+                               std::size_t components, Participant& self);
 
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  Participant& self);

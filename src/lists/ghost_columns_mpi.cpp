@@ -86,53 +86,53 @@ void check_sums(const GhostPlan& plan, LocalIndex num_ghosts, std::span<const By
 /// Sends columns of ghosts back. Needs no collective calls if the ranks have sent the same columns
 /// before.
 void send_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
-               std::span<const ByteColumn> of_points, const TransferLimits& limits,
-               TransferReport* report, CallName call, CallName kept_call, MPI_Comm user) {
+               std::span<const ByteColumn> of_points, const TransferOptions& options, CallName call,
+               CallName kept_call, MPI_Comm user) {
     using detail::KeptExchange;
-    if (NeighbourExchange* exchange = KeptExchange::find(plan, call, of_ghosts, limits, user)) {
+    if (NeighbourExchange* exchange = KeptExchange::find(plan, call, of_ghosts, options, user)) {
         exchange->begin(kept_call);
         const Delivery delivery{
             .num_points = total(plan.receive), .to = plan.receive, .from = plan.send};
         exchange->attempt([&] { check_sums(plan, delivery.num_points, of_ghosts, of_points); });
-        return deliver_kept(delivery, of_ghosts, report, *exchange);
+        return deliver_kept(delivery, of_ghosts, options.report, *exchange);
     }
     Participant self = mpi::enter(user, call);
     KeptExchange::keep(plan, self);
-    if (rrcb::move_back(plan, of_ghosts, of_points, limits, report, self))
-        plan.kept->note(call, of_ghosts, limits);
+    if (rrcb::move_back(plan, of_ghosts, of_points, options, self))
+        plan.kept->note(call, of_ghosts, options);
 }
 
 }  // namespace
 
-bool move(const GhostPlan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
-          TransferReport* report, Participant& self) {
+bool move(const GhostPlan& plan, std::span<const ByteColumn> columns,
+          const TransferOptions& options, Participant& self) {
     Delivery delivery = delivery_of(plan);
     self.attempt([&] {
         check(plan, self);
         delivery.overtaking = overtaking(plan, self.comm);
     });
-    return deliver(delivery, columns, limits, report, self).fits;
+    return deliver(delivery, columns, options, self).fits;
 }
 
 bool move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
-               std::span<const ByteColumn> of_points, const TransferLimits& limits,
-               TransferReport* report, Participant& self) {
+               std::span<const ByteColumn> of_points, const TransferOptions& options,
+               Participant& self) {
     Delivery delivery{.to = plan.receive, .from = plan.send};
     self.attempt([&] {
         delivery.num_points = check(plan, self);
         delivery.overtaking = overtaking(plan, self.comm);
         check_sums(plan, delivery.num_points, of_ghosts, of_points);
     });
-    return deliver(delivery, of_ghosts, limits, report, self).fits;
+    return deliver(delivery, of_ghosts, options, self).fits;
 }
 
 void move(const detail::Replies& replies, std::span<const ByteColumn> columns,
-          const TransferLimits& limits, TransferReport* report, Participant& self) {
-    move_back(replies.plan, columns, {}, limits, report, self);
+          const TransferOptions& options, Participant& self) {
+    move_back(replies.plan, columns, {}, options, self);
 }
 
-void move(const Groups& groups, std::span<const ByteColumn> columns, const TransferLimits& limits,
-          TransferReport* report, Participant& self) {
+void move(const Groups& groups, std::span<const ByteColumn> columns, const TransferOptions& options,
+          Participant& self) {
     const LocalIndex num_groups = groups.plan.num_points;
     const Delivery delivery{.num_points = num_groups,
                             .num_kept = num_groups,
@@ -153,13 +153,13 @@ void move(const Groups& groups, std::span<const ByteColumn> columns, const Trans
                 values.emplace_back(ByteResult{column.value_bytes}).result_of(column));
         }
     });
-    deliver(delivery, of_groups, limits, report, self);
+    deliver(delivery, of_groups, options, self);
     for (std::size_t k = 0; k < columns.size(); ++k)
         spread(groups, values[k], columns[k].components * columns[k].value_bytes, results[k]);
 }
 
-std::vector<double> sums(const Groups& groups, std::span<const double> values,
-                         std::size_t components, Participant& self) {
+std::vector<double> group_sums(const Groups& groups, std::span<const double> values,
+                               std::size_t components, Participant& self) {
     std::vector<double> all;
     std::vector<double> elsewhere;
     std::vector<double> arrived;
@@ -174,47 +174,46 @@ std::vector<double> sums(const Groups& groups, std::span<const double> values,
         all.resize(groups.plan.num_points * components);
     });
     const std::array sent{detail::byte_column(Column<double>{elsewhere, components}, arrived)};
-    move_back(groups.plan, sent, {}, {}, nullptr, self);
+    move_back(groups.plan, sent, {}, {}, self);
     detail::add_each(groups.plan.send_indices, components, arrived.data(), all.data());
     return all;
 }
 
 void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
+                  const TransferOptions& options, MPI_Comm user) {
     if (NeighbourExchange* exchange =
-            KeptExchange::find(plan, CallName::fetch, columns, limits, user)) {
+            KeptExchange::find(plan, CallName::fetch, columns, options, user)) {
         exchange->begin(CallName::kept_fetch);
-        return deliver_kept(delivery_of(plan), columns, report, *exchange);
+        return deliver_kept(delivery_of(plan), columns, options.report, *exchange);
     }
     Participant self = mpi::enter(user, CallName::fetch);
     KeptExchange::keep(plan, self);
-    if (rrcb::move(plan, columns, limits, report, self))
-        plan.kept->note(CallName::fetch, columns, limits);
+    if (rrcb::move(plan, columns, options, self))
+        plan.kept->note(CallName::fetch, columns, options);
 }
 
 void detail::move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
-                       std::span<const ByteColumn> of_points, const TransferLimits& limits,
-                       TransferReport* report, MPI_Comm user) {
-    send_back(plan, of_ghosts, of_points, limits, report, CallName::accumulate,
-              CallName::kept_accumulate, user);
-}
-
-void detail::move(const Replies& replies, std::span<const ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    send_back(replies.plan, columns, {}, limits, report, CallName::reply, CallName::kept_reply,
+                       std::span<const ByteColumn> of_points, const TransferOptions& options,
+                       MPI_Comm user) {
+    send_back(plan, of_ghosts, of_points, options, CallName::accumulate, CallName::kept_accumulate,
               user);
 }
 
-void detail::move(const Groups& groups, std::span<const ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    Participant self = mpi::enter(user, CallName::fetch_from_groups);
-    rrcb::move(groups, columns, limits, report, self);
+void detail::move(const Replies& replies, std::span<const ByteColumn> columns,
+                  const TransferOptions& options, MPI_Comm user) {
+    send_back(replies.plan, columns, {}, options, CallName::reply, CallName::kept_reply, user);
 }
 
-std::vector<double> sums(const Groups& groups, std::span<const double> values, MPI_Comm user,
-                         std::size_t components) {
+void detail::move(const Groups& groups, std::span<const ByteColumn> columns,
+                  const TransferOptions& options, MPI_Comm user) {
+    Participant self = mpi::enter(user, CallName::fetch_from_groups);
+    rrcb::move(groups, columns, options, self);
+}
+
+std::vector<double> group_sums(const Groups& groups, std::span<const double> values, MPI_Comm user,
+                               std::size_t components) {
     Participant self = mpi::enter(user, CallName::sums);
-    return sums(groups, values, components, self);
+    return group_sums(groups, values, components, self);
 }
 
 }  // namespace rrcb

@@ -194,8 +194,7 @@ class Neighbourhood {
 void exchange_shifts(GhostPlan& plan, Participant& self) {
     const std::vector<Shift> sent = std::exchange(plan.shifts, {});
     const std::array columns{detail::byte_column(column(sent), plan.shifts)};
-    deliver({.num_points = sent.size(), .to = plan.send, .from = plan.receive}, columns, {},
-            nullptr, self);
+    deliver({.num_points = sent.size(), .to = plan.send, .from = plan.receive}, columns, {}, self);
 }
 
 /// Throws Error if the points are those of the balance, before their transfer. A transfer may leave

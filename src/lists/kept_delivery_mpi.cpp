@@ -47,8 +47,8 @@ RowRange rows_of(std::span<const RankCount> counts, int rank) {
 }
 
 std::uint64_t hash_of(CallName call, std::span<const ByteColumn> columns,
-                      const TransferLimits& limits) {
-    std::uint64_t hash = detail::mix(limits.bytes ^ static_cast<std::uint64_t>(call) << 56);
+                      const TransferOptions& options) {
+    std::uint64_t hash = detail::mix(options.max_bytes ^ static_cast<std::uint64_t>(call) << 56);
     for (const ByteColumn& column : columns) hash = detail::mix(hash ^ type_of(column));
     return hash;
 }
@@ -90,7 +90,7 @@ std::uint64_t detail::KeptExchange::num_transfers() const {
 
 NeighbourExchange* detail::KeptExchange::find(const GhostPlan& plan, CallName call,
                                               std::span<const ByteColumn> columns,
-                                              const TransferLimits& limits, MPI_Comm user) {
+                                              const TransferOptions& options, MPI_Comm user) {
     KeptExchange* const kept = plan.kept.get();
     if (kept == nullptr || user == MPI_COMM_NULL || !mpi::is_running()) return nullptr;
     const MPI_Comm* comm = mpi::find_duplicate(user);
@@ -99,14 +99,14 @@ NeighbourExchange* detail::KeptExchange::find(const GhostPlan& plan, CallName ca
         return nullptr;
     const auto known =
         std::span(kept->proven_).first(std::min(kept->num_proven_, kept->proven_.size()));
-    return std::ranges::count(known, hash_of(call, columns, limits)) > 0 ? &kept->exchange_
-                                                                         : nullptr;
+    return std::ranges::count(known, hash_of(call, columns, options)) > 0 ? &kept->exchange_
+                                                                          : nullptr;
 }
 
 void detail::KeptExchange::note(CallName call, std::span<const ByteColumn> columns,
-                                const TransferLimits& limits) {
+                                const TransferOptions& options) {
     if (num_transfers() != std::exchange(num_transfers_, num_transfers())) num_proven_ = 0;
-    proven_[num_proven_++ % proven_.size()] = hash_of(call, columns, limits);
+    proven_[num_proven_++ % proven_.size()] = hash_of(call, columns, options);
 }
 
 void deliver_kept(const Delivery& delivery, std::span<const ByteColumn> columns,

@@ -26,10 +26,10 @@ class detail::KeptExchange {
     /// and no transfer since; otherwise null. The result is the same on every rank.
     static NeighbourExchange* find(const GhostPlan& plan, CallName call,
                                    std::span<const ByteColumn> columns,
-                                   const TransferLimits& limits, MPI_Comm user);
+                                   const TransferOptions& options, MPI_Comm user);
 
     /// Records that a collective call with such columns has succeeded on all ranks.
-    void note(CallName call, std::span<const ByteColumn> columns, const TransferLimits& limits);
+    void note(CallName call, std::span<const ByteColumn> columns, const TransferOptions& options);
 
   private:
     std::uint64_t num_transfers() const;

@@ -1,6 +1,7 @@
 #include "arithmetic/part_share.hpp"
 #include "options/rejection.hpp"
 
+#include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
@@ -48,14 +49,6 @@ std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
         unbalance[p] = ideal > 0 ? (ideal - part_weights[p]) / ideal * 100 : 0;
     }
     return unbalance;
-}
-
-double worst_load_unbalance_percent(std::span<const double> part_weights,
-                                    std::span<const double> part_sizes) {
-    double worst = 0;
-    for (const double lu : load_unbalance_percent(part_weights, part_sizes))
-        worst = std::max(worst, std::abs(lu));
-    return worst;
 }
 
 }  // namespace rrcb

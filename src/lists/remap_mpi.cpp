@@ -216,7 +216,7 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
     self.attempt([&] {
         check_lists(parts, previous, ranks_of_parts, num_ranks);
         require(shape.group_size >= 1 && shape.number_fits(num_parts),
-                "shape.group_size must be at least 1, and shape.dealt fit the parts");
+                "shape.group_size must be at least 1, and shape.round_robin_block fit the parts");
         if (num_parts > most_renumbered) {
             same.resize(ranks_of_parts.size());
             std::iota(same.begin(), same.end(), Part{0});
@@ -229,7 +229,7 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
                "give the earlier part of each point on every rank that has points, or on none"},
         Shared{"ranks_of_parts", hash_of(ranks_of_parts)},
         Shared{"shape.group_size", static_cast<std::uint64_t>(shape.group_size)},
-        Shared{"shape.dealt", static_cast<std::uint64_t>(shape.dealt)}};
+        Shared{"shape.round_robin_block", static_cast<std::uint64_t>(shape.round_robin_block)}};
     agree(self, shared);
     // A rank without points may come without `previous`, but must use the same rule as the others.
     rule.by_rank = shared[0].value == 0;

@@ -14,7 +14,7 @@ namespace {
 void store(SavedState& state, Cuts& cuts) {
     std::array<double, 2> unused{};  // version 0.2 kept numbers here
     state.each(cuts.dimension, cuts.num_parts, cuts.shape.group_size, cuts.shape.larger_below,
-               cuts.shape.dealt, unused[0], unused[1]);
+               cuts.shape.round_robin_block, unused[0], unused[1]);
     std::size_t num_cuts = cuts.tree.size();
     state.count(num_cuts, state.num_left() / 3);
     cuts.tree.resize(num_cuts);

@@ -79,11 +79,11 @@ void remove_rows(std::byte* rows, std::size_t row_bytes, LocalIndex num_left,
 }  // namespace
 
 void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
-          const TransferLimits& limits, TransferReport* report, Participant& self) {
+          const TransferOptions& options, Participant& self) {
     Delivery delivery;
     TransferLists lists;
     self.attempt([&] { delivery = make_lists(plan, lists, self); });
-    const Delivered delivered = deliver(delivery, columns, limits, report, self);
+    const Delivered delivered = deliver(delivery, columns, options, self);
     lists.log->add(plan, delivered.moves, delivered.is_like_before);
 }
 
@@ -100,7 +100,7 @@ void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns
     });
     Delivered delivered;
     try {
-        delivered = deliver(delivery, columns, {}, nullptr, self);
+        delivered = deliver(delivery, columns, {}, self);
     } catch (...) {
         for (const detail::ByteColumn& column : columns)
             column.resize(column.result, column.num_values);
@@ -118,9 +118,9 @@ void move_in_place(const Plan& plan, std::span<const detail::ByteColumn> columns
 }
 
 void detail::move(const Plan& plan, std::span<const ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
+                  const TransferOptions& options, MPI_Comm user) {
     Participant self = mpi::enter(user, CallName::transfer);
-    rrcb::move(plan, columns, limits, report, self);
+    rrcb::move(plan, columns, options, self);
 }
 
 void detail::move_in_place(const Plan& plan, std::span<const ByteColumn> columns, MPI_Comm user) {

@@ -195,7 +195,7 @@ void compare_ghosts(const VerifyRequest& request, std::span<const Arrived<Neighb
     });
     const std::array columns{detail::byte_column(column(own_indices), indices),
                              detail::byte_column(column(own_ids), ids)};
-    move(plan, columns, {}, nullptr, self);
+    move(plan, columns, {}, self);
     self.attempt([&] {
         const int rank = mpi::rank_of(self.comm);
         std::vector<std::pair<GhostKey, std::uint64_t>> ghosts;
@@ -209,9 +209,9 @@ void compare_ghosts(const VerifyRequest& request, std::span<const Arrived<Neighb
         for (std::size_t k = 0; k < ghosts.size(); ++k) {
             const auto& [key, id] = ghosts[k];
             const Fault fault{id, std::get<int>(key), id};
-            if (k > 0 && ghosts[k - 1].first == key) seen.twice.push_back(fault);
+            if (k > 0 && ghosts[k - 1].first == key) seen.duplicates.push_back(fault);
             if (fault.rank == rank && std::get<Shift>(key) == Shift{})
-                seen.strangers.push_back(fault);
+                seen.not_mine.push_back(fault);
         }
         for (const auto& [source, neighbour] : neighbours)
             if (!std::ranges::binary_search(ghosts,
@@ -243,10 +243,10 @@ void compare_ids(const VerifyOptions& options, bool has_before, Verification& se
         places.resize(keys.size());
     });
     const Groups ids = groups(Points(places, 1), keys, GroupPlace::first_point, self);
-    const std::vector<double> sums_here = sums(ids, values, num_sums, self);
+    const std::vector<double> sums_here = group_sums(ids, values, num_sums, self);
     std::vector<double> of_ids;
     const std::array columns{detail::byte_column(column(sums_here, num_sums), of_ids)};
-    move(ids, columns, {}, nullptr, self);
+    move(ids, columns, {}, self);
     self.attempt([&] {
         for (std::size_t k = 0; k < keys.size(); ++k) {
             const std::span sum = std::span(of_ids).subspan(num_sums * k, num_sums);
@@ -254,8 +254,8 @@ void compare_ids(const VerifyOptions& options, bool has_before, Verification& se
             const Fault fault{keys[k], static_cast<int>(rank), keys[k]};
             const double other = sum[0] == 2 ? sum[2] - rank : -1;
             if (is_now && sum[0] > 1)
-                seen.twice.push_back({fault.id, static_cast<int>(other), fault.id});
-            if (is_now && has_before && sum[1] == 0) seen.strangers.push_back(fault);
+                seen.duplicates.push_back({fault.id, static_cast<int>(other), fault.id});
+            if (is_now && has_before && sum[1] == 0) seen.not_mine.push_back(fault);
             if (!is_now && sum[0] == 0) seen.missing.push_back(fault);
         }
     });
@@ -293,7 +293,7 @@ Verification verify(const GhostPlan& plan, const Points& points, const VerifyOpt
     if (shared[0].value != 0) compare_ids(options, shared[1].value != 0, seen, self);
     std::array<std::int64_t, 2> totals{
         std::ssize(neighbours),
-        std::ssize(seen.missing) + std::ssize(seen.twice) + std::ssize(seen.strangers)};
+        std::ssize(seen.missing) + std::ssize(seen.duplicates) + std::ssize(seen.not_mine)};
     agree(self);
     self.check(MPI_Allreduce(MPI_IN_PLACE, totals.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");

@@ -83,7 +83,7 @@ std::uint64_t bits_of(const Cuts& cuts) {
     std::uint64_t hash = (1 + max_dimension) * cuts.tree.size();
     add(cuts.shape.group_size, hash);
     add(cuts.shape.larger_below, hash);
-    add(cuts.shape.dealt, hash);
+    add(cuts.shape.round_robin_block, hash);
     add(cuts.debt, hash);
     for (const Part part : cuts.numbers) add(part, hash);
     for (const Cut& cut : cuts.tree) {

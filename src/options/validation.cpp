@@ -96,15 +96,17 @@ TreeShape shape_by_machines(int num_parts, const Ranks& ranks) {
 Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
     if (options.num_parts == 0) options.num_parts = ranks.number;
     if (options.tree.group_size == 0) {
-        require(options.tree.dealt == 0, "tree.dealt needs tree.group_size; set both, or neither");
+        require(options.tree.round_robin_block == 0,
+                "tree.round_robin_block needs tree.group_size; set both, or neither");
         const TreeShape shape =
             previous ? previous->shape : shape_by_machines(options.num_parts, ranks);
         // If many ranks make the parts, the parts of each rank must be consecutive.
         const bool is_central =
             std::min(options.num_parts, ranks.number) <= options.tuning.central_parts;
-        const bool fits = shape.dealt == 0 || (is_central && shape.number_fits(options.num_parts));
+        const bool fits =
+            shape.round_robin_block == 0 || (is_central && shape.number_fits(options.num_parts));
         options.tree.group_size = fits ? std::max(shape.group_size, 1) : 1;
-        options.tree.dealt = fits ? shape.dealt : 0;
+        options.tree.round_robin_block = fits ? shape.round_robin_block : 0;
         require(previous || options.tree.group_size == 1 || !options.axes.order.is_given(),
                 "axes.order gives the axis of each cut; set tree to the shape of the tree that "
                 "they are for, as the machines ask for another one by default");
@@ -128,7 +130,8 @@ void check_part_sizes(const Options& options, int) {
 
 void check_tree_options(const Options& options, int dimension) {
     require(options.tree.number_fits(options.num_parts),
-            "tree.dealt must divide tree.group_size and num_parts; the last group must be full, or "
+            "tree.round_robin_block must divide tree.group_size and num_parts; the last group must "
+            "be full, or "
             "lack so many parts");
     const AxisOrder& order = options.axes.order;
     if (order.is_among()) check_among(order.axes(), dimension);

@@ -20,7 +20,7 @@ from symbols import bare
 PADDED = "bytes follow the last member of"
 TABLE = Path(__file__).with_name("interface.txt")
 # Types of Fortran with another name than in C.
-RENAMED = {"limits": "transfer_limits", "plan": "plan_lists"}
+RENAMED = {"plan": "plan_lists"}
 
 
 def texts(source):

@@ -122,7 +122,11 @@ TEST_F(Sizes, of_results_are_kept) {
     const rrcb_column column = RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, x_.data(), here.data());
     expect_filled(
         rrcb_transfer_report RRCB_TRANSFER_REPORT_INIT,
-        [&](auto* to) { return rrcb_transfer(balancer_, 1, &column, nullptr, to); },
+        [&](auto* to) {
+            rrcb_transfer_options options = RRCB_TRANSFER_OPTIONS_INIT;
+            options.report = to;
+            return rrcb_transfer(balancer_, 1, &column, &options);
+        },
         "RRCB_TRANSFER_REPORT_INIT");
     std::vector<std::int32_t> numbers(static_cast<std::size_t>(num_ranks()));
     expect_filled(
@@ -135,7 +139,7 @@ TEST_F(Sizes, of_results_are_kept) {
 }
 
 TEST_F(Sizes, of_lists_and_views_are_kept) {
-    ASSERT_EQ(rrcb_transfer(balancer_, 0, nullptr, nullptr, nullptr), RRCB_OK);
+    ASSERT_EQ(rrcb_transfer(balancer_, 0, nullptr, nullptr), RRCB_OK);
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     options.radius = 0.1;
     const rrcb_points none = rrcb_interleaved_points(RRCB_DOUBLE, 2, 0, nullptr, nullptr);
@@ -194,7 +198,7 @@ TEST_F(Sizes, of_arguments_leave_members_at_their_defaults) {
 }
 
 TEST_F(Sizes, of_options_leave_members_at_their_defaults) {
-    ASSERT_EQ(rrcb_transfer(balancer_, 0, nullptr, nullptr, nullptr), RRCB_OK);
+    ASSERT_EQ(rrcb_transfer(balancer_, 0, nullptr, nullptr), RRCB_OK);
     const rrcb_points none = rrcb_interleaved_points(RRCB_DOUBLE, 2, 0, nullptr, nullptr);
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
     options.radius = 0.1;
@@ -221,11 +225,11 @@ TEST_F(Sizes, of_options_leave_members_at_their_defaults) {
     ASSERT_EQ(meet(page_.copy(distances, sizeof distances - 8)), RRCB_OK) << rrcb_last_error();
     distances.needs = RRCB_NEEDS_SCATTER;
     expect_checked(distances, meet, "RRCB_NEIGHBOUR_OPTIONS_INIT");
-    const rrcb_transfer_limits limits = RRCB_TRANSFER_LIMITS_INIT;
-    const auto transfer = [&](const rrcb_transfer_limits* given) {
-        return rrcb_transfer(balancer_, 0, nullptr, given, nullptr);
+    const rrcb_transfer_options moving = RRCB_TRANSFER_OPTIONS_INIT;
+    const auto transfer = [&](const rrcb_transfer_options* given) {
+        return rrcb_transfer(balancer_, 0, nullptr, given);
     };
-    expect_checked(limits, transfer, "RRCB_TRANSFER_LIMITS_INIT");
+    expect_checked(moving, transfer, "RRCB_TRANSFER_OPTIONS_INIT");
 }
 
 /// Columns and arrays of programs with more members than the library: each is after the one before.
@@ -237,12 +241,12 @@ TEST_F(Sizes, of_elements_are_their_distances) {
     const std::size_t size = sizeof x + 8;
     page_.copy(parts, size);
     const rrcb_column* columns = page_.copy(x, size, size);
-    ASSERT_EQ(rrcb_transfer(balancer_, 2, columns, nullptr, nullptr), RRCB_OK) << rrcb_last_error();
+    ASSERT_EQ(rrcb_transfer(balancer_, 2, columns, nullptr), RRCB_OK) << rrcb_last_error();
     EXPECT_EQ(parts_here, std::vector<std::int32_t>(parts_here.size(), rank()));
     page_.copy(parts, sizeof parts, 8);
-    expect_error(rrcb_transfer(balancer_, 2, columns, nullptr, nullptr), "their sizes differ");
+    expect_error(rrcb_transfer(balancer_, 2, columns, nullptr), "their sizes differ");
     expect_checked(
-        x, [&](auto* given) { return rrcb_transfer(balancer_, 1, given, nullptr, nullptr); },
+        x, [&](auto* given) { return rrcb_transfer(balancer_, 1, given, nullptr); },
         "RRCB_COLUMN_INIT");
 
     rrcb_neighbour_options options = RRCB_NEIGHBOUR_OPTIONS_INIT;

@@ -87,9 +87,11 @@ std::vector<NamedCall> all_calls() {
          [](Input& in) { experimental::verify(in.near, in.points, world, {.sample = 5}); }},
         {"groups", [](Input& in) { groups(in.points, in.keys, world); }},
         {"fetch of groups",
-         [](Input& in) { fetch(in.clusters, column(in.clusters.weights), world); }},
-        {"sums",
-         [](Input& in) { sums(in.clusters, std::vector<double>(in.points.count, 1.0), world); }},
+         [](Input& in) { to_points(in.clusters, column(in.clusters.weights), world); }},
+        {"group_sums",
+         [](Input& in) {
+             group_sums(in.clusters, std::vector<double>(in.points.count, 1.0), world);
+         }},
         {"part_weights", [](Input& in) { part_weights(in.points, in.balanced, world); }},
         {"moved_fraction", [](Input& in) { moved_fraction(in.points, in.balanced, world); }},
         {"assign", [](Input& in) { assign(in.balanced.cuts, in.points, world); }},

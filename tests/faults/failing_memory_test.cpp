@@ -4,6 +4,7 @@
 #include "part_ranks.hpp"
 
 #include <rrcb/detail/paper_steps.hpp>
+#include <rrcb/experimental/cost.h>
 #include <rrcb/experimental/cost.hpp>
 #include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
@@ -139,11 +140,11 @@ TEST(FailingMemory, in_groups) {
     const Groups right = groups_here();
     fail_in(groups_here,
             [&](const Groups& found) { EXPECT_EQ(found.coordinates, right.coordinates); });
-    const std::vector<double> expected = fetch(right, right.weights, MPI_COMM_WORLD);
-    fail_in([&] { return fetch(right, right.weights, MPI_COMM_WORLD); },
+    const std::vector<double> expected = to_points(right, right.weights, MPI_COMM_WORLD);
+    fail_in([&] { return to_points(right, right.weights, MPI_COMM_WORLD); },
             [&](const std::vector<double>& found) { EXPECT_EQ(found, expected); });
     fail_in(
-        [&] { return sums(right, expected, MPI_COMM_WORLD); },
+        [&] { return group_sums(right, expected, MPI_COMM_WORLD); },
         [&](const std::vector<double>& found) { EXPECT_EQ(found.size(), right.weights.size()); });
 }
 
@@ -366,7 +367,7 @@ TEST(Memory, of_a_transfer_fifty_times_its_limit_stays_below_it) {
     const std::vector<Point> points(num_points);
     TransferReport report;
     memory_layer::restart_peak();
-    const std::vector<Point> moved = transfer(lists, points, MPI_COMM_WORLD, {limit}, &report);
+    const std::vector<Point> moved = transfer(lists, points, MPI_COMM_WORLD, {limit, &report});
     const long peak = memory_layer::peak_bytes();
     // Beside the result and the messages there is a list of the points to send, and of the pieces.
     const long lists_bytes = static_cast<long>(64 * num_points + 4096);

@@ -46,7 +46,7 @@ TEST_F(KeptPlans, make_no_collective_call_again) {
     for (int repeat = 0; repeat < 3; ++repeat) {
         TransferReport report;
         EXPECT_EQ(collectives_of([&] {
-                      EXPECT_EQ(fetch(plan_, column(x_, 2), world, {}, &report), first);
+                      EXPECT_EQ(fetch(plan_, column(x_, 2), world, {.report = &report}), first);
                       EXPECT_EQ(accumulate(plan_, added, sums, world), total);
                       EXPECT_EQ(reply(plan_, column(first, 2), world), answers);
                   }),
@@ -64,7 +64,7 @@ TEST_F(KeptPlans, prove_other_columns_and_small_limits_again) {
     for (int repeat = 0; repeat < 2; ++repeat) {
         TransferReport report;
         const auto again = [&] {
-            EXPECT_EQ(fetch(plan_, ids_, world, {.bytes = 64}, &report), ids);
+            EXPECT_EQ(fetch(plan_, ids_, world, {.max_bytes = 64, .report = &report}), ids);
         };
         EXPECT_EQ(collectives_of(again) > 0, num_ranks() > 1 || !ids.empty());
         EXPECT_LE(report.peak_bytes, 64U);

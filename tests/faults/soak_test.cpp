@@ -131,7 +131,7 @@ void plans(const Round& round, MPI_Comm comm, Answer& answer) {
     answer << plan(round.mine.parts, round.num_parts(), comm);
 }
 
-TransferLimits limits_of(const Round& round) {
+TransferOptions transfer_options_of(const Round& round) {
     return {std::size_t{64} << (round.drawn() % 8)};
 }
 
@@ -146,7 +146,7 @@ void moves(const Round& round, MPI_Comm comm, Answer& answer) {
     const Plan lists = plan(round.mine.parts, round.num_parts(), comm);
     const auto [numbers, x] =
         transfer(lists, columns(numbers_here(round), column(round.mine.coordinates, 2)), comm,
-                 limits_of(round));
+                 transfer_options_of(round));
     answer << lists << numbers << x;
 }
 
@@ -157,7 +157,7 @@ void fetches_ghosts(const Round& round, MPI_Comm comm, Answer& answer) {
     const double radius = std::ldexp(static_cast<double>(round.drawn() % 8), -4);
     const GhostPlan lists = ghost_plan(cuts, points, comm, {.radius = radius});
     answer << lists.send << lists.send_indices
-           << fetch(lists, numbers_here(round), comm, limits_of(round));
+           << fetch(lists, numbers_here(round), comm, transfer_options_of(round));
 }
 
 void renumbers(const Round& round, MPI_Comm comm, Answer& answer) {

@@ -138,7 +138,7 @@ program module_test
   call other%set("imbalance_tolerance", "2")
   call other%set("tree.group_size", "1")
   call other%set("tree.larger_below", "OFF")
-  call other%set("tree.dealt", "0")
+  call other%set("tree.round_robin_block", "0")
   call other%set("tolerance", "1.1", error)
   call expect_text("did you mean imbalance_tolerance?")
   call other%balance(rrcb_interleaved_points(x), again, error)
@@ -161,11 +161,11 @@ program module_test
                rrcb_cut(1, 0, [1.0_c_double, 0.0_c_double, 0.0_c_double]), &
                rrcb_cut(1, 0, [3.0_c_double, 0.0_c_double, 0.0_c_double])]
   cuts%group_size = 2
-  cuts%dealt = 1
+  cuts%round_robin_block = 1
   call other%set_cuts(cuts, error)
   call expect(error == rrcb_ok, "set_cuts of dealt parts")
   call other%get_cuts(cuts, error)
-  call expect(cuts%group_size == 2 .and. cuts%dealt == 1, "shape of cuts")
+  call expect(cuts%group_size == 2 .and. cuts%round_robin_block == 1, "shape of cuts")
   do i = 0, 3
     call other%part_of([i + 0.5_c_double], part, error)
     call expect(part == 2*modulo(i, 2) + i/2, "part_of dealt parts")
@@ -194,16 +194,10 @@ program module_test
   call expect(error == rrcb_invalid_argument, "part_weights of too few parts")
   call rrcb_imbalance(of_parts, value, error, sizes)
   call expect(error == rrcb_ok .and. value == 1, "rrcb_imbalance")
-  call rrcb_load_unbalance_percent(of_parts, lower, error)
-  call expect(error == rrcb_ok .and. lower(2) == -50, "rrcb_load_unbalance_percent")
-  call rrcb_worst_load_unbalance_percent(of_parts, value, error)
-  call expect(error == rrcb_ok .and. value == 50, "rrcb_worst_load_unbalance_percent")
   call rrcb_balanced_sizes([4.0_c_double, 4.0_c_double, 4.0_c_double], lower, error)
   call expect(error == rrcb_ok .and. all(lower == 1), "rrcb_balanced_sizes")
-  call rrcb_load_unbalance_percent(of_parts, columns, error)
+  call rrcb_balanced_sizes(of_parts, columns, error)
   call expect_text("part_weights, or an array of one for each part, is null (in Fortran: or has the wrong")
-  call rrcb_worst_load_unbalance_percent(of_parts, value, error, sizes(:2))
-  call expect(error == rrcb_invalid_argument, "unbalance of too few sizes")
   call rrcb_imbalance(of_parts, value, error, sizes(:2))
   call expect(error == rrcb_invalid_argument, "imbalance of too few sizes")
   call balancer%moved_fraction(rrcb_interleaved_points(x), parts, value, error)
@@ -236,7 +230,7 @@ program module_test
             moved_long_numbers(num_points), moved_short(num_points))
   call balancer%transfer([rrcb_column(x, moved), rrcb_column(weights, moved_weights), &
     rrcb_column(numbers, moved_numbers), rrcb_column(long_numbers, moved_long_numbers), &
-    rrcb_column(short, moved_short)], error, limit=4096_c_size_t, report=messages)
+    rrcb_column(short, moved_short)], error, max_bytes=4096_c_size_t, report=messages)
   call expect(error == rrcb_ok .and. messages%bytes_sent == merge(250*32, 0, rank == 0), "transfer")
   numbers = [(i, i=1, num_points)] + sum(counts(:rank))
   call expect(all(moved(1, :) == numbers) .and. all(moved_numbers == numbers), "moved numbers")
@@ -331,9 +325,9 @@ program module_test
   call expect(error == rrcb_ok, "balance of groups")
   parts_of_groups = again
   parts_of_points = numbers
-  call groups%fetch([rrcb_column(parts_of_groups, parts_of_points)], error)
+  call groups%to_points([rrcb_column(parts_of_groups, parts_of_points)], error)
   call expect(error == rrcb_ok .and. all(parts_of_points(1::2) == parts_of_points(2::2)), "fetch of groups")
-  call groups%fetch([rrcb_column(parts_of_groups, parts_of_points(2:))], error)
+  call groups%to_points([rrcb_column(parts_of_groups, parts_of_points(2:))], error)
   call expect(error == rrcb_invalid_argument, "fetch of groups to a short array")
   allocate (sums(1, points%count))
   call groups%sums(moved, sums, error)

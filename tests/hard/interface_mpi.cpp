@@ -59,7 +59,7 @@ void check(const Cloud& cloud, const Method& method, int count, int num_parts) {
     const double imbalance = imbalance_of(cloud, all, num_parts);
     const Report& report = result.report;
     EXPECT_EQ(report.details.num_points, count);
-    EXPECT_EQ(report.details.surplus_parts, std::max(0, num_parts - count));
+    EXPECT_EQ(report.details.num_empty_parts, std::max(0, num_parts - count));
     EXPECT_LE(report.details.least_imbalance, imbalance * (1 + 1e-12));
     if (!std::isnan(report.imbalance)) {
         EXPECT_NEAR(report.imbalance, imbalance, 1e-12 * imbalance);

@@ -19,7 +19,8 @@ RENAMED = {
     "accumulate": "rrcb_ghosts_accumulate",
     "apply_shifts": "rrcb_ghosts_apply_shifts",
     "groups": "rrcb_groups_create",
-    "sums": "rrcb_groups_sums",
+    "group_sums": "rrcb_groups_sums",
+    "to_points": "rrcb_groups_to_points",
     "save": "rrcb_save_cuts",  # and of the handles
     "load": "rrcb_load_cuts",
 }
@@ -43,7 +44,6 @@ ONLY_C = {
     "rrcb_balancer_create", "rrcb_balancer_destroy", "rrcb_balancer_set", "rrcb_balancer_set_part_sizes", "rrcb_set_cuts", "rrcb_clear_cuts",
     "rrcb_get_cuts", "rrcb_get_plan", "rrcb_get_report", "rrcb_ghosts_destroy",
     "rrcb_ghosts_get_plan", "rrcb_groups_destroy",
-    "rrcb_groups_fetch",  # an overload
     "rrcb_neighbours_apply_shifts",  # of its ghost_plan()
     "rrcb_interleaved_points", "rrcb_column_points",  # constructors of Points
     "rrcb_assign_all",  # an overload of assign
@@ -63,7 +63,7 @@ PYTHON = {
     "ghost_plan": "Distribution.ghosts", "fetch": "Ghosts.fetch", "reply": "Ghosts.reply",
     "accumulate": "Ghosts.accumulate",
     "apply_shifts": "Ghosts.fetch_positions",
-    "sums": "Groups.sums", "remap": "Distribution.remap", "save": "Cuts.save",
+    "group_sums": "Groups.sums", "to_points": "Groups.to_points", "remap": "Distribution.remap", "save": "Cuts.save",
     "load": "Cuts.load", "part_weights": "Distribution.part_weights",
     "moved_fraction": "Distribution.moved_fraction", "Groups::points": "Groups.x",
     "Neighbours::ghost_plan": "Neighbours.sent", "version": "__version__",
@@ -71,7 +71,6 @@ PYTHON = {
 NOT_PYTHON = {
     "Neighbours::~Neighbours": "freed with the object",
     "bounding_box": "numpy has it", "imbalance": "numpy has it",
-    "load_unbalance_percent": "numpy has it", "worst_load_unbalance_percent": "numpy has it",
     "ranks_of_part": "remap() and ghosts() apply it",
     "release_buffers": "buffers are freed with the communicator",
     "parts_touching": "ghosts() finds points",

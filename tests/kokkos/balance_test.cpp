@@ -97,7 +97,7 @@ TEST(KokkosBalance, reuses_its_memory) {
     const Cloud cloud = cloud_of_rank(2, true, false);
     const auto x = view_of<double, Kokkos::LayoutLeft>(cloud);
     const auto weights = on_device(cloud.weights);
-    const auto expected = experimental::balance(Device(), x, MPI_COMM_WORLD, weights);
+    const auto expected = experimental::balance(Device(), x, weights, MPI_COMM_WORLD);
     const std::vector<Part> expected_parts = on_host(expected.parts);
     auto found = expected;
     const Part* const parts = found.parts.data();
@@ -112,8 +112,8 @@ TEST(KokkosBalance, reuses_its_memory) {
     const std::pair<std::size_t, std::size_t> half(0, cloud.count() / 2);
     const auto fewer = Kokkos::subview(x, half, Kokkos::ALL);
     const auto lighter = Kokkos::subview(weights, half);
-    const auto of_fewer = experimental::balance(Device(), fewer, MPI_COMM_WORLD, lighter);
-    experimental::balance_into(found, Device(), MPI_COMM_WORLD, fewer, lighter);
+    const auto of_fewer = experimental::balance(Device(), fewer, lighter, MPI_COMM_WORLD);
+    experimental::balance_into(found, Device(), fewer, lighter, MPI_COMM_WORLD);
     EXPECT_EQ(on_host(found.parts), on_host(of_fewer.parts));
     EXPECT_EQ(found.parts.data(), parts);
 }

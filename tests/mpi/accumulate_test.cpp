@@ -104,7 +104,7 @@ TEST(Accumulate, gives_the_same_bits_by_ascending_rank) {
     const auto once = accumulate(scene.plan, there.forces, here.forces, MPI_COMM_WORLD);
     TransferReport report;
     const auto in_pieces = accumulate(scene.plan, there.forces, here.forces, MPI_COMM_WORLD,
-                                      TransferLimits{100}, &report);
+                                      {.max_bytes = 100, .report = &report});
     EXPECT_TRUE(same_bits(once, in_pieces));
     EXPECT_LE(report.peak_bytes, 100u);
     // What each rank did to all points, added in the stated order.

@@ -21,10 +21,10 @@ inline void expect_refused(int code, const std::string& text) {
 
 /// Returns a tree of cuts in C.
 inline rrcb_cuts cuts_of(int dimension, int num_parts, const rrcb_cut* tree, int group_size = 1,
-                         int larger_below = 0, int dealt = 0, const std::int32_t* numbers = nullptr,
-                         double debt = 0) {
-    return {sizeof(rrcb_cuts), dimension, num_parts, tree, group_size,
-            larger_below,      dealt,     numbers,   debt};
+                         int larger_below = 0, int round_robin_block = 0,
+                         const std::int32_t* numbers = nullptr, double debt = 0) {
+    return {sizeof(rrcb_cuts), dimension,         num_parts, tree, group_size,
+            larger_below,      round_robin_block, numbers,   debt};
 }
 
 /// Whether a list in C has these entries.

@@ -98,18 +98,16 @@ TEST_F(CHandles, take_no_zeroed_options) {
     expect_refused(rrcb_ghosts_create(balancer, &points, &no_ranks, &more),
                    "ranks_of_parts is null");
     const rrcb_column no_type = RRCB_COLUMN_INIT(0, 2, coordinates.data(), coordinates.data());
-    expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_type, nullptr, nullptr),
-                   "must be an rrcb_type");
+    expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_type, nullptr), "must be an rrcb_type");
     std::array<double, 4> room{};
     const rrcb_column no_components =
         RRCB_COLUMN_INIT(RRCB_DOUBLE, 0, coordinates.data(), room.data());
-    expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_components, nullptr, nullptr),
-                   "must be 1 or more");
-    rrcb_transfer_limits no_bytes = RRCB_TRANSFER_LIMITS_INIT;
-    no_bytes.bytes = 0;
+    expect_refused(rrcb_ghosts_fetch(ghosts, 1, &no_components, nullptr), "must be 1 or more");
+    rrcb_transfer_options no_bytes = RRCB_TRANSFER_OPTIONS_INIT;
+    no_bytes.max_bytes = 0;
     const rrcb_column doubles = RRCB_COLUMN_INIT(RRCB_DOUBLE, 2, coordinates.data(), room.data());
-    expect_refused(rrcb_groups_fetch(groups, 1, &doubles, &no_bytes, nullptr),
-                   "TransferLimits::bytes must hold two");
+    expect_refused(rrcb_groups_to_points(groups, 1, &doubles, &no_bytes),
+                   "TransferOptions::max_bytes must hold two");
     const rrcb_report no_report = RRCB_REPORT_INIT;
     expect_refused(rrcb_controller_rebalanced(controller, &no_report, 1), "rrcb_get_report");
 }

@@ -60,7 +60,7 @@ void expect_same_cuts(const rrcb_cuts& cuts, const Cuts& expected) {
     }
     EXPECT_EQ(cuts.group_size, expected.shape.group_size);
     EXPECT_EQ(cuts.larger_below, expected.shape.larger_below ? 1 : 0);
-    EXPECT_EQ(cuts.dealt, expected.shape.dealt);
+    EXPECT_EQ(cuts.round_robin_block, expected.shape.round_robin_block);
     EXPECT_EQ(cuts.numbers == nullptr, expected.numbers.empty());
     EXPECT_EQ(cuts.debt, expected.debt);
 }
@@ -107,7 +107,7 @@ TEST_F(CInterface, gives_the_parts_cuts_and_report_of_a_call_in_cpp) {
                           {"refine", "tolerance"},
                           {"tree.group_size", group},
                           {"tree.larger_below", shape.larger_below ? "ON" : "OFF"},
-                          {"tree.dealt", std::to_string(shape.dealt)},
+                          {"tree.round_robin_block", std::to_string(shape.round_robin_block)},
                           {"axes.plain", "on"}});
     }
 }
@@ -194,7 +194,7 @@ TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
     rrcb_cuts cuts = RRCB_CUTS_INIT;
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     EXPECT_EQ(cuts.group_size, 2);
-    EXPECT_EQ(cuts.dealt, 1);
+    EXPECT_EQ(cuts.round_robin_block, 1);
     for (const auto& [position, expected] : {std::pair{0.5, 0}, {1.5, 2}, {2.5, 1}, {3.5, 3}}) {
         std::int32_t part = -1;
         ASSERT_EQ(rrcb_part_of(balancer, &position, &part), RRCB_OK);
@@ -226,14 +226,15 @@ TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     const std::array moved{
         rrcb_column RRCB_COLUMN_INIT(RRCB_DOUBLE, 3, cloud.coordinates.data(), here.data()),
         rrcb_column RRCB_COLUMN_INIT(RRCB_INT32, 1, parts.data(), parts_here.data())};
-    rrcb_transfer_limits limits = RRCB_TRANSFER_LIMITS_INIT;
-    limits.bytes = 1 << 12;
+    rrcb_transfer_options options = RRCB_TRANSFER_OPTIONS_INIT;
+    options.max_bytes = 1 << 12;
     rrcb_transfer_report report = RRCB_TRANSFER_REPORT_INIT;
-    ASSERT_EQ(rrcb_transfer(balancer, 2, moved.data(), &limits, &report), RRCB_OK);
+    options.report = &report;
+    ASSERT_EQ(rrcb_transfer(balancer, 2, moved.data(), &options), RRCB_OK);
     EXPECT_EQ(here, transfer(expected, column(cloud.coordinates, 3), MPI_COMM_WORLD));
     EXPECT_EQ(parts_here, transfer(expected, parts, MPI_COMM_WORLD));
     EXPECT_EQ(report.bytes_sent, 28 * shown.num_exports);
-    EXPECT_LE(report.peak_bytes, limits.bytes);
+    EXPECT_LE(report.peak_bytes, options.max_bytes);
 }
 
 TEST_F(CInterface, refuses_a_plan_of_fewer_points_than_were_balanced) {
@@ -309,7 +310,7 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
     std::vector<double> here(x.size());
     const rrcb_column right = RRCB_COLUMN_INIT(RRCB_DOUBLE, 1, x.data(), here.data());
     const auto move = [&](const rrcb_column& there) {
-        return rrcb_transfer(balancer, 1, is_last_rank() ? &there : &right, nullptr, nullptr);
+        return rrcb_transfer(balancer, 1, is_last_rank() ? &there : &right, nullptr);
     };
     expect_refused(move(RRCB_COLUMN_INIT(RRCB_DOUBLE, 1, nullptr, here.data())),
                    "from of column 0 (the first is 0) is null");
@@ -319,7 +320,7 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
                    "rrcb_type");
     expect_refused(move(RRCB_COLUMN_INIT(RRCB_DOUBLE, 0, x.data(), here.data())),
                    "components of a column must be 1 or more");
-    expect_refused(rrcb_transfer(balancer, 1, is_last_rank() ? nullptr : &right, nullptr, nullptr),
+    expect_refused(rrcb_transfer(balancer, 1, is_last_rank() ? nullptr : &right, nullptr),
                    "columns is null");
     if (num_ranks() > 1) {
         expect_refused(move(RRCB_COLUMN_INIT(RRCB_FLOAT, 1, x.data(), here.data())), "4 bytes");
@@ -401,7 +402,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_assign(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_assign_all(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_plan(balancer, 1, &part), "cuts yet");
-    expect_missing(rrcb_transfer(balancer, 1, &column, nullptr, nullptr), "plan yet");
+    expect_missing(rrcb_transfer(balancer, 1, &column, nullptr), "plan yet");
     expect_missing(rrcb_part_of(balancer, x, &part), "cuts yet");
     expect_missing(rrcb_parts_touching(balancer, x, x, 1, &part, &count), "cuts yet");
     expect_missing(rrcb_part_weights(balancer, &points, &part, 1, y), "cuts yet");

@@ -77,7 +77,7 @@ struct Plans {
             [=, this] { EXPECT_EQ(near_on(comm).send_indices, near.send_indices); },
             [=, this] { EXPECT_EQ(fetch(near, here, comm), of_ghosts); },
             [=, this] { EXPECT_EQ(accumulate(near, of_ghosts, here, comm).size(), here.size()); },
-            [=, this] { EXPECT_EQ(sums(bonds, x, comm).size(), bonds.weights.size()); }};
+            [=, this] { EXPECT_EQ(group_sums(bonds, x, comm).size(), bonds.weights.size()); }};
     }
 };
 

@@ -77,7 +77,7 @@ TEST(FewPoints, are_divided_by_the_first_cuts) {
     Options options;
     options.num_parts = 32;
     const Report report = balance(few.points(), MPI_COMM_WORLD, options).report;
-    EXPECT_EQ(report.details.num_records, 40) << "each is a cell of its own";
+    EXPECT_EQ(report.details.num_cells, 40) << "each is a cell of its own";
     EXPECT_EQ(report.imbalance, report.details.least_imbalance);
     EXPECT_EQ(report.details.rounds, 1) << "nothing is searched";
 }

@@ -5,6 +5,7 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/experimental/verify.hpp>
 #include <rrcb/ghosts.hpp>
 
 namespace rrcb {
@@ -102,8 +103,8 @@ void expect_ghosts(const Scene& scene, Needs needs, bool is_periodic) {
     if (is_periodic) options.periodic = unit;
     const GhostPlan plan = ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD, options);
     const std::vector<int> numbers = fetch(plan, scene.mine, MPI_COMM_WORLD);
-    const VerifyOptions sample{.radii = scene.radii_here};
-    EXPECT_EQ(verify(plan, scene.points(), MPI_COMM_WORLD, sample).num_faults, 0);
+    const experimental::VerifyOptions sample{.radii = scene.radii_here};
+    EXPECT_EQ(experimental::verify(plan, scene.points(), MPI_COMM_WORLD, sample).num_faults, 0);
     std::map<std::pair<int, Shift>, int> found;
     for (std::size_t k = 0; k < numbers.size(); ++k)
         ++found[{numbers[k], is_periodic ? plan.shifts[k] : Shift{}}];

@@ -170,7 +170,7 @@ TEST(Ghosts, come_from_neighbours_alone_in_one_message_each) {
     const std::vector<int> colours{10 * rank(), 10 * rank() + 1, 10 * rank() + 2};
     TransferReport report;
     const auto [colour, x] = fetch(lists, columns(colours, column(coordinates, 2)), MPI_COMM_WORLD,
-                                   TransferLimits{100}, &report);
+                                   {.max_bytes = 100, .report = &report});
     EXPECT_EQ(report.num_messages, expected.size());
     EXPECT_LE(report.peak_bytes, 100u);
     ASSERT_EQ(x.size(), 2 * expected.size());

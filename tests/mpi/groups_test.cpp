@@ -84,16 +84,17 @@ void expect_groups(const Scene& scene, GroupPlace place) {
     const Share mine(scene);
     const Groups found = groups(mine.points(), mine.keys, MPI_COMM_WORLD, place);
     const auto d = static_cast<std::size_t>(scene.dimension);
-    const std::vector<double> places = fetch(found, column(found.coordinates, d), MPI_COMM_WORLD);
-    const std::vector<double> weights = fetch(found, found.weights, MPI_COMM_WORLD);
+    const std::vector<double> places =
+        to_points(found, column(found.coordinates, d), MPI_COMM_WORLD);
+    const std::vector<double> weights = to_points(found, found.weights, MPI_COMM_WORLD);
     ASSERT_EQ(weights.size(), mine.indices.size());
     std::vector<double> squares;
     for (const double weight : mine.weights) {
         squares.push_back(1);
         squares.push_back(weight * weight);
     }
-    const std::vector<double> sums_of_groups = sums(found, squares, MPI_COMM_WORLD, 2);
-    const std::vector<double> summed = fetch(found, column(sums_of_groups, 2), MPI_COMM_WORLD);
+    const std::vector<double> sums_of_groups = group_sums(found, squares, MPI_COMM_WORLD, 2);
+    const std::vector<double> summed = to_points(found, column(sums_of_groups, 2), MPI_COMM_WORLD);
     std::size_t owned = 0;
     for (const std::vector<std::size_t>& group : expected_groups(scene)) {
         owned += scene.owners[group[0]] == rank() ? 1 : 0;
@@ -140,7 +141,7 @@ TEST(Groups, hold_all_points_or_one_point_of_each_rank) {
 /// the weights of the parts.
 void expect_whole(const Scene& scene, const Groups& found, const Balance& result) {
     const Share mine(scene);
-    const std::vector<Part> parts = fetch(found, result.parts, MPI_COMM_WORLD);
+    const std::vector<Part> parts = to_points(found, result.parts, MPI_COMM_WORLD);
     EXPECT_EQ(assign(result.cuts, found.points(), MPI_COMM_WORLD), result.parts);
     std::vector<int> all(scene.count(), 0);
     for (std::size_t k = 0; k < parts.size(); ++k) all[mine.indices[k]] = parts[k] + 1;
@@ -238,7 +239,7 @@ TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
     rrcb::Balance balance;
     const rrcb::Groups bonds = rrcb::groups(points, keys, comm);
     balance = rrcb::balance(bonds.points(), comm, {}, balance.cuts);
-    const std::vector<rrcb::Part> parts = rrcb::fetch(bonds, balance.parts, comm);
+    const std::vector<rrcb::Part> parts = rrcb::to_points(bonds, balance.parts, comm);
     const rrcb::Plan plan = rrcb::plan(parts, balance.cuts.num_parts, comm);
     const std::vector<std::size_t> numbers = transfer(plan, first.indices, comm);
     std::vector<int> owners(600);
@@ -277,15 +278,15 @@ TEST(Groups, that_do_not_fit_on_one_rank_are_refused_on_all) {
                    [&] { groups(Points(last ? wrong : x, 2), keys, MPI_COMM_WORLD); });
     const Groups right = groups(Points(x, 2), keys, MPI_COMM_WORLD);
     expect_refusal("groups of this rank", [&] {
-        fetch(right, last ? std::vector<int>(7) : std::vector<int>(right.points().count),
-              MPI_COMM_WORLD);
+        to_points(right, last ? std::vector<int>(7) : std::vector<int>(right.points().count),
+                  MPI_COMM_WORLD);
     });
     expect_refusal("a column has",
-                   [&] { sums(right, std::vector<double>(last ? 3 : 2), MPI_COMM_WORLD); });
+                   [&] { group_sums(right, std::vector<double>(last ? 3 : 2), MPI_COMM_WORLD); });
     expect_refusal("of_points of the groups", [&] {
         Groups spoiled = right;
         if (last) spoiled.of_points[0] = 1000;
-        fetch(spoiled, std::vector<int>(right.points().count), MPI_COMM_WORLD);
+        to_points(spoiled, std::vector<int>(right.points().count), MPI_COMM_WORLD);
     });
     if (num_ranks() == 1) return;
     expect_refusal("the place of groups differs", [&] {

@@ -88,7 +88,7 @@ TEST(JoinedKeys, keep_cells_of_two_wells_with_both) {
     const Groups wells = groups(points, joined, MPI_COMM_WORLD);
     Options options{.num_parts = 3};
     const Balance result = balance(wells.points(), MPI_COMM_WORLD, options);
-    const std::vector<Part> parts = fetch(wells, result.parts, MPI_COMM_WORLD);
+    const std::vector<Part> parts = to_points(wells, result.parts, MPI_COMM_WORLD);
     std::vector<Part> of_all(x.size(), -1);
     for (std::size_t k = 0; k < mine.size(); ++k)
         of_all[static_cast<std::size_t>(mine[k])] = parts[k];

@@ -71,7 +71,7 @@ void call_all(const std::vector<double>& cloud, const Options& options) {
     const std::vector<std::uint64_t> keys(2 * moved.count, 7);
     const Groups one =
         groups(moved, experimental::join_keys(keys, 2, MPI_COMM_WORLD), MPI_COMM_WORLD);
-    EXPECT_EQ(fetch(one, std::vector<int>(one.weights.size(), 3), MPI_COMM_WORLD),
+    EXPECT_EQ(to_points(one, std::vector<int>(one.weights.size(), 3), MPI_COMM_WORLD),
               std::vector<int>(moved.count, 3));
 }
 

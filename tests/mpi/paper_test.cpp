@@ -165,7 +165,7 @@ TEST(PaperRrcb, bisects_the_sampled_points_of_the_cells_of_all_ranks) {
                 std::vector<Part> parts(result.parts.size());
                 assign(expected.cuts, mine.points(), parts);
                 EXPECT_EQ(result.parts, parts);
-                EXPECT_EQ(result.report.details.num_records, std::ssize(cells));
+                EXPECT_EQ(result.report.details.num_cells, std::ssize(cells));
                 EXPECT_EQ(result.report.details.estimated_imbalance,
                           imbalance(expected.part_weights, options.part_sizes));
             }
@@ -203,10 +203,10 @@ TEST(Paper, reports_what_it_bisected_and_measures_nothing) {
         EXPECT_TRUE(report.part_weights.empty());
         EXPECT_EQ(report.details.least_imbalance, 1);
         EXPECT_EQ(
-            report.details.rounds + report.details.surplus_parts + report.details.coincident_cuts,
+            report.details.rounds + report.details.num_empty_parts + report.details.coincident_cuts,
             0);
         if (domain == PaperDomain::sampled) continue;
-        EXPECT_EQ(report.details.num_records, report.details.num_points);
+        EXPECT_EQ(report.details.num_cells, report.details.num_points);
         const auto weights = part_weights(mine.points(), result.parts, 3, MPI_COMM_WORLD);
         EXPECT_EQ(report.details.estimated_imbalance, imbalance(weights));
     }

@@ -117,7 +117,7 @@ TEST(EarlierCuts, of_the_same_points_are_found_good_at_one_look) {
     const Balance first = balance(points, MPI_COMM_WORLD, options);
     const Balance second = balance(points, MPI_COMM_WORLD, options, first.cuts);
     EXPECT_EQ(second.report.details.rounds, 1);
-    EXPECT_EQ(second.report.details.num_records, 0);
+    EXPECT_EQ(second.report.details.num_cells, 0);
     EXPECT_EQ(second.parts, first.parts);
 }
 

@@ -246,7 +246,7 @@ auto told(const Report& report) {
                       report.details.estimated_imbalance, std::isnan(report.imbalance),
                       report.within_tolerance, report.part_weights, report.details.least_imbalance,
                       report.details.coincident_cuts, report.kept, report.details.rounds,
-                      report.details.all_weights_zero, report.details.surplus_parts);
+                      report.details.all_weights_zero, report.details.num_empty_parts);
 }
 
 TEST(Reuse, without_points_tells_what_a_call_from_nothing_does) {

@@ -176,7 +176,7 @@ TEST(SpreadBalance, there_may_be_fewer_points_than_parts_and_none_at_all) {
         const auto weights = expect_consistent(points, result);
         EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), 0.0), count);
         EXPECT_LE(*std::ranges::max_element(weights), count == 3 && num_ranks() == 3 ? 2 : 1);
-        EXPECT_EQ(result.report.details.surplus_parts,
+        EXPECT_EQ(result.report.details.num_empty_parts,
                   std::max(0, num_ranks() - static_cast<int>(count)));
     }
 }

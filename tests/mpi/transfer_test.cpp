@@ -53,7 +53,7 @@ TEST(Transfer, gives_what_stays_and_then_what_comes_by_rank) {
 TEST(Transfer, moves_nothing_along_an_empty_plan) {
     const Plan none;
     TransferReport report{1, 1, 1};
-    EXPECT_TRUE(transfer(none, std::vector<double>(), MPI_COMM_WORLD, {}, &report).empty());
+    EXPECT_TRUE(transfer(none, std::vector<double>(), MPI_COMM_WORLD, {.report = &report}).empty());
     EXPECT_EQ(report.num_messages, 0u);
     EXPECT_EQ(report.peak_bytes, 0u);
 }
@@ -79,7 +79,7 @@ TEST(Transfer, moves_columns_of_any_type_and_width_in_one_message_for_each_pair)
     TransferReport report;
     const auto [x, letter, first, again] =
         transfer(lists, columns(column(positions, 3), letters, large, std::span(numbers)),
-                 MPI_COMM_WORLD, {}, &report);
+                 MPI_COMM_WORLD, {.report = &report});
 
     const std::vector<std::int64_t> expected = numbers_after(lists);
     ASSERT_EQ(x.size(), 3 * expected.size());
@@ -118,7 +118,7 @@ TEST(Transfer, keeps_calls_apart_that_follow_each_other_at_once) {
     for (int round = 0; round < 60; ++round) {
         const Plan lists = plan(mixed_parts(num_ranks(), round), num_ranks(), MPI_COMM_WORLD);
         std::vector<std::int64_t> numbers = numbers_before(lists);
-        const TransferLimits limits{round % 2 == 0 ? std::size_t{96} : std::size_t{1} << 20};
+        const TransferOptions limits{round % 2 == 0 ? std::size_t{96} : std::size_t{1} << 20};
         const auto once = transfer(lists, numbers, MPI_COMM_WORLD, limits);
         for (std::int64_t& number : numbers) number = -number;
         auto twice = transfer(lists, numbers, MPI_COMM_WORLD, limits);
@@ -133,7 +133,7 @@ TEST(Transfer, keeps_to_its_limit_of_memory_in_any_pattern) {
                                     std::size_t{1000}, std::size_t{4096}}) {
         const Plan lists = plan(mixed_parts(num_ranks()), num_ranks(), MPI_COMM_WORLD);
         TransferReport report;
-        EXPECT_EQ(transfer(lists, numbers_before(lists), MPI_COMM_WORLD, {bytes}, &report),
+        EXPECT_EQ(transfer(lists, numbers_before(lists), MPI_COMM_WORLD, {bytes, &report}),
                   numbers_after(lists));
         EXPECT_LE(report.peak_bytes, bytes);
     }
@@ -143,7 +143,7 @@ TEST(Transfer, sends_fifty_times_its_limit_in_pieces) {
     constexpr std::size_t limit = 8192;
     const Plan lists = shift(50 * limit / sizeof(std::int64_t) + 1);
     TransferReport report;
-    EXPECT_EQ(transfer(lists, numbers_before(lists), MPI_COMM_WORLD, {limit}, &report).back(),
+    EXPECT_EQ(transfer(lists, numbers_before(lists), MPI_COMM_WORLD, {limit, &report}).back(),
               num_ranks() == 1 ? number_of(0, lists.num_points - 1)
                                : number_of(lists.import_ranks[0], lists.num_points - 1));
     if (num_ranks() == 1) return;
@@ -156,7 +156,7 @@ TEST(Transfer, sends_fifty_times_its_limit_in_pieces) {
 /// What is wrong on the last rank, and what all ranks are told.
 struct Fault {
     const char* text;
-    std::function<void(Plan& plan, std::vector<double>& column, TransferLimits& limits)> make;
+    std::function<void(Plan& plan, std::vector<double>& column, TransferOptions& limits)> make;
 };
 
 const std::vector<Fault>& faults() {
@@ -180,7 +180,8 @@ const std::vector<Fault>& faults() {
          }},
         {"rank 0 sends 0 points, not 1 as this plan has it",
          [](auto& plan, auto&, auto&) { plan.import_ranks.insert(plan.import_ranks.begin(), 0); }},
-        {"TransferLimits::bytes must hold two", [](auto&, auto&, auto& limits) { limits = {15}; }},
+        {"TransferOptions::max_bytes must hold two",
+         [](auto&, auto&, auto& limits) { limits = {15}; }},
     };
     return faults;
 }
@@ -207,7 +208,7 @@ TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
     for (const Fault& fault : faults()) {
         Plan wrong = lists;
         std::vector<double> column = values;
-        TransferLimits limits;
+        TransferOptions limits;
         if (is_last_rank()) fault.make(wrong, column, limits);
         const std::vector<double> before = column;
         test::expect_same_error([&] { transfer(wrong, column, MPI_COMM_WORLD, limits); },
@@ -222,9 +223,9 @@ TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
 TEST(Transfer, refuses_limits_that_differ_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> values(4);
-    const TransferLimits limits{is_last_rank() ? std::size_t{2000} : std::size_t{1000}};
+    const TransferOptions limits{is_last_rank() ? std::size_t{2000} : std::size_t{1000}};
     test::expect_same_error([&] { transfer(shift(4), values, MPI_COMM_WORLD, limits); },
-                            "TransferLimits::bytes differs between rank 0 and rank");
+                            "TransferOptions::max_bytes differs between rank 0 and rank");
 }
 
 /// Fails unless columns of as many bytes are refused on all ranks if the last rank has other ones.

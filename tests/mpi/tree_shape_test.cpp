@@ -16,7 +16,7 @@ using test::share_of_cloud;
 struct Machines {
     int count;
     int parts_each;
-    int dealt = 0;
+    int round_robin_block = 0;
 };
 
 constexpr Machines machines[] = {{3, 4},    {5, 3},    {6, 2},    {3, 28},
@@ -24,7 +24,7 @@ constexpr Machines machines[] = {{3, 4},    {5, 3},    {6, 2},    {3, 28},
 
 Options options_for(const Machines& all, bool larger_below) {
     Options options{.num_parts = all.count * all.parts_each,
-                    .tree = {all.parts_each, larger_below, all.dealt}};
+                    .tree = {all.parts_each, larger_below, all.round_robin_block}};
     return options;
 }
 
@@ -37,7 +37,7 @@ std::vector<double> cloud_here(int dimension) {
 /// the documentation of TreeShape describes it.
 std::vector<Part> parts_of_ends(const Machines& all) {
     std::vector<std::vector<Part>> groups(static_cast<std::size_t>(all.count));
-    const int at_once = all.dealt == 0 ? all.parts_each : all.dealt;
+    const int at_once = all.round_robin_block == 0 ? all.parts_each : all.round_robin_block;
     for (Part part = 0; part < all.count * all.parts_each; ++part)
         groups[static_cast<std::size_t>(part / at_once % all.count)].push_back(part);
     std::vector<Part> parts;
@@ -89,7 +89,8 @@ void for_each_shape(Check&& check) {
     for (const Machines& all : machines) {
         for (const bool larger_below : {false, true}) {
             SCOPED_TRACE(std::to_string(all.count) + " x " + std::to_string(all.parts_each) +
-                         (all.dealt > 0 ? " dealt" : "") + (larger_below ? ", larger below" : ""));
+                         (all.round_robin_block > 0 ? " dealt" : "") +
+                         (larger_below ? ", larger below" : ""));
             check(all, larger_below);
         }
     }
@@ -139,7 +140,7 @@ TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
     for_each_shape([](const Machines& all, bool larger_below) {
         Options options = options_for(all, larger_below);
         options.tuning.central_parts = 2;
-        if (all.dealt > 0) {
+        if (all.round_robin_block > 0) {
             EXPECT_THROW(balance(Points({}, 3), MPI_COMM_WORLD, options), Error);
             return;
         }

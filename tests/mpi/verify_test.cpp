@@ -49,7 +49,7 @@ struct Scene {
 
 void expect_sound(const experimental::Verification& seen) {
     EXPECT_EQ(seen.num_faults, 0);
-    EXPECT_TRUE(seen.missing.empty() && seen.twice.empty() && seen.strangers.empty());
+    EXPECT_TRUE(seen.missing.empty() && seen.duplicates.empty() && seen.not_mine.empty());
 }
 
 /// Returns the number of pairs of points of two ranks, or images, by brute force.
@@ -111,7 +111,7 @@ TEST(Verify, names_the_pairs_whose_ghosts_are_missing) {
         EXPECT_EQ(std::ranges::count(scene.ids, fault.needed_by), 1);
         EXPECT_NE(fault.rank, rank());
     }
-    EXPECT_TRUE(less.twice.empty() && less.strangers.empty());
+    EXPECT_TRUE(less.duplicates.empty() && less.not_mine.empty());
     // With more than the ghosts' radius where points have moved apart, all is well.
     expect_sound(scene.seen(scene.near({.radius = 0.1}), {.sample = everything, .radius = 0.05}));
 }
@@ -126,9 +126,9 @@ TEST(Verify, names_ghosts_that_came_twice_and_own_points) {
     plan.send_indices = {5, 7, 7};
     plan.receive = {{(rank() + num_ranks() - 1) % num_ranks(), 3}};
     const experimental::Verification seen = scene.seen(plan);
-    EXPECT_EQ(seen.twice.size(), 1u);
-    EXPECT_EQ(seen.twice.at(0).rank, plan.receive[0].rank);
-    EXPECT_EQ(seen.strangers.size(), num_ranks() == 1 ? 3u : 0u);
+    EXPECT_EQ(seen.duplicates.size(), 1u);
+    EXPECT_EQ(seen.duplicates.at(0).rank, plan.receive[0].rank);
+    EXPECT_EQ(seen.not_mine.size(), num_ranks() == 1 ? 3u : 0u);
     EXPECT_EQ(seen.num_faults, num_ranks() == 1 ? 4 : num_ranks());
 }
 
@@ -142,9 +142,9 @@ TEST(Verify, names_ids_that_are_lost_or_new_or_on_two_ranks) {
     scene.ids[3] = 500 + 1000 * own;
     const experimental::Verification seen = scene.seen(near, options);
     EXPECT_EQ(seen.num_faults, 2 * num_ranks());
-    ASSERT_EQ(seen.strangers.size(), 1u);
-    EXPECT_EQ(seen.strangers[0].id, scene.ids[3]);
-    EXPECT_EQ(seen.strangers[0].rank, rank());
+    ASSERT_EQ(seen.not_mine.size(), 1u);
+    EXPECT_EQ(seen.not_mine[0].id, scene.ids[3]);
+    EXPECT_EQ(seen.not_mine[0].rank, rank());
     for (const experimental::Fault& fault : seen.missing) {
         EXPECT_EQ(std::ranges::count(scene.before, fault.id), 1);
         EXPECT_EQ(fault.rank, rank());
@@ -155,9 +155,9 @@ TEST(Verify, names_ids_that_are_lost_or_new_or_on_two_ranks) {
     const experimental::Verification twice = scene.seen(near, {.sample = 0});
     EXPECT_EQ(twice.num_faults, num_ranks() > 1 ? 2 : 0);
     const bool has_it = num_ranks() > 1 && (rank() == 0 || is_last_rank());
-    ASSERT_EQ(twice.twice.size(), has_it ? 1u : 0u);
+    ASSERT_EQ(twice.duplicates.size(), has_it ? 1u : 0u);
     if (has_it) {
-        EXPECT_EQ(twice.twice[0].rank, rank() == 0 ? num_ranks() - 1 : 0);
+        EXPECT_EQ(twice.duplicates[0].rank, rank() == 0 ? num_ranks() - 1 : 0);
     }
 }
 

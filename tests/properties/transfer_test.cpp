@@ -27,18 +27,20 @@ Held held_at_first(const Case& input) {
 }
 
 /// Some bytes, or plenty.
-TransferLimits limits_of(const Case& input) {
+TransferOptions options_of(const Case& input) {
     return {input.shape.choice % 2 == 0 ? std::size_t{1} << 20 : std::size_t{100}};
 }
 
 Held moved(const Held& held, const Plan& plan, const Case& input) {
     const auto dimension = static_cast<std::size_t>(input.shape.dimension);
     TransferReport report;
+    TransferOptions options = options_of(input);
+    options.report = &report;
     Held after;
     std::tie(after.coordinates, after.owners, after.indices) =
         transfer(plan, columns(column(held.coordinates, dimension), held.owners, held.indices),
-                 MPI_COMM_WORLD, limits_of(input), &report);
-    EXPECT_LE(report.peak_bytes, limits_of(input).bytes);
+                 MPI_COMM_WORLD, options);
+    EXPECT_LE(report.peak_bytes, options.max_bytes);
     return after;
 }
 
@@ -112,7 +114,7 @@ TEST(Ghosts, are_all_points_near_the_regions_of_a_rank_and_no_others) {
             const double radius = radius_of(input, cloud);
             const GhostPlan lists = ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = radius});
             const auto [owners, indices] =
-                fetch(lists, columns(held.owners, held.indices), MPI_COMM_WORLD, limits_of(input));
+                fetch(lists, columns(held.owners, held.indices), MPI_COMM_WORLD, options_of(input));
             std::size_t next = 0;
             for (int source = 0; source < num_ranks(); ++source) {
                 const std::vector<LocalIndex> there = cloud.held_by(source);

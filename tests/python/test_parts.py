@@ -75,7 +75,7 @@ def test_keeps_groups_together():
     assert comm.allreduce(len(groups.x)) == 100
     assert np.all(groups.weights == RANKS)
     balance = rrcb.balance(groups.x, groups.weights, comm)
-    parts = groups.fetch(balance.parts)
+    parts = groups.to_points(balance.parts)
     here = rrcb.plan(parts, comm=comm).transfer({"key": keys, "x": x})
     held = comm.allgather(np.unique(here["key"]))
     assert len(np.unique(np.concatenate(held))) == sum(map(len, held)) == 100

@@ -412,7 +412,7 @@ def test_verifies_ghosts():
     assert RANKS == 1 or seen.num_faults > 0
     changed = here["id"] + 500 * (len(here["id"]) > 0)
     seen = rrcb.experimental.verify(narrow, here["x"], 0, ids=changed, ids_before=here["id"])
-    assert len(seen.missing) == len(seen.strangers) == len(changed)
+    assert len(seen.missing) == len(seen.not_mine) == len(changed)
 
 
 def test_makes_one_part_for_each_rank_also_from_cuts_of_others():

@@ -78,7 +78,7 @@ TEST(LargeCounts, are_divided_and_reported_by_the_root) {
     EXPECT_EQ(report.details.num_points, two_to_the_32 * 4);
     EXPECT_EQ(report.details.total_weight, 0x1p34);
     EXPECT_EQ(report.details.least_imbalance, 1);
-    EXPECT_EQ(report.details.surplus_parts, 0);
+    EXPECT_EQ(report.details.num_empty_parts, 0);
     EXPECT_NEAR(report.details.estimated_imbalance, 1, 1e-15);
 }
 

@@ -68,7 +68,7 @@ TEST(OptionTable, writes_what_it_reads) {
         {"tuning.central_parts", {"2", "64", "2147483647"}},
         {"tree.group_size", {"AUTO", "1", "12"}},
         {"tree.larger_below", {"OFF", "ON"}},
-        {"tree.dealt", {"0", "2"}},
+        {"tree.round_robin_block", {"0", "2"}},
         {"axes.plain", {"OFF", "ON"}},
         {"axes.min_width", {"NONE", "0.1", "0.1 1e-300 5e-324"}},
         {"axes.grid", {"NONE", "0 0.05", "-1.5 0.25, 1e+300 7, 0 1"}}};
@@ -196,7 +196,7 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"tuning.support_mesh", [](Options& o) { o.tuning.support_mesh = 3; }},
         {"tree.group_size", [](Options& o) { o.tree.group_size = 2; }},
         {"tree.larger_below", [](Options& o) { o.tree.larger_below = true; }},
-        {"tree.dealt", [](Options& o) { o.tree.dealt = 1; }},
+        {"tree.round_robin_block", [](Options& o) { o.tree.round_robin_block = 1; }},
         {"axes.plain", [](Options& o) { o.axes.plain = true; }},
         {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) { o.axes.order = AxisOrder::given({1}); }},

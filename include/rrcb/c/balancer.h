@@ -27,7 +27,7 @@ typedef struct rrcb_cuts {
     const rrcb_cut* tree;   /**< num_parts - 1 cuts, borrowed */
     int group_size;         /**< of rrcb::TreeShape, 1 or more */
     int larger_below;       /**< 1: rrcb::TreeShape::larger_below */
-    int dealt;              /**< of rrcb::TreeShape, 0 or more */
+    int round_robin_block;  /**< of rrcb::TreeShape, 0 or more */
     const int32_t* numbers; /**< part of each end of the tree, borrowed; NULL: by the shape */
     double debt;            /**< for the next balance, as rrcb::Cuts::debt */
 } rrcb_cuts;
@@ -46,11 +46,11 @@ typedef struct rrcb_report {
     double total_weight;    /**< over all ranks */
     double least_imbalance; /**< lower bound of the imbalance of any partition */
     double estimated_imbalance; /**< of the statistical domain */
-    int64_t num_records;        /**< cells that were bisected */
+    int64_t num_cells;          /**< cells that were bisected */
     int rounds;                 /**< how often the refinement has counted the points */
     int coincident_cuts;        /**< cuts that would have to divide inseparable points */
     int all_weights_zero;       /**< 1: points were balanced by their number instead */
-    int surplus_parts;          /**< parts that stay empty because points are fewer */
+    int num_empty_parts;        /**< parts that stay empty because points are fewer */
 } rrcb_report;
 
 /** A report that belongs to no balance. */
@@ -205,10 +205,9 @@ RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan_lists* plan)
  * @param num_columns must be the same on every rank
  * @param columns     `from` has num_points entries of the plan, `to` has room for
  * num_points_after
- * @param limits      null: the default
- * @param report      may be null */
+ * @param options     null: the default */
 RRCB_API int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column* columns,
-                           const rrcb_transfer_limits* limits, rrcb_transfer_report* report);
+                           const rrcb_transfer_options* options);
 
 /** Numbers the parts of the cuts so that many points stay, as rrcb::remap. Collective.
  *

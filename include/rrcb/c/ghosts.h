@@ -80,22 +80,18 @@ RRCB_API int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* pl
  * @param ghosts      may be used again as long as no point changes its index
  * @param num_columns must be the same on every rank
  * @param columns     `from` has num_points entries of the plan, `to` room for num_ghosts
- * @param limits      null: the default
- * @param report      may be null */
+ * @param options     null: the default */
 RRCB_API int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns,
-                               const rrcb_column* columns, const rrcb_transfer_limits* limits,
-                               rrcb_transfer_report* report);
+                               const rrcb_column* columns, const rrcb_transfer_options* options);
 
 /** Fetches rows that the ranks of the ghosts send back, as rrcb::reply. Collective.
  *
  * @param ghosts      as for rrcb_ghosts_fetch
  * @param num_columns must be the same on every rank
  * @param columns     `from` has an entry for each ghost, `to` has room for num_sent of the plan
- * @param limits      null: the default
- * @param report      may be null */
+ * @param options     null: the default */
 RRCB_API int rrcb_ghosts_reply(const rrcb_ghosts* ghosts, size_t num_columns,
-                               const rrcb_column* columns, const rrcb_transfer_limits* limits,
-                               rrcb_transfer_report* report);
+                               const rrcb_column* columns, const rrcb_transfer_options* options);
 
 /** Adds values of ghosts, for example forces, to the values of their points, as rrcb::accumulate.
  * Collective.
@@ -104,12 +100,11 @@ RRCB_API int rrcb_ghosts_reply(const rrcb_ghosts* ghosts, size_t num_columns,
  * @param num_columns must be the same on every rank
  * @param columns     `from` has an entry for each ghost, `to` has the values of the points, to
  * which they are added; RRCB_BYTE is not allowed
- * @param limits      null: the default
- * @param report      may be null
+ * @param options     null: the default
  * If it fails, `to` is unchanged, except on a rank on which a message fails. */
 RRCB_API int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
-                                    const rrcb_column* columns, const rrcb_transfer_limits* limits,
-                                    rrcb_transfer_report* report);
+                                    const rrcb_column* columns,
+                                    const rrcb_transfer_options* options);
 
 /** Moves fetched positions to those of the images, as rrcb::apply_shifts. Not collective.
  *

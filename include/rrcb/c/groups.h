@@ -47,11 +47,10 @@ RRCB_API int rrcb_groups_points(const rrcb_groups* groups, rrcb_points* points);
  * @param num_columns must be the same on every rank
  * @param columns     `from` has an entry for each group of this rank, `to` has room for each
  * point
- * @param limits      null: the default
- * @param report      may be null */
-RRCB_API int rrcb_groups_fetch(const rrcb_groups* groups, size_t num_columns,
-                               const rrcb_column* columns, const rrcb_transfer_limits* limits,
-                               rrcb_transfer_report* report);
+ * @param options     null: the default */
+RRCB_API int rrcb_groups_to_points(const rrcb_groups* groups, size_t num_columns,
+                                   const rrcb_column* columns,
+                                   const rrcb_transfer_options* options);
 
 /** Writes the sums of values over the points of each group of this rank, as rrcb::sums.
  * Collective.

@@ -54,16 +54,6 @@ typedef struct rrcb_column {
 #define RRCB_COLUMN_INIT(type, components, from, to) \
     { sizeof(rrcb_column), (int32_t)(type), components, from, to }
 
-/** Limits of a call that sends columns, as rrcb::TransferLimits. */
-typedef struct rrcb_transfer_limits {
-    size_t size;  /**< of this struct, set by RRCB_TRANSFER_LIMITS_INIT */
-    size_t bytes; /**< largest memory for messages on each rank, the same on every rank */
-} rrcb_transfer_limits;
-
-/** The default limits: 64 MiB. */
-#define RRCB_TRANSFER_LIMITS_INIT \
-    { sizeof(rrcb_transfer_limits), (size_t)64 << 20 }
-
 /** Memory and messages of a call on this rank, as rrcb::TransferReport. */
 typedef struct rrcb_transfer_report {
     size_t size;         /**< of this struct, set by RRCB_TRANSFER_REPORT_INIT */
@@ -75,6 +65,17 @@ typedef struct rrcb_transfer_report {
 /** A report without messages. */
 #define RRCB_TRANSFER_REPORT_INIT \
     { sizeof(rrcb_transfer_report), 0, 0, 0 }
+
+/** Options of a call that sends columns, as rrcb::TransferOptions. */
+typedef struct rrcb_transfer_options {
+    size_t size;      /**< of this struct, set by RRCB_TRANSFER_OPTIONS_INIT */
+    size_t max_bytes; /**< maximum memory for messages on each rank, the same on every rank */
+    rrcb_transfer_report* report; /**< gets memory and messages; null: is not wanted */
+} rrcb_transfer_options;
+
+/** The default options: 64 MiB, no report. */
+#define RRCB_TRANSFER_OPTIONS_INIT \
+    { sizeof(rrcb_transfer_options), (size_t)64 << 20, NULL }
 
 /** How many points stay with the old and with the new numbers of parts, over all ranks; as
  * rrcb::Remap. */

@@ -17,25 +17,6 @@ extern "C" {
 RRCB_API int rrcb_imbalance(size_t num_parts, const double* part_weights, const double* part_sizes,
                             double* imbalance);
 
-/** Writes (ideal - actual) / ideal * 100 for the weight of each part, as
- * rrcb::load_unbalance_percent. Not collective.
- *
- * @param num_parts    length of the arrays
- * @param part_weights weight of each part
- * @param part_sizes   relative, one for each part; null: equal parts
- * @param percent      gets one for each part */
-RRCB_API int rrcb_load_unbalance_percent(size_t num_parts, const double* part_weights,
-                                         const double* part_sizes, double* percent);
-
-/** Writes the largest absolute value of rrcb_load_unbalance_percent. Not collective.
- *
- * @param num_parts    length of the arrays
- * @param part_weights weight of each part
- * @param part_sizes   relative, one for each part; null: equal parts
- * @param percent      gets the value */
-RRCB_API int rrcb_worst_load_unbalance_percent(size_t num_parts, const double* part_weights,
-                                               const double* part_sizes, double* percent);
-
 /** Writes sizes of the parts that make their loads more even, as rrcb::balanced_sizes. Not
  * collective.
  *

@@ -40,8 +40,9 @@ struct Verification {
                                  ///< ranks
     GlobalCount num_faults = 0;  ///< over all ranks; 0 means that everything is correct
     std::vector<Fault> missing;  ///< near points that are not ghosts here; lost ids
-    std::vector<Fault> twice;  ///< ghosts that were received twice; ids that another rank has, too
-    std::vector<Fault> strangers;  ///< own points that were received as ghosts; new ids
+    std::vector<Fault>
+        duplicates;  ///< ghosts that were received twice; ids that another rank has, too
+    std::vector<Fault> not_mine;  ///< own points that were received as ghosts; new ids
 };
 
 /// Compares ghosts with all pairs of a random sample of the points, and compares ids between the

@@ -55,7 +55,7 @@ std::vector<std::string> balance_warnings(const Report& report, const Parameters
     std::vector<std::string> texts;
     const double least = report.details.least_imbalance;
     const bool is_best = imbalance_of(report) <= least * (1 + 1e-9);
-    if (least > parameters.options.imbalance_tolerance && report.details.surplus_parts == 0 &&
+    if (least > parameters.options.imbalance_tolerance && report.details.num_empty_parts == 0 &&
         (is_best || report.details.coincident_cuts == 0)) {
         texts.push_back(
             format("one object outweighs a part, or objects are too few: the imbalance "
@@ -75,7 +75,7 @@ std::vector<std::string> balance_warnings(const Report& report, const Parameters
 }
 
 bool leaves_parts_empty(const Report& report) {
-    return report.details.num_points > 0 && report.details.surplus_parts > 0;
+    return report.details.num_points > 0 && report.details.num_empty_parts > 0;
 }
 
 /// Prints the warnings and the line. Called on one rank.
@@ -91,7 +91,7 @@ void print_messages(const Report& report, int num_parts, const Remap& remap,
         print_warning(0, function, warning);
     if (leaves_parts_empty(report)) {
         print_warning(0, function,
-                      std::to_string(report.details.surplus_parts) +
+                      std::to_string(report.details.num_empty_parts) +
                           " parts stay empty: there are more parts than objects");
     } else if (report.details.all_weights_zero) {
         print_warning(0, function, "all weights are zero; balanced by number of objects");

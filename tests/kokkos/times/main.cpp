@@ -2,7 +2,6 @@
 // call there.
 #include <rrcb/balance.hpp>
 #include <rrcb/experimental/kokkos.hpp>
-#include <rrcb/views.hpp>
 
 #include <algorithm>
 #include <chrono>

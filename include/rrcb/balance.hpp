@@ -14,9 +14,9 @@ struct ReportDetails {
     GlobalCount num_points = 0;  ///< over all ranks
     GlobalCount num_cells = 0;   ///< cells that were bisected
     double total_weight = 0;     ///< over all ranks
-    double estimated_imbalance =
-        1;  ///< of the statistical domain, see quality.hpp; NaN if there is no such domain,
-            ///< because earlier cuts were kept or many ranks have made the parts
+    /// Imbalance of the statistical domain, see quality.hpp. NaN if there is no such domain,
+    /// because earlier cuts were kept or many ranks have made the parts.
+    double estimated_imbalance = 1;
     /// Lower bound of the imbalance of all partitions. It follows from the heaviest point or, if
     /// all points weigh the same, from their number: it is 1.6 for 20 points in 16 parts.
     /// Coincident points that are kept together do not raise it; then `coincident_cuts` is above 0.
@@ -63,9 +63,8 @@ struct Balance {
 /// @return the cuts, the part of each point of this rank and a report
 /// Throws the same Error on every rank: for unusable coordinates, weights or arrays, options that
 /// are out of range or differ between ranks, `previous` of another dimension or num_parts, limits
-/// without room for the parts, or ranks that round differently. Cost: a pass over the points, a
-/// gathering of cells, a broadcast, and a reduction for each round of counting; if `previous` is
-/// kept, a pass, a reduction and a broadcast. See docs/design/how_it_works.md.
+/// without room for the parts, or ranks that round differently. Cost: a pass, a gathering of cells,
+/// a broadcast, and a reduction for each round of counting; no gathering if `previous` is kept.
 RRCB_API Balance balance(const Points& points, MPI_Comm comm, const Options& options = {},
                          const Cuts& previous = {});
 

@@ -12,9 +12,11 @@ namespace rrcb {
 enum class Refine {
     none,       ///< not at all: the estimate from the statistics is the result
     tolerance,  ///< until the counted imbalance is within `imbalance_tolerance`
-    exact  ///< to the weighted median: each cut is exact to the weight of one point. That point
-           ///< goes to the side that it makes less too heavy, or further, to fill parts of equal
-           ///< size. A bisection that the ranks hold already is kept if its cuts are as exact
+    /// To the weighted median: each cut is exact to the weight of one point. This point goes to the
+    /// side on which it leaves the smaller excess. If parts have equal sizes, cuts move further
+    /// if that fills a part that would stay empty. A bisection that the ranks hold already is
+    /// kept if its cuts are as exact.
+    exact
 };
 
 /// Treatment of coincident points at a balanced cut.

@@ -32,8 +32,8 @@ struct Column {
 /// calls use it as a Column.
 template <std::ranges::contiguous_range Array>
 struct WritableColumn : Column<std::ranges::range_value_t<Array>> {
-    Array*
-        array;  ///< must outlive the view; `values` is the array as it was when the view was made
+    /// Must outlive the view. `values` is the array as it was when the view was made.
+    Array* array;
 };
 
 namespace detail {

@@ -2,6 +2,7 @@
 
 Methods take turns, each turn in an order drawn anew, and times are ratios to Zoltan's RCB of the same turn.
 Rounds, bytes, imbalance and ghosts are exact counts, which no busy machine disturbs.
+The time that a step takes for a point is measured in the simulation of a slope, on the same cores.
 """
 
 from __future__ import annotations
@@ -36,6 +37,9 @@ RIVALS = {
     ZOLTAN: "Zoltan's RCB", "zoltan-hsfc": "Zoltan's HSFC", "hilbert-counts": "counted keys",
     "zoltan2-mj": "multijagged",
 }  # fmt: skip
+EVERY = {1: "#D55E00", 10: "#E69F00", 100: "#0072B2", 1000: "#000000"}  # steps between two calls
+GAIN = Value(0.66, -0.91, 2.14)  # % that a step is longer for 1 % more points on the fullest part; by comparisons/run
+HARD = ("clusters", "lattice")  # clouds in which a call to 1.01 counts in several rounds
 MOST_A_CORE = 8  # ranks per core up to which calls are timed; with more the scheduler dominates
 LOOKS = {
     "time": "time / Zoltan's RCB", "rounds": "rounds of counting", "bytes": "bytes / Zoltan's RCB",
@@ -44,6 +48,7 @@ LOOKS = {
 
 
 def measure(driver: Driver, parts: list[int], points: int, repeats: int) -> None:
+    driver.run("step", 4, ["none"], "--scene=slope", "--only=simulations", "--steps=200")
     methods = [*TOLERANCES.values(), *RIVALS]
     if not has_multijagged(driver.program):
         methods.remove("zoltan2-mj")
@@ -64,7 +69,7 @@ def rows_of(out: Path) -> pd.DataFrame:
         for row in measurements(read(folder / "table.csv")).to_dict("records"):
             times = {of: _ratio(turns, row["method"], of) for of in (ZOLTAN, EXACT)}
             found.append(row | {"cloud": row["workload"], "time": times[ZOLTAN], "time_over_exact": times[EXACT],
-                                "is_timed": row["repeats"] > 1})  # fmt: skip
+                                "is_timed": row["repeats"] > 1, "turns": turns})  # fmt: skip
     rows = pd.DataFrame(found)
     for name in ("bytes", "ghosts"):
         of = rows[rows["method"] == ZOLTAN].set_index(["case", "ranks"])[name]
@@ -77,6 +82,12 @@ def _ratio(turns: pd.DataFrame, method: str, reference: str) -> Value:
     return paired(turns, turns["time_ms"], method, reference, "turn") or Value(float("nan"))
 
 
+def step_of(out: Path) -> Value:
+    """Returns the nanoseconds that a step of the slope takes for a point, as median of the rounds."""
+    runs = read(out / "step/simulation_runs.csv")
+    return median_of(1e9 * runs["step_work_s"] / runs["points"] / runs["steps"])
+
+
 def noise_of(out: Path) -> Value:
     """Returns the ratio of Zoltan's RCB to itself: an A/A test, whose interval must contain 1. A run counts once,
     because all its turns have both arms at the same places in memory."""
@@ -84,15 +95,19 @@ def noise_of(out: Path) -> Value:
     return median_of(_ratio(turns, ZOLTAN + AGAIN, ZOLTAN).number for turns in runs if turns["turn"].max() > 1)
 
 
-def break_even(row: pd.Series, exact: pd.Series, step_ns: float) -> float:
-    """Returns the number of steps between two rebalances above which exact cuts pay: their additional cost divided by
-    what each step then saves. Calls and steps share the cores in the same way."""
-    dearer = exact["time_ms"] - row["time_ms"]
-    saved = (row["imbalance"] - exact["imbalance"]) * row["points"] / min(CORES, row["ranks"]) * step_ns / 1e6
-    return 0.0 if dearer <= 0 else dearer / saved if saved > 0 else inf
+def break_even(row: pd.Series, exact: pd.Series, turns: pd.DataFrame, step_ns: Value) -> Value:
+    """Returns the number of steps between two calls above which exact cuts pay: their additional cost in a turn,
+    divided by what each step then saves. Calls and steps share the cores in the same way."""
+    times = turns.pivot_table("time_ms", "turn", "method")
+    dearer = median_of((times[EXACT] - times[row["method"]]).clip(lower=0))
+    ms = 1e-6 * (row["imbalance"] - exact["imbalance"]) * row["points"] / min(CORES, row["ranks"])
+    ends = [(step_ns.number, GAIN.number), (step_ns.reach[1], GAIN.high), (step_ns.reach[0], GAIN.low)]
+    steps = [time / (ms * ns * gain) if ms * gain > 0 else inf if time > 0 else 0.0
+             for time, (ns, gain) in zip((dearer.number, *dearer.reach), ends)]  # fmt: skip
+    return Value(*steps)
 
 
-def table_of(rows: pd.DataFrame, parts: int, step_ns: float) -> pd.DataFrame:
+def table_of(rows: pd.DataFrame, parts: int, step_ns: Value) -> pd.DataFrame:
     """Returns a line for each setting, with the median of the clouds and the worst cloud in brackets."""
     rows = rows[rows["ranks"] == parts].set_index("case")
     by_method = dict(iter(rows.groupby("method")))
@@ -106,11 +121,16 @@ def table_of(rows: pd.DataFrame, parts: int, step_ns: float) -> pd.DataFrame:
                 "rounds": _both(of["rounds"], ".0f") if of["rounds"].notna().all() else "–",
                 "ghosts / Zoltan's RCB": _both(of["ghosts_over_zoltan"], ".2f")}  # fmt: skip
         if of["is_timed"].all():
-            steps = pd.Series([break_even(of.loc[case], exact.loc[case], step_ns) for case in exact.index])
+            steps = [break_even(of.loc[case], exact.loc[case], of.loc[case, "turns"], step_ns) for case in exact.index]
             line["time / exact"] = mean_of(of["time_over_exact"]).text(2) if method != EXACT else "1"
-            line["exact pays from, steps"] = _both(steps, ".0f") if name in TOLERANCES and method != EXACT else "–"
+            line["exact pays from, steps"] = _middle(steps) if name in TOLERANCES and method != EXACT else "–"
         lines.append(line)
     return pd.DataFrame(lines).fillna("–")
+
+
+def _middle(values: list[Value]) -> str:
+    """Returns the median cloud, and the medians of the ends of the intervals."""
+    return Value(*(float(np.median(ends)) for ends in zip(*((v.number, *v.reach) for v in values)))).text(0)
 
 
 def _both(values: pd.Series, form: str) -> str:
@@ -193,18 +213,82 @@ def _value(row: pd.Series, name: str) -> Value:
                   "excess_percent": 100 * row["excess"]}[name])  # fmt: skip
 
 
-def report(out: Path, step_ns: float) -> None:
+def above_even(rows: pd.DataFrame, every: int, step_ns: float) -> pd.Series:
+    """Returns the time above even parts and free calls in % of a step: imbalance left + call / (every steps). Calls and
+    steps share the cores in the same way, and 1 % more points are assumed to take 1 % more time."""
+    step_ms = 1e-6 * step_ns * rows["points"] / rows["ranks"].clip(upper=CORES)
+    return 100 * (rows["imbalance"] - 1 + rows["time_ms"] / (every * step_ms))
+
+
+def cost_rows(rows: pd.DataFrame, parts: int, step_ns: float) -> pd.DataFrame:
+    """Returns a row for each kind of cloud, interval and setting, with the mean, least and most of the clouds."""
+    rows = rows[rows["ranks"] == parts]
+    found = []
+    for kind, of in rows.groupby(np.where(rows["cloud"].isin(HARD), "hard", "easy")):
+        for every in EVERY:
+            for name, method in [*TOLERANCES.items(), ("Zoltan's RCB", ZOLTAN)]:
+                costs = above_even(of[of["method"] == method], every, step_ns)
+                found.append((kind, every, name, costs.mean(), costs.min(), costs.max()))
+    return pd.DataFrame(found, columns=["clouds", "every", "setting", "cost", "least", "most"])
+
+
+def cost_table(costs: pd.DataFrame) -> pd.DataFrame:
+    """Returns a line for each setting with the means of the clouds; the best tolerance is bold."""
+    best = costs.loc[costs[costs["setting"] != "Zoltan's RCB"].groupby(["clouds", "every"])["cost"].idxmin()].index
+    text = costs["cost"].map(lambda cost: in_digits(cost, 2 if cost < 100 else 3))
+    cells = text.where(~costs.index.isin(best), "**" + text + "**")
+    names = costs["clouds"] + ", every " + costs["every"].map("{:,} steps".format)
+    table = costs.assign(cell=cells, column=names.str.replace("every 1 steps", "every step"))
+    return table.pivot(index="setting", columns="column", values="cell").loc[
+        costs["setting"].unique(), table["column"].unique()].reset_index()  # fmt: skip
+
+
+def draw_cost(costs: pd.DataFrame) -> Figure:
+    """Cost of a tolerance in your run: time above even parts and free calls, in % of a step, for a call each 1 to 1,000
+    steps. Lines are means over clouds on 16 ranks, and bands reach from the least to the most. Rings mark the best
+    tolerance, squares are Zoltan's RCB. If your step takes ten times as long, read the line of ten times as many steps."""
+    figure, grid = plot.panels(1, 2, 9, 4, sharey=True)
+    for axes, (kind, here) in zip(grid[0], costs.groupby("clouds")):
+        for every, of in here.groupby("every"):
+            ours, zoltan = of.iloc[:-1], of.iloc[-1]
+            label = f"a call each {every:,} steps" if every > 1 else "a call in each step"
+            plot.draw_line(axes, range(len(ours)), ours["cost"], ours["least"], ours["most"], color=EVERY[every],
+                           marker=".", label=label)  # fmt: skip
+            best = int(ours["cost"].to_numpy().argmin())
+            axes.plot(best, ours["cost"].iloc[best], "o", ms=11, mfc="none", mew=1.6, color=EVERY[every])
+            axes.errorbar(len(ours) + 0.3, zoltan["cost"], [[zoltan["cost"] - zoltan["least"]],
+                          [zoltan["most"] - zoltan["cost"]]], fmt="s", color=EVERY[every])  # fmt: skip
+        axes.axvline(list(TOLERANCES).index("1.01"), color="#999999", linewidth=0.8, zorder=0)
+        axes.set(yscale="log", xlabel="tolerance", title=f"{kind} clouds: " + (
+            ", ".join(HARD) if kind == "hard" else ", ".join(cloud for cloud in CLOUDS if cloud not in HARD)))  # fmt: skip
+        axes.set_xticks([*range(len(TOLERANCES)), len(TOLERANCES) + 0.3], [*TOLERANCES, "Zoltan's\nRCB"], fontsize=8)
+        axes.get_xticklabels()[list(TOLERANCES).index("1.01")].set_weight("bold")
+        axes.grid(True, axis="y")
+    grid[0, 0].set_ylabel("time above even parts\nand free calls [% of a step]")
+    return plot.legend_above(figure, grid[0, 0], inches=2)
+
+
+def report(out: Path) -> None:
     rows = rows_of(out)
     timed, parts = bool(rows["is_timed"].any()), sorted(rows["ranks"].unique())
     most = max(number for number in parts if number <= max(16, parts[0]))
+    step_ns = step_of(out)
     counts = rows[["cloud", "dim", "ranks", "method", "imbalance", "rounds", "bytes", "ghosts"]]
     counts.to_csv(out / "price.csv", index=False, float_format="%.9g")
     plot.use_style()
     plot.save(draw(rows), out / "price.png")
-    tables = {f"{most} parts: median of the clouds, worst in brackets": table_of(rows, most, step_ns),
+    pictures, tables = {"price.png": draw}, {}
+    if timed:
+        costs = cost_rows(rows, most, step_ns.number)
+        costs.to_csv(out / "cost.csv", index=False, float_format="%.4g")
+        plot.save(draw_cost(costs), out / "cost.png")
+        pictures = {"cost.png": draw_cost} | pictures
+        tables[f"{most} parts: time above even parts and free calls, % of a step"] = cost_table(costs)
+    tables |= {f"{most} parts: median of the clouds, worst in brackets": table_of(rows, most, step_ns),
               f"{most} parts: by cloud": choice_table(rows, most)}  # fmt: skip
     found = Report("What accuracy costs", out)
-    found.picture("price.png", " ".join(draw.__doc__.split()))
+    for name, make in pictures.items():
+        found.picture(name, " ".join(make.__doc__.split()))
     for caption, table in tables.items():
         found.table(caption, table)
         show(caption, table)
@@ -214,7 +298,7 @@ def report(out: Path, step_ns: float) -> None:
             "too few runs to tell" if not again.has_interval else "not told apart" if not again.is_apart(ONE)
             else "told apart from itself: do not believe the times"
         )  # fmt: skip
-        text = f"A/A: Zoltan's RCB over itself {again.text(3)}, {verdict}. A step takes {step_ns:g} ns a point."
+        text = f"A/A: Zoltan's RCB over itself {again.text(3)}, {verdict}. A step takes {step_ns.text(1)} ns a point."
         found.text(text)
         print(f"\n{text}")
     found.write(next(out.glob("*/run.txt"), out))
@@ -229,8 +313,6 @@ def main() -> int:
     parser.add_argument("--repeats", type=int, default=6,
                         help=f"turns, best an even number; 6. With 1, and beyond {MOST_A_CORE} ranks a core, counts"
                         " alone, no times")
-    parser.add_argument("--step-ns", type=float, default=25,
-                        help="of your program for a point, for the steps from which exact cuts pay; 25")  # fmt: skip
     parser.add_argument("--keep", action="store_true", help="report what is in the folder")
     parser.add_argument("--quick", action="store_true", help="a small run of everything")
     parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
@@ -241,7 +323,7 @@ def main() -> int:
             build("rrcb_compare", multijagged=True)
         driver = Driver(given.out, given.driver or COMPARE, given.quick)
         measure(driver, sorted(map(int, given.parts.split(","))), given.points, given.repeats)
-    report(given.out, given.step_ns)
+    report(given.out)
     return 0
 
 

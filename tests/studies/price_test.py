@@ -69,27 +69,41 @@ class PriceTest(unittest.TestCase):
         for cloud in ("slope", "shell"):
             folder_of(self.out, cloud, 1, ranks=64)
         rows = price.rows_of(self.out)
-        self.assertNotIn("time / exact", price.table_of(rows, 64, 25))
+        self.assertNotIn("time / exact", price.table_of(rows, 64, price.Value(25)))
         texts = [[text.get_text() for text in axes.texts] for axes in price.draw(rows).axes]
         self.assertEqual([i for i, found in enumerate(texts) if "too many ranks a core\nto be timed" in found], [1])
         self.assertTrue(pd.isna(price.noise_of(self.out).low))  # of two runs
 
     def test_exact_cuts_pay_from_what_they_cost_over_what_they_save(self) -> None:
-        rows = self.rows(6).set_index("method")
-        of = {name: rows.loc[name].iloc[0] for name in ("rrcb", "rrcb-exact", "rrcb[refine=none]")}
+        rows = self.rows(6)
+        of = {name: rows[rows["method"] == name].iloc[0] for name in ("rrcb", "rrcb-exact", "rrcb[refine=none]")}
         cores = min(price.CORES, 4)
-        # 2 ms against 1 % of 1000 points of 1 us, shared by the cores.
-        self.assertAlmostEqual(price.break_even(of["rrcb"], of["rrcb-exact"], 1000), 2 / 0.01 * cores)
-        self.assertEqual(price.break_even(of["rrcb-exact"], of["rrcb"], 25), 0)
-        table = price.table_of(rows.reset_index(), 4, 1000).set_index("setting")
-        self.assertEqual(table.loc["1.01", "exact pays from, steps"], f"{200 * cores} ({200 * cores})")
+        # Turns of 2, 4 ... 12 ms more against 1 % of 1000 points of 1 us, shared by the cores.
+        turns, step = of["rrcb"]["turns"], price.Value(1000)
+        found = price.break_even(of["rrcb"], of["rrcb-exact"], turns, step)
+        self.assertAlmostEqual(found.number, 7 / 0.0066 * cores)
+        self.assertAlmostEqual(found.low, 2 / 0.0214 * cores)
+        self.assertEqual(found.high, float("inf"))  # evener points may not make a step shorter
+        self.assertEqual(price.break_even(of["rrcb-exact"], of["rrcb"], turns, step).number, 0)
+        table = price.table_of(rows, 4, step).set_index("setting")
+        self.assertEqual(table.loc["1.01", "exact pays from, steps"], f"{700 * cores / 0.66:.0f} [{200 * cores / 2.14:.0f}, inf]")
         self.assertEqual(table.loc["1.01", "time / exact"], "0.50")
         self.assertEqual(table.loc["none", "imbalance left, %"], "20.000 (20.000)")
         self.assertEqual(table.loc["Zoltan's RCB", "rounds"], "–")
 
+    def test_a_tolerance_costs_what_it_leaves_and_its_share_of_a_call(self) -> None:
+        costs = price.cost_rows(self.rows(6), 4, 1000).set_index(["every", "setting"])
+        cores = min(price.CORES, 4)
+        # A step takes 1 ms over the cores, the call 2 ms.
+        self.assertAlmostEqual(costs.loc[(100, "1.01"), "cost"], 1 + 2 * cores)
+        self.assertAlmostEqual(costs.loc[(1000, "Zoltan's RCB"), "most"], 0.8 * cores)
+        lines = price.cost_table(costs.reset_index()).set_index("setting")
+        found = lines.loc[["1.003", "exact"], "easy, every 1,000 steps"].tolist()
+        self.assertEqual(found, [f"**{0.2 + 0.2 * cores:g}**", f"{0.4 * cores:g}"])
+
     def test_counts_alone_need_no_times(self) -> None:
         rows = self.rows(1)
-        self.assertNotIn("time / exact", price.table_of(rows, 4, 25))
+        self.assertNotIn("time / exact", price.table_of(rows, 4, price.Value(25)))
         self.assertEqual(price.draw(rows).axes[0].get_ylabel(), "rounds of counting")
         found = price.choice_table(rows, 4).iloc[0]
         self.assertEqual(found["costs no more than 1.1"], "1.003")

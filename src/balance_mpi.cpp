@@ -8,6 +8,7 @@
 #include "estimate/earlier_cuts.hpp"
 #include "estimate/keeping_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
+#include "options/axis_order.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"
@@ -53,13 +54,13 @@ Options introduce(const Given& given, const PointSummary& summary, Contribution&
     Options options = complete(given.options, given.ranks, given.previous);
     check_options(options, dimension);
     const bool spread = is_spread(options, given.ranks.number);
-    require(options.tree.round_robin_block == 0 || !spread,
+    require(options.expert.tree.round_robin_block == 0 || !spread,
             "tree.round_robin_block must be 0 if many ranks make the parts; raise "
-            "tuning.central_parts");
+            "max_root_parts");
     if (given.previous) check_previous(*given.previous, options, dimension);
     mine.summary = summarize(summary, given.points.has_weights(), mpi::rank_of(self.comm));
     mine.summary.request = request_of(options, dimension, given.previous);
-    Cuts ends{dimension, options.num_parts, {}, options.tree};
+    Cuts ends{dimension, options.num_parts, {}, options.expert.tree};
     if (given.previous) ends.numbers = given.previous->numbers;
     if (!options.part_sizes.empty())
         for (Part end = 0; end < options.num_parts; ++end)
@@ -87,8 +88,8 @@ void number_parts(const Cuts& cuts, PointPasses& points) {
 /// Returns true if the parts of earlier cuts have to be weighed, because they may be kept.
 bool weighs_earlier(const Given& given) {
     if (!given.previous || given.options.refine == Refine::exact) return false;
-    const AxisOrder& order = given.options.axes.order;
-    return !order.is_given() || axes_of(given.previous->tree) == order.axes();
+    const AxisOrder& order = given.options.expert.axes.order;
+    return !is_given(order) || axes_of(given.previous->tree) == axes_in(order);
 }
 
 /// Gives the points the parts of the earlier cuts, and adds up the weights of these parts.
@@ -130,8 +131,8 @@ void prepare(const Given& given, Options& options, Contribution& mine, Decision&
     const bool spread = is_spread(options, given.ranks.number);
     const bool reads_kept = !spread && reads_kept_tree(options, given.ranks.number);
     decision.earlier = given.previous;
-    if (spread && given.previous && !options.axes.order.is_given())
-        options.axes.order = AxisOrder::given(axes_of(given.previous->tree));
+    if (spread && given.previous && !is_given(options.expert.axes.order))
+        options.expert.axes.order = AxisOrder::given(axes_of(given.previous->tree));
     settlement.emplace(options, points, reads_kept || given.previous, workspace_of(self.comm).open,
                        self);
     if (spread) {
@@ -190,7 +191,7 @@ void keep(const Given& given, const Options& options, Decision& decision, Balanc
     report_measured(decision.verdict.kept_imbalance, options.imbalance_tolerance, report);
     report.part_weights = std::move(decision.part_weights);
     // Otherwise the search has counted the cuts that would divide points which are kept together.
-    if (is_known || options.coincident == Coincident::divide)
+    if (is_known || options.expert.coincident == Coincident::divide)
         report.details.coincident_cuts = static_cast<int>(
             std::ranges::count_if(cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
     const Part part = decision.parts[mpi::rank_of(self.comm)];

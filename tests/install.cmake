@@ -179,13 +179,17 @@ if(Python3_FOUND)
   add_test(NAME install.names
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/names.py
                    ${PROJECT_SOURCE_DIR})
+  add_test(NAME install.public_names
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/public_names.py
+                   ${PROJECT_SOURCE_DIR})
   add_test(NAME install.versions
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/versions.py
                    ${PROJECT_BINARY_DIR}/CMakeCache.txt ${PROJECT_SOURCE_DIR})
   add_test(NAME install.debian COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/debian.py
                                        ${prefix} ${PROJECT_SOURCE_DIR})
   set_tests_properties(install.debian PROPERTIES FIXTURES_REQUIRED installed)
-  rrcb_set_tests_properties(install.symbols install.packages install.names install.versions install.debian
+  rrcb_set_tests_properties(install.symbols install.packages install.names install.public_names install.versions
+                       install.debian
                        PROPERTIES LABELS install TIMEOUT 60)
   if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE AND RRCB_PYTHON)
     add_test(NAME first_steps COMMAND ${CMAKE_COMMAND} -E env CMAKE_GENERATOR=${CMAKE_GENERATOR}

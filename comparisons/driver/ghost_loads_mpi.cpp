@@ -50,7 +50,7 @@ void compare(const Cloud& cloud, MPI_Comm comm) {
                       .add("ghosts", static_cast<double>(ghosts.sum)),
                   comm);
             options.part_sizes = rrcb::balanced_sizes(loads, options.part_sizes);
-            options.axes.order = rrcb::AxisOrder::given(axes_of(balance.cuts));
+            options.expert.axes.order = rrcb::AxisOrder::given(axes_of(balance.cuts));
         }
     }
 }

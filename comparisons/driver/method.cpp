@@ -54,9 +54,10 @@ bool read_field(std::string_view text, PaperOptions& options) {
 
 bool read_mesh(std::string_view text, PaperOptions& options) {
     Options own;
-    const bool is_legal = rrcb::read_option(*rrcb::find_option("tuning.support_mesh"), text, own);
-    if (is_legal && own.tuning.support_mesh != 0) options.support_mesh = own.tuning.support_mesh;
-    return is_legal && own.tuning.support_mesh != 0;
+    const bool is_legal = rrcb::read_option(*rrcb::find_option("cells_per_axis"), text, own);
+    if (is_legal && own.expert.cells_per_axis != 0)
+        options.support_mesh = own.expert.cells_per_axis;
+    return is_legal && own.expert.cells_per_axis != 0;
 }
 
 constexpr PaperKey paper_keys[] = {

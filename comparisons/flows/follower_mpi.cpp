@@ -89,7 +89,7 @@ CallCounts Follower::go_on(const Workload& all) {
     if (policy_.keeps_axes && parts_.empty()) {
         std::vector<int> axes;
         for (const rrcb::Cut& cut : cuts_.tree) axes.push_back(cut.axis);
-        options_.axes.order = rrcb::AxisOrder::given(axes);
+        options_.expert.axes.order = rrcb::AxisOrder::given(axes);
     }
     const std::vector<rrcb::Part> before =
         std::exchange(parts_, gathered(balance.parts, here, count, comm_));

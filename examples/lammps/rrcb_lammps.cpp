@@ -145,12 +145,12 @@ rrcb::Points points_of(int dimension, int n, double** x, const double* weights) 
 }
 
 rrcb::Options options_of(int dimension) {
-    rrcb::Options options{.axes = {.plain = true}, .tree = {.larger_below = true}};
+    rrcb::Options options{.expert = {.axes = {.plain = true}, .tree = {.larger_below = true}}};
     if (const char* text = std::getenv("RRCB_IMBALANCE_TOL"))
         options.imbalance_tolerance = std::strtod(text, nullptr);
     if (const char* text = std::getenv("RRCB_MIN_WIDTH")) {
         std::istringstream words(text);
-        auto& widths = options.axes.min_width;
+        auto& widths = options.expert.axes.min_width;
         for (double width = 0; words >> width;) widths.push_back(width);
         if (widths.size() == 1) widths.assign(dimension, widths[0]);
     }

@@ -47,15 +47,21 @@ struct SharedEntries {
 
 /// Arrays for columns of ghosts, see ghosts_of().
 template <class... Arrays>
-struct GhostArrays {
-    std::tuple<Arrays&...> arrays;
+class GhostArrays {
+  public:
+    /// Refers to arrays, which must outlive the call. Not collective.
+    explicit GhostArrays(Arrays&... arrays) : arrays_(arrays...) {}
+
+  private:
+    friend class Neighbours;
+    std::tuple<Arrays&...> arrays_;
 };
 
 /// Names the arrays for columns of ghosts, in the order of the columns of the points. They are
 /// vectors, or arrays of the right size. Not collective.
 template <class... Arrays>
 GhostArrays<Arrays...> ghosts_of(Arrays&... arrays) {
-    return {std::tie(arrays...)};
+    return GhostArrays<Arrays...>(arrays...);
 }
 
 namespace detail {
@@ -230,7 +236,7 @@ class Neighbours {
         static_assert(sizeof...(Arrays) == sizeof...(Columns), "give an array for each column");
         const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
             return std::array<detail::ByteColumn, sizeof...(Columns)>{
-                fetched(std::get<I>(ghosts.arrays), columns)...};
+                fetched(std::get<I>(ghosts.arrays_), columns)...};
         }
         (std::index_sequence_for<Arrays...>{});
         fetch_columns(each);
@@ -263,7 +269,7 @@ class Neighbours {
         static_assert(sizeof...(Arrays) == sizeof...(Columns), "give a column for each array");
         const auto each = [&]<std::size_t... I>(std::index_sequence<I...>) {
             return std::array{
-                summed_as(std::get<I>(ghosts.arrays), std::forward<Columns>(columns))...};
+                summed_as(std::get<I>(ghosts.arrays_), std::forward<Columns>(columns))...};
         }
         (std::index_sequence_for<Arrays...>{});
         accumulate_columns(each);

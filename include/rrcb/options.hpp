@@ -33,6 +33,10 @@ struct GridLines {
     double spacing = 0;  ///< > 0 and finite
 };
 
+namespace detail {
+struct AxisOrderAccess;
+}  // namespace detail
+
 /// Rule for the axis of a cut. Axes within a tenth of the best count as equal; the first of them is
 /// taken.
 class AxisOrder {
@@ -59,18 +63,8 @@ class AxisOrder {
     /// num_parts - 1 cuts.
     static AxisOrder given(std::vector<int> axes) { return {Kind::given, std::move(axes)}; }
 
-    /// Returns true if the order was made by longest(). Not collective, as all of these functions.
-    bool is_longest() const { return kind_ == Kind::longest; }
-    /// Returns true if the order was made by among().
-    bool is_among() const { return kind_ == Kind::among; }
-    /// Returns true if the order was made by grouped().
-    bool is_grouped() const { return kind_ == Kind::grouped; }
-    /// Returns true if the order was made by given().
-    bool is_given() const { return kind_ == Kind::given; }
-    /// Returns the axes that were given; they are empty for fewest_ghosts() and longest().
-    const std::vector<int>& axes() const { return axes_; }
-
   private:
+    friend struct detail::AxisOrderAccess;
     enum class Kind { fewest_ghosts, longest, among, grouped, given };
 
     AxisOrder(Kind kind, std::vector<int> axes) : kind_(kind), axes_(std::move(axes)) {}
@@ -105,26 +99,9 @@ struct Axes {
     std::vector<GridLines> grid{};
 };
 
-/// Settings that affect the cost of a call. The defaults suit most programs.
-struct Tuning {
-    int support_mesh = 0;  ///< cells per axis of each rank's support mesh, at most 4096 (256 in
-                           ///< 3-D); 0: chosen from the number of points
-
-    /// Largest number of parts that rank 0 makes without the others; at least 2. If there are more
-    /// parts and more ranks, each cut is found by a rank of its parts. No effect with Refine::none,
-    /// Axes::min_width, Axes::grid or AxisOrder::grouped().
-    int central_parts = 4096;
-};
-
-/// Options of balance(). They must be the same on every rank, which is checked.
-struct Options {
-    int num_parts = 0;                  ///< parts to make; 0: one per rank
-    std::vector<double> part_sizes{};   ///< relative weight of each part, each >= 0, some > 0;
-                                        ///< empty: equal parts
-    double imbalance_tolerance = 1.01;  ///< largest allowed heaviest part / mean part; >= 1 and
-                                        ///< finite
-    Refine refine = Refine::tolerance;  ///< accuracy of the cuts
-
+/// Options that few programs set. In C, Fortran and Python their names are those of these members,
+/// such as `axes.min_width` and `cells_per_axis`.
+struct ExpertOptions {
     /// Treatment of coincident points. No effect with Refine::none and with plain cuts.
     Coincident coincident = Coincident::together;
 
@@ -137,7 +114,26 @@ struct Options {
     /// turn. In other cases, and on 1, 2, 4, ... full machines with consecutive ranks, the parts
     /// are halved. A call from earlier cuts keeps their shape.
     TreeShape tree{0};
-    Tuning tuning{};  ///< for experts
+
+    int cells_per_axis = 0;  ///< cells per axis of each rank's support mesh, at most 4096 (256 in
+                             ///< 3-D); 0: chosen from the number of points
+
+    /// Largest number of parts that rank 0 makes without the others; at least 2. If there are more
+    /// parts and more ranks, each cut is found by a rank of its parts. No effect with Refine::none,
+    /// Axes::min_width, Axes::grid or AxisOrder::grouped().
+    int max_root_parts = 4096;
+};
+
+/// Options of balance(). They must be the same on every rank, which is checked.
+struct Options {
+    int num_parts = 0;                  ///< parts to make; 0: one per rank
+    std::vector<double> part_sizes{};   ///< relative weight of each part, each >= 0, some > 0;
+                                        ///< empty: equal parts
+    double imbalance_tolerance = 1.01;  ///< largest allowed heaviest part / mean part; >= 1 and
+                                        ///< finite
+    Refine refine = Refine::tolerance;  ///< accuracy of the cuts
+
+    ExpertOptions expert{};  ///< the defaults suit most programs
 };
 
 }  // namespace rrcb

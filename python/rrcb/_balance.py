@@ -297,7 +297,7 @@ def set_option(own: c.Handle, name: str, value: Any) -> None:
     try:
         c.call("balancer_set", own, name.encode(), text_of(value).encode())
     except c.Error as error:  # The text must name the keyword, which has no dot.
-        raise c.Error(re.sub(r"\b(axes|tree|tuning)\.", r"\1__", str(error)), error.kind) from None
+        raise c.Error(re.sub(r"\b(axes|tree)\.", r"\1__", str(error)), error.kind) from None
 
 
 def text_of(value: Any) -> str:

@@ -1,6 +1,7 @@
 #include "bisection/axis_choice.hpp"
 
 #include "options/allowed_axes.hpp"
+#include "options/axis_order.hpp"
 
 #include <algorithm>
 
@@ -38,12 +39,12 @@ int longest_axis(const Box& box, std::span<const int> axes, double enough) {
 }
 
 AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
-    : allowed_(allowed_axes(options.axes.order, dimension)) {
-    const AxisOrder& order = options.axes.order;
-    if (order.is_given()) cut_axes_ = order.axes();
-    if (order.is_grouped())
-        level_axes_ =
-            group_levels(order.axes(), box, dimension, num_levels(options.tree, options.num_parts));
+    : allowed_(allowed_axes(options.expert.axes.order, dimension)) {
+    const AxisOrder& order = options.expert.axes.order;
+    if (is_given(order)) cut_axes_ = axes_in(order);
+    if (is_grouped(order))
+        level_axes_ = group_levels(axes_in(order), box, dimension,
+                                   num_levels(options.expert.tree, options.num_parts));
 }
 
 std::span<const int> AxisChoice::operator()(std::size_t node, int depth) const {

@@ -7,6 +7,7 @@
 #include "bisection/patches.hpp"
 #include "bisection/profile.hpp"
 #include "bisection/weighted_quantile.hpp"
+#include "options/axis_order.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
@@ -52,7 +53,7 @@ int usual_axis(const Piece& piece, std::span<const int> axes, const Task& task) 
     const int preferred = task.preferred[piece.at.node];
     if (std::ranges::find(axes, preferred) == axes.end()) return longest;
     const auto half = [&](int axis) { return extent.upper[axis] / 2 - extent.lower[axis] / 2; };
-    const double enough = task.options.axes.order.is_longest() ? nearly * half(longest) : 0;
+    const double enough = is_longest(task.options.expert.axes.order) ? nearly * half(longest) : 0;
     return half(preferred) > 0 && half(preferred) >= enough ? preferred : longest;
 }
 
@@ -63,7 +64,7 @@ void choose_fewest(const Profile& profile, std::span<const int> axes, double tar
     // The fewer patches there are, the larger is the error of the weight near a cut.
     const auto num_patches = static_cast<double>(profile.domain().patches.size());
     const double enough = nearly - 1 / std::sqrt(num_patches);
-    const bool plain = task.options.axes.plain;
+    const bool plain = task.options.expert.axes.plain;
     const double reach = profile.reach();
     const Box& extent = profile.extent();
     const auto near = [&](const Cut& cut) {
@@ -93,7 +94,7 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     const Box& extent = profile.extent();
     const auto axes = task.axis_choice(piece.at.node, piece.depth);
     const double weight = profile.weight();
-    const bool counts_near = !task.options.axes.order.is_longest() && task.preferred.empty();
+    const bool counts_near = !is_longest(task.options.expert.axes.order) && task.preferred.empty();
     const int usual = usual_axis(piece, axes, task);
     if (task.limits && task.limits->divides(piece.at))
         return cut_in_places(piece, profile, below, usual, counts_near, task.options, *task.limits);
@@ -103,7 +104,7 @@ Cut choose_cut(const Piece& piece, double below, Task& task) {
     // Coincident patches all go to one side.
     if (extent.lower == extent.upper) return plane(usual, below < 0.5 ? -infinity : infinity);
     const double target = below * weight;
-    Cut cut = weighted_quantile(profile, usual, target, task.options.axes.plain);
+    Cut cut = weighted_quantile(profile, usual, target, task.options.expert.axes.plain);
     const bool shows_near = task.shows_near && weight > task.light;
     if (counts_near && shows_near && axes.size() > 1)
         choose_fewest(profile, axes, target, task, cut);
@@ -185,7 +186,7 @@ Bisection bisect(StatisticalDomain domain, GlobalCount num_points, Task&& task) 
     task.profile.take(domain);
     const double weight = task.profile.weight();
     if (num_points > 0) task.light = few_points / static_cast<double>(num_points) * weight;
-    task.result.cuts = {domain.dimension, options.num_parts, {}, options.tree};
+    task.result.cuts = {domain.dimension, options.num_parts, {}, options.expert.tree};
     const auto num_parts = static_cast<std::size_t>(options.num_parts);
     task.result.cuts.tree.reserve(num_parts - 1);
     task.result.brackets.reserve(task.with_brackets ? num_parts - 1 : 0);
@@ -235,7 +236,7 @@ Bisection bisect_within(const Box& points, StatisticalDomain domain, const Optio
     const int dimension = domain.dimension;
     const AxisChoice axis_choice(options, points, dimension);
     CutLimits limits(options, points, dimension,
-                     axis_choice.given(root_of(options.num_parts, options.tree)));
+                     axis_choice.given(root_of(options.num_parts, options.expert.tree)));
     limits.require_room();
     return bisect(std::move(domain), 0,
                   {options, axis_choice, &limits, with_brackets, preferred, near_weight});
@@ -247,7 +248,7 @@ Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double
     return locally([&] {
         Options options;
         options.num_parts = num_parts;
-        options.tree = TreeShape{};
+        options.expert.tree = TreeShape{};
         options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
         if (part_sizes.empty()) options.part_sizes.assign(num_parts, 1.0);
         check_part_sizes(options, domain.dimension);

@@ -94,7 +94,7 @@ Cut cut_in_places(const Piece& piece, const Profile& profile, double share, int 
         const auto [first, last] = way.places;
         const Trial trial =
             weight > 0
-                ? trial_at(profile, way, share * weight, options.axes.plain, across)
+                ? trial_at(profile, way, share * weight, options.expert.axes.plain, across)
                 : trial_in(profile, way.axis, across.nearest(first / 2 + last / 2, first, last));
         const double error = std::abs(trial.below - share * weight);
         const bool is_first_bearable = least > bearable_error && error < least;

@@ -163,14 +163,8 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
 
 int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts) {
     return guarded(balancer, [&](auto& own) {
-        own.cuts = rrcb::c::copy_of(rrcb::c::copy_in(cuts, "cuts"));
-        own.least_count = rrcb_balancer::no_count;
-    });
-}
-
-int rrcb_clear_cuts(rrcb_balancer* balancer) {
-    return guarded(balancer, [](auto& own) {
-        own.cuts = {};
+        own.cuts =
+            cuts == nullptr ? rrcb::Cuts{} : rrcb::c::copy_of(rrcb::c::copy_in(cuts, "cuts"));
         own.least_count = rrcb_balancer::no_count;
     });
 }

@@ -13,10 +13,10 @@ namespace rrcb {
 
 std::array<AxisLimits, max_dimension> axis_limits(const Options& options) {
     std::array<AxisLimits, max_dimension> axes;
-    for (std::size_t a = 0; a < std::max(options.axes.min_width.size(), options.axes.grid.size());
-         ++a)
-        axes[a] = {options.axes.min_width.empty() ? 0 : options.axes.min_width[a],
-                   options.axes.grid.empty() ? GridLines{} : options.axes.grid[a]};
+    for (std::size_t a = 0;
+         a < std::max(options.expert.axes.min_width.size(), options.expert.axes.grid.size()); ++a)
+        axes[a] = {options.expert.axes.min_width.empty() ? 0 : options.expert.axes.min_width[a],
+                   options.expert.axes.grid.empty() ? GridLines{} : options.expert.axes.grid[a]};
     return axes;
 }
 
@@ -25,14 +25,15 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension,
     : axes_(axis_limits(options)),
       region_(points),
       dimension_(dimension),
-      allowed_(allowed_axes(options.axes.order, dimension).begin(),
-               allowed_axes(options.axes.order, dimension).end()),
-      whole_(root_of(static_cast<int>(options.part_sizes.size()), options.tree)),
-      packing_(options.part_sizes, options.tree),
+      allowed_(allowed_axes(options.expert.axes.order, dimension).begin(),
+               allowed_axes(options.expert.axes.order, dimension).end()),
+      whole_(root_of(static_cast<int>(options.part_sizes.size()), options.expert.tree)),
+      packing_(options.part_sizes, options.expert.tree),
       given_(std::move(given)),
-      limiting_(options.axes.grid.empty()        ? "axes.min_width leaves"
-                : options.axes.min_width.empty() ? "axes.grid leaves"
-                                                 : "axes.min_width and axes.grid together leave") {
+      limiting_(options.expert.axes.grid.empty() ? "axes.min_width leaves"
+                : options.expert.axes.min_width.empty()
+                    ? "axes.grid leaves"
+                    : "axes.min_width and axes.grid together leave") {
     for (int a = 0; a < dimension; ++a) {
         if (!axes_[a].has_grid()) continue;
         if (!axes_[a].resolves(std::max(std::abs(points.lower[a]), std::abs(points.upper[a]))))
@@ -40,7 +41,7 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension,
                    " than doubles resolve at these coordinates; give a larger spacing");
         // A point on a line belongs to the cell above it, so a cut at the last points must be
         // allowed.
-        if (options.axes.min_width.empty())
+        if (options.expert.axes.min_width.empty())
             region_.upper[a] = std::nextafter(points.upper[a], infinity);
     }
 }

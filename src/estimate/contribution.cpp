@@ -44,7 +44,7 @@ void coarsen_records(Contribution& all, int dimension, std::size_t most) {
 bool are_cells(LocalIndex num_points, int num_ranks, const Options& options) {
     constexpr std::size_t points_per_part = 4;
     const std::size_t most = points_per_part * static_cast<std::size_t>(options.num_parts);
-    return options.tuning.support_mesh == 0 &&
+    return options.expert.cells_per_axis == 0 &&
            num_points * static_cast<std::size_t>(num_ranks) <= std::min(most, most_cells(options));
 }
 
@@ -93,7 +93,7 @@ void add_records(PointPasses& points, const Box& box, int num_ranks, const Optio
 
 std::size_t most_cells(const Options& options) {
     constexpr std::size_t most = 8192;
-    return options.tuning.support_mesh == 0 ? most : std::numeric_limits<std::size_t>::max();
+    return options.expert.cells_per_axis == 0 ? most : std::numeric_limits<std::size_t>::max();
 }
 
 void join(Summary& mine, const Summary& next) {

@@ -10,6 +10,7 @@
 #include "estimate/earlier_cuts.hpp"
 #include "estimate/keeping_mpi.hpp"
 #include "estimate/turning.hpp"
+#include "options/axis_order.hpp"
 #include "options/call_kind.hpp"
 #include "options/rejection.hpp"
 
@@ -171,10 +172,10 @@ Bisection make_cuts(const Contribution& all, const Options& options, Decision& d
         return made;
     }
     Options along = options;
-    along.axes.order = AxisOrder::given(axes);
+    along.expert.axes.order = AxisOrder::given(axes);
     Bisection across = bisect_gathered(domain, all, along, with_brackets);
     const bool is_even = decision.held->imbalance <= options.imbalance_tolerance;
-    if (options.axes.order.is_longest() ||
+    if (is_longest(options.expert.axes.order) ||
         (is_even && are_axes_good(domain, decision.held->cuts, made.cuts, enough)))
         return across;
     decision.turned = std::move(made);
@@ -244,7 +245,8 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
     const std::size_t num_parts = options.part_sizes.size();
     const std::size_t num_cuts = num_parts - 1;
     Cuts& cuts = decision.cuts;
-    cuts = {dimension, static_cast<int>(num_parts), std::vector<Cut>(num_cuts), options.tree};
+    cuts = {dimension, static_cast<int>(num_parts), std::vector<Cut>(num_cuts),
+            options.expert.tree};
     if (decision.earlier) {
         cuts.numbers = decision.earlier->numbers;
         decision.numbers.resize(num_parts);

@@ -21,7 +21,7 @@ void fit(const Options& options, const Descent& at, Cut& cut) {
         if (share <= 0) value = -infinity;
         if (share >= 1) value = infinity;
     }
-    if (options.axes.plain || value != cut.at[axis]) cut.at.fill(-infinity);
+    if (options.expert.axes.plain || value != cut.at[axis]) cut.at.fill(-infinity);
     cut.divides = 0;
     cut.at[axis] = value;
 }

@@ -85,8 +85,8 @@ bool turns(Decision& decision, const Cuts& held, PointPasses& points, Participan
 
 bool reads_kept_tree(const Options& options, int num_ranks) {
     // The same limit up to which rank 0 divides by default.
-    return num_ranks > 1 && num_ranks <= Tuning{}.central_parts && options.num_parts == num_ranks &&
-           !are_cuts_limited(options);
+    return num_ranks > 1 && num_ranks <= ExpertOptions{}.max_root_parts &&
+           options.num_parts == num_ranks && !are_cuts_limited(options);
 }
 
 bool keeps_at_once(double kept, const Options& options) {

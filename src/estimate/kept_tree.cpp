@@ -6,6 +6,7 @@
 #include "cuts/tree.hpp"
 #include "estimate/cell_records.hpp"
 #include "options/allowed_axes.hpp"
+#include "options/axis_order.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -92,9 +93,9 @@ class Reader {
 
     /// Returns true if a cut through these points may be across an axis.
     bool may_cross(int axis, int usual, bool as_expected, const PointSummary& all) const {
-        const AxisOrder& order = options_.axes.order;
-        if (order.is_given() || order.is_grouped()) return axis == usual;
-        if (!order.is_longest())
+        const AxisOrder& order = options_.expert.axes.order;
+        if (is_given(order) || is_grouped(order)) return axis == usual;
+        if (!is_longest(order))
             return std::ranges::count(allowed_axes(order, estimate_.dimension), axis) > 0;
         if (as_expected) return true;
         // This is less strict than for a new cut, whose extents are estimated. Otherwise cuts might
@@ -115,15 +116,16 @@ class Reader {
         if (above.count == 0) return plane(axis, infinity);
         const Vector& last = below.last[axis];
         const Vector& first = above.first[axis];
-        const PositionOrder is_before(axis, 0, options_.axes.plain ? 1 : estimate_.dimension);
+        const PositionOrder is_before(axis, 0,
+                                      options_.expert.axes.plain ? 1 : estimate_.dimension);
         if (is_before(last, first))
             return cut_between_positions(last, first, axis, estimate_.dimension);
-        if (options_.axes.plain || is_before(first, last)) return std::nullopt;
+        if (options_.expert.axes.plain || is_before(first, last)) return std::nullopt;
         Cut cut = plane(axis, first[axis]);
         cut.divides = 1;
         std::copy_n(first.begin(), estimate_.dimension, cut.at.begin());
         const bool may_divide = by_number && estimate_.is_numbered_in_order() &&
-                                options_.coincident == Coincident::divide &&
+                                options_.expert.coincident == Coincident::divide &&
                                 options_.refine != Refine::none;
         if (!may_divide) return std::nullopt;
         return cut;

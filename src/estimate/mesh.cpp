@@ -134,10 +134,10 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
 
 SupportMesh mesh_by_options(PointPasses& points, const Box& box, const Options& options) {
     const int dimension = points.dimension();
-    const bool is_automatic = options.tuning.support_mesh == 0;
-    if (is_automatic && !options.axes.grid.empty())
+    const bool is_automatic = options.expert.cells_per_axis == 0;
+    if (is_automatic && !options.expert.axes.grid.empty())
         if (const auto mesh = mesh_on_lines(box, dimension, options)) return *mesh;
-    if (!is_automatic) return framed_mesh(points, box, options.tuning.support_mesh);
+    if (!is_automatic) return framed_mesh(points, box, options.expert.cells_per_axis);
     const double most = std::pow(static_cast<double>(points.most_cells()), 1.0 / dimension);
     const int cells = automatic_cells_per_axis(dimension, points.count(), options);
     return framed_mesh(points, box, most < cells ? whole_cells(most) : cells);

@@ -6,6 +6,7 @@
 #include "bisection/patches.hpp"
 #include "cuts/number_search.hpp"
 #include "cuts/tree.hpp"
+#include "options/axis_order.hpp"
 #include "options/call_kind.hpp"
 
 #include <algorithm>
@@ -114,12 +115,12 @@ Bisection bisect_along(const StatisticalDomain& domain, const Contribution& all,
     if (axes_of(along.cuts.tree) != axes)
         keep_numbers(domain, options.part_sizes, earlier, along.cuts);
     const double weight = weight_of(domain);
-    if (options.axes.order.is_longest() || !(weight > 0)) return along;
+    if (is_longest(options.expert.axes.order) || !(weight > 0)) return along;
     double near_free = 0;
     Bisection free = bisect_gathered(domain, all, options, false, {}, &near_free);
     if (axes_of(free.cuts.tree) == axes) return along;
     const double saved = ghosts_of(near_along - near_free, weight, domain, all.summary.num_points);
-    const double debt = earlier.debt + options.axes.steps / ghosts_of_a_move * saved;
+    const double debt = earlier.debt + options.expert.axes.steps / ghosts_of_a_move * saved;
     along.cuts.debt = debt;
     // A cut that turns moves at least half a part, so a smaller debt cannot pay for it.
     if (!(haste * debt * options.num_parts > 0.5)) return along;

@@ -142,7 +142,7 @@ contains
     integer, intent(out), optional :: error
     type(rrcb_cut), allocatable, target :: tree(:)
     integer(c_int32_t), allocatable, target :: numbers(:)
-    type(c_cuts) :: given
+    type(c_cuts), target :: given
     allocate (tree(0))
     if (allocated(cuts%tree)) tree = cuts%tree
     tree%axis = tree%axis - 1
@@ -153,14 +153,14 @@ contains
       numbers = cuts%numbers
       if (size(numbers) == size(tree) + 1) given%numbers = c_loc(numbers)
     end if
-    call settle(c_set_cuts(self%handle, given), error)
+    call settle(c_set_cuts(self%handle, c_loc(given)), error)
   end subroutine
 
   !> Forgets the cuts: the next balance starts from scratch. Not collective, but on all ranks.
   subroutine clear_cuts(self, error)
     class(rrcb_balancer), intent(inout) :: self
     integer, intent(out), optional :: error
-    call settle(c_clear_cuts(self%handle), error)
+    call settle(c_set_cuts(self%handle, c_null_ptr), error)
   end subroutine
 
   !> Returns the cuts as bytes. Not collective.

@@ -82,7 +82,6 @@ module rrcb_c_functions
   procedure(divide), bind(c, name="rrcb_assign") :: c_assign
   procedure(divide), bind(c, name="rrcb_assign_all") :: c_assign_all
   procedure(call_of), bind(c, name="rrcb_release_buffers") :: c_release_buffers
-  procedure(call_of), bind(c, name="rrcb_clear_cuts") :: c_clear_cuts
   procedure(move), bind(c, name="rrcb_transfer") :: c_transfer
   procedure(move), bind(c, name="rrcb_ghosts_fetch") :: c_ghosts_fetch
   procedure(move), bind(c, name="rrcb_ghosts_reply") :: c_ghosts_reply
@@ -129,8 +128,7 @@ module rrcb_c_functions
     end function
     integer(c_int) function c_set_cuts(handle, cuts) bind(c, name="rrcb_set_cuts")
       import
-      type(c_ptr), value :: handle
-      type(c_cuts), intent(in) :: cuts
+      type(c_ptr), value :: handle, cuts
     end function
     integer(c_int) function c_part_of(handle, position, part) bind(c, name="rrcb_part_of")
       import

@@ -2,6 +2,7 @@
 !> beyond which the library reads and writes nothing.
 module rrcb_c_types
   use, intrinsic :: iso_c_binding
+  use rrcb_types, only: rrcb_transfer_report
   implicit none
 
   type, bind(c) :: c_cuts

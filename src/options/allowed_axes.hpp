@@ -1,5 +1,7 @@
 #pragma once
 
+#include "options/axis_order.hpp"
+
 #include <rrcb/options.hpp>
 #include <rrcb/points.hpp>
 
@@ -16,7 +18,7 @@ inline std::span<const int> first_axes(int dimension) {
 
 /// Returns the axes that cuts may cross, in order of preference.
 inline std::span<const int> allowed_axes(const AxisOrder& order, int dimension) {
-    return order.is_among() ? std::span(order.axes()) : first_axes(dimension);
+    return is_among(order) ? std::span(axes_in(order)) : first_axes(dimension);
 }
 
 }  // namespace rrcb

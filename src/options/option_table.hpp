@@ -1,5 +1,7 @@
 #pragma once
 
+#include "options/axis_order.hpp"
+
 #include <rrcb/options.hpp>
 
 #include <cstddef>
@@ -33,7 +35,7 @@ struct Member {
     static void set(Options& options, Value value) { (options.*....*path) = value; }
 };
 
-/// The member at the end of a path: field<&Options::tuning, &Tuning::support_mesh>.
+/// The member at the end of a path: field<&Options::expert, &ExpertOptions::cells_per_axis>.
 template <auto... path>
 inline constexpr Field<typename Member<path...>::Value> field{Member<path...>::get,
                                                               Member<path...>::set};
@@ -120,19 +122,19 @@ inline constexpr Word axis_rule_words[] = {
 
 /// Returns 1 for longest(); 0 for all other orders, including those that no word stands for.
 inline int axis_rule_of(const Options& options) {
-    return options.axes.order.is_longest() ? 1 : 0;
+    return is_longest(options.expert.axes.order) ? 1 : 0;
 }
 
 inline void set_axis_rule(Options& options, int value) {
-    options.axes.order = value == 0 ? AxisOrder::fewest_ghosts() : AxisOrder::longest();
+    options.expert.axes.order = value == 0 ? AxisOrder::fewest_ghosts() : AxisOrder::longest();
 }
 
 inline int machines_of(const Options& options) {
-    return options.tree.group_size == 0 ? 1 : 0;
+    return options.expert.tree.group_size == 0 ? 1 : 0;
 }
 
 inline void set_machines(Options& options, int value) {
-    options.tree.group_size = 1 - value;
+    options.expert.tree.group_size = 1 - value;
 }
 
 template <auto... path>
@@ -172,29 +174,30 @@ inline constexpr Option option_table[] = {
                 std::numeric_limits<int>::max(), "", "one part per rank"}},
     {"part_sizes", "", "Relative weight of each part",
      Lists{values_of_part_sizes, check_part_sizes}},
-    {"tuning.support_mesh", "RRCB_SUPPORT_MESH", "Cells per axis of each rank's support mesh",
-     Range<int>{field<&Options::tuning, &Tuning::support_mesh>, 1, 4096, false, 256,
+    {"cells_per_axis", "RRCB_SUPPORT_MESH", "Cells per axis of each rank's support mesh",
+     Range<int>{field<&Options::expert, &ExpertOptions::cells_per_axis>, 1, 4096, false, 256,
                 " cells per axis", "as many as suit the points of the rank"}},
     {"tree.group_size", "", "Consecutive parts in a group, all of which are parts of one node",
-     Range<int>{field<&Options::tree, &TreeShape::group_size>, 1, std::numeric_limits<int>::max(),
-                false, std::numeric_limits<int>::max(), "", "the parts of each machine"}},
+     Range<int>{field<&Options::expert, &ExpertOptions::tree, &TreeShape::group_size>, 1,
+                std::numeric_limits<int>::max(), false, std::numeric_limits<int>::max(), "",
+                "the parts of each machine"}},
     {"", "RRCB_MACHINES", "Whether whole machines are cut off first, if machines are alike",
      Choice{machine_words, std::size(machine_words), machines_of, set_machines}},
     {"tree.larger_below", "", "Whether the larger half of an odd number of parts is below a cut",
-     choice_of<&Options::tree, &TreeShape::larger_below>(switch_words)},
+     choice_of<&Options::expert, &ExpertOptions::tree, &TreeShape::larger_below>(switch_words)},
     {"tree.round_robin_block", "",
      "Consecutive parts that go to a group before the next gets its own",
-     Range<int>{field<&Options::tree, &TreeShape::round_robin_block>, 0,
+     Range<int>{field<&Options::expert, &ExpertOptions::tree, &TreeShape::round_robin_block>, 0,
                 std::numeric_limits<int>::max()}},
     {"axes.plain", "", "Whether points on a plane stay together",
-     choice_of<&Options::axes, &Axes::plain>(switch_words)},
+     choice_of<&Options::expert, &ExpertOptions::axes, &Axes::plain>(switch_words)},
     {"axes.order", "RRCB_AXES", "Axis that each box is cut across",
      Choice{axis_rule_words, std::size(axis_rule_words), axis_rule_of, set_axis_rule}},
     {"one of axes.order, axes.min_width, axes.grid", "", "Axes and places of the cuts",
      Lists{values_of_tree, check_tree_options}},
     {"axes.steps", "RRCB_STEPS", "Steps of the program from one partition to the next",
-     Range<double>{field<&Options::axes, &Axes::steps>, 0, std::numeric_limits<double>::max(),
-                   true}},
+     Range<double>{field<&Options::expert, &ExpertOptions::axes, &Axes::steps>, 0,
+                   std::numeric_limits<double>::max(), true}},
     {"axes.min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
      Rows{min_width_of, check_min_width, set_min_width, 1, "a number above 0 for each axis",
           "0.1 0.1"}},
@@ -205,13 +208,13 @@ inline constexpr Option option_table[] = {
      "Accuracy to which the estimated cuts are corrected by counting objects",
      choice_of<&Options::refine>(refine_words)},
     {"coincident", "RRCB_COINCIDENT", "Coincident points that a balanced cut would divide",
-     choice_of<&Options::coincident>(coincident_words)},
+     choice_of<&Options::expert, &ExpertOptions::coincident>(coincident_words)},
     {"imbalance_tolerance", "IMBALANCE_TOL",
      "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE",
      Range<double>{field<&Options::imbalance_tolerance>, 1, std::numeric_limits<double>::max()}},
-    {"tuning.central_parts", "RRCB_CENTRAL_PARTS",
+    {"max_root_parts", "RRCB_CENTRAL_PARTS",
      "Most parts that rank 0 makes; if there are more, and more ranks, many ranks make them",
-     Range<int>{field<&Options::tuning, &Tuning::central_parts>, 2,
+     Range<int>{field<&Options::expert, &ExpertOptions::max_root_parts>, 2,
                 std::numeric_limits<int>::max()}},
 };
 

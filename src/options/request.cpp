@@ -1,5 +1,7 @@
 #include "options/request.hpp"
 
+#include "options/axis_order.hpp"
+
 #include <rrcb/detail/mix.hpp>
 #include <rrcb/plan.hpp>
 
@@ -98,10 +100,10 @@ std::vector<double> values_of_part_sizes(const Options& options) {
 }
 
 std::vector<double> values_of_tree(const Options& options) {
-    const AxisOrder& order = options.axes.order;
-    std::vector<double> values{1.0 * order.is_grouped(), 1.0 * order.is_given(),
-                               1.0 * order.is_among()};
-    values.insert(values.end(), order.axes().begin(), order.axes().end());
+    const AxisOrder& order = options.expert.axes.order;
+    std::vector<double> values{1.0 * is_grouped(order), 1.0 * is_given(order),
+                               1.0 * is_among(order)};
+    values.insert(values.end(), axes_in(order).begin(), axes_in(order).end());
     for (const auto& limits : {min_width_of(options), grid_of(options)}) {
         values.push_back(-1);
         values.insert(values.end(), limits.begin(), limits.end());
@@ -110,12 +112,12 @@ std::vector<double> values_of_tree(const Options& options) {
 }
 
 std::vector<double> min_width_of(const Options& options) {
-    return options.axes.min_width;
+    return options.expert.axes.min_width;
 }
 
 std::vector<double> grid_of(const Options& options) {
     std::vector<double> numbers;
-    for (const GridLines& lines : options.axes.grid)
+    for (const GridLines& lines : options.expert.axes.grid)
         numbers.insert(numbers.end(), {lines.origin, lines.spacing});
     return numbers;
 }

@@ -1,5 +1,6 @@
 #include "options/validation.hpp"
 
+#include "options/axis_order.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 
@@ -95,23 +96,24 @@ TreeShape shape_by_machines(int num_parts, const Ranks& ranks) {
 
 Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
     if (options.num_parts == 0) options.num_parts = ranks.number;
-    if (options.tree.group_size == 0) {
-        require(options.tree.round_robin_block == 0,
+    if (options.expert.tree.group_size == 0) {
+        require(options.expert.tree.round_robin_block == 0,
                 "tree.round_robin_block needs tree.group_size; set both, or neither");
         const TreeShape shape =
             previous ? previous->shape : shape_by_machines(options.num_parts, ranks);
         // If many ranks make the parts, the parts of each rank must be consecutive.
         const bool is_central =
-            std::min(options.num_parts, ranks.number) <= options.tuning.central_parts;
+            std::min(options.num_parts, ranks.number) <= options.expert.max_root_parts;
         const bool fits =
             shape.round_robin_block == 0 || (is_central && shape.number_fits(options.num_parts));
-        options.tree.group_size = fits ? std::max(shape.group_size, 1) : 1;
-        options.tree.round_robin_block = fits ? shape.round_robin_block : 0;
-        require(previous || options.tree.group_size == 1 || !options.axes.order.is_given(),
-                "axes.order gives the axis of each cut; set tree to the shape of the tree that "
-                "they are for, as the machines ask for another one by default");
+        options.expert.tree.group_size = fits ? std::max(shape.group_size, 1) : 1;
+        options.expert.tree.round_robin_block = fits ? shape.round_robin_block : 0;
+        require(
+            previous || options.expert.tree.group_size == 1 || !is_given(options.expert.axes.order),
+            "axes.order gives the axis of each cut; set tree to the shape of the tree that "
+            "they are for, as the machines ask for another one by default");
     }
-    if (!options.axes.grid.empty()) options.axes.plain = true;
+    if (!options.expert.axes.grid.empty()) options.expert.axes.plain = true;
     return options;
 }
 
@@ -129,14 +131,14 @@ void check_part_sizes(const Options& options, int) {
 }
 
 void check_tree_options(const Options& options, int dimension) {
-    require(options.tree.number_fits(options.num_parts),
+    require(options.expert.tree.number_fits(options.num_parts),
             "tree.round_robin_block must divide tree.group_size and num_parts; the last group must "
             "be full, or "
             "lack so many parts");
-    const AxisOrder& order = options.axes.order;
-    if (order.is_among()) check_among(order.axes(), dimension);
-    if (order.is_grouped()) check_grouped(order.axes(), dimension);
-    if (order.is_given()) check_given(order.axes(), options.num_parts, dimension);
+    const AxisOrder& order = options.expert.axes.order;
+    if (is_among(order)) check_among(axes_in(order), dimension);
+    if (is_grouped(order)) check_grouped(axes_in(order), dimension);
+    if (is_given(order)) check_given(axes_in(order), options.num_parts, dimension);
 }
 
 void check_tree(const Cuts& cuts) {
@@ -156,7 +158,7 @@ void check_positions(const Points& positions, const Cuts& cuts) {
 bool set_min_width(Options& options, const std::vector<double>& numbers) {
     const auto is_legal = [](double width) { return width > 0 && std::isfinite(width); };
     if (numbers.size() > max_dimension || !std::ranges::all_of(numbers, is_legal)) return false;
-    options.axes.min_width = numbers;
+    options.expert.axes.min_width = numbers;
     return true;
 }
 
@@ -166,12 +168,12 @@ bool set_grid(Options& options, const std::vector<double>& numbers) {
         grid.push_back({numbers[k], numbers[k + 1]});
     const bool is_complete = numbers.size() % 2 == 0 && grid.size() <= max_dimension;
     if (!is_complete || !std::ranges::all_of(grid, is_grid)) return false;
-    options.axes.grid = std::move(grid);
+    options.expert.axes.grid = std::move(grid);
     return true;
 }
 
 void check_min_width(const Options& options, int dimension) {
-    const std::vector<double>& min_width = options.axes.min_width;
+    const std::vector<double>& min_width = options.expert.axes.min_width;
     require(min_width.empty() || std::ssize(min_width) == dimension,
             "axes.min_width must hold one number per axis of the points, or be empty");
     Options unused;
@@ -179,7 +181,7 @@ void check_min_width(const Options& options, int dimension) {
 }
 
 void check_grid(const Options& options, int dimension) {
-    const std::vector<GridLines>& grid = options.axes.grid;
+    const std::vector<GridLines>& grid = options.expert.axes.grid;
     require(grid.empty() || std::ssize(grid) == dimension,
             "axes.grid must hold the lines across each axis of the points, or be empty");
     require(std::ranges::all_of(grid, is_grid),
@@ -188,14 +190,15 @@ void check_grid(const Options& options, int dimension) {
 
 void check_previous(const Cuts& previous, const Options& options, int dimension) {
     if (previous.num_parts != options.num_parts)
-        reject("previous cuts have " + std::to_string(previous.num_parts) + " parts, not " +
-               std::to_string(options.num_parts) +
-               "; pass no cuts ({}; None; rrcb_clear_cuts), or set num_parts to " +
-               std::to_string(previous.num_parts) + " to keep their parts");
-    require(
-        previous.dimension == dimension && previous.shape == options.tree && has_its_cuts(previous),
-        "previous cuts must have the dimension and the shape of tree asked for; "
-        "pass no cuts ({}; None; rrcb_clear_cuts)");
+        reject(
+            "previous cuts have " + std::to_string(previous.num_parts) + " parts, not " +
+            std::to_string(options.num_parts) +
+            "; pass no cuts ({}; None; in C rrcb_set_cuts(balancer, NULL)), or set num_parts to " +
+            std::to_string(previous.num_parts) + " to keep their parts");
+    require(previous.dimension == dimension && previous.shape == options.expert.tree &&
+                has_its_cuts(previous),
+            "previous cuts must have the dimension and the shape of tree asked for; "
+            "pass no cuts ({}; None; in C rrcb_set_cuts(balancer, NULL))");
     require(has_legal_cuts(previous), illegal_cut);
     require(has_legal_numbers(previous), illegal_numbers);
 }

@@ -4,6 +4,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "options/allowed_axes.hpp"
+#include "options/axis_order.hpp"
 #include "options/call_kind.hpp"
 
 #include <rrcb/quality.hpp>
@@ -38,21 +39,21 @@ constexpr double round_off = 1e-12;  ///< relative rounding error of an imbalanc
 
 /// Returns the tree of parts of a call. Its rule contains only what follows from the options.
 PartTree tree_of(const Options& options, int dimension, int num_ranks) {
-    const AxisOrder& order = options.axes.order;
+    const AxisOrder& order = options.expert.axes.order;
     PartTree tree;
     tree.dimension = dimension;
     tree.num_parts = options.num_parts;
     tree.num_owners = is_spread(options, num_ranks) ? num_ranks : 1;
-    tree.shape = options.tree;
+    tree.shape = options.expert.tree;
     tree.rule.part_sizes = options.part_sizes;
-    if (order.is_given()) tree.cut_axes = order.axes();
+    if (is_given(order)) tree.cut_axes = axes_in(order);
     tree.axes = allowed_axes(order, dimension);
-    tree.crosses_longest = order.is_longest();
+    tree.crosses_longest = is_longest(order);
     tree.rule.tolerance = options.imbalance_tolerance;
     tree.rule.is_exact = options.refine == Refine::exact;
-    tree.plain_cuts = options.axes.plain;
+    tree.plain_cuts = options.expert.axes.plain;
     tree.centres_cuts = tree.rule.is_exact && !are_cuts_limited(options);
-    tree.divides_coincident = options.coincident == Coincident::divide;
+    tree.divides_coincident = options.expert.coincident == Coincident::divide;
     tree.limits = axis_limits(options);
     return tree;
 }
@@ -132,7 +133,8 @@ void Settlement::start(Participant& self) {
     tree_.weight = all_.weight;
     rule.common_weight = all_.are_counted ? 1 : 0;
     rule.heaviest = all_.heaviest;
-    rule.weight_per_size = tree_.weight / rule.size_of(root_of(options_.num_parts, options_.tree));
+    rule.weight_per_size =
+        tree_.weight / rule.size_of(root_of(options_.num_parts, options_.expert.tree));
     made_.imbalance = 1;
     if (is_spread_) return;
     fills_parts_ = !is_limited && all_.number >= std::ssize(sizes) &&

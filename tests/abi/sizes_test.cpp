@@ -164,7 +164,7 @@ TEST_F(Sizes, of_arguments_leave_members_at_their_defaults) {
     weighed.weights = weights.data();
     std::vector<std::int32_t> again(40);
     const auto balance = [&](const rrcb_points* points) {
-        EXPECT_EQ(rrcb_clear_cuts(balancer_), RRCB_OK);
+        EXPECT_EQ(rrcb_set_cuts(balancer_, nullptr), RRCB_OK);
         return rrcb_balance(balancer_, points, again.data());
     };
     ASSERT_EQ(balance(page_.copy(weighed, sizeof weighed - 8)), RRCB_OK) << rrcb_last_error();

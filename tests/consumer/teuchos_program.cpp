@@ -5,5 +5,5 @@ int main() {
     Teuchos::ParameterList list;
     list.set("RRCB_SUPPORT_MESH", 6);
     const rrcb::Options options = rrcb::teuchos::options_from(list);
-    return options.tuning.support_mesh == 6 ? 0 : 1;
+    return options.expert.cells_per_axis == 6 ? 0 : 1;
 }

@@ -6,7 +6,7 @@ int __real_rrcb_balancer_create(MPI_Comm comm, rrcb_balancer** balancer);
 int __real_rrcb_balancer_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
 
 static int for_many_ranks(int code, rrcb_balancer* balancer) {
-    if (code == RRCB_OK) code = rrcb_balancer_set(balancer, "tuning.central_parts", "2");
+    if (code == RRCB_OK) code = rrcb_balancer_set(balancer, "max_root_parts", "2");
     return code;
 }
 

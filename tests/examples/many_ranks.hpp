@@ -6,7 +6,7 @@
 namespace rrcb {
 
 struct OptionsOfManyRanks : Options {
-    OptionsOfManyRanks() { tuning.central_parts = 2; }
+    OptionsOfManyRanks() { expert.max_root_parts = 2; }
 };
 
 }  // namespace rrcb

@@ -89,7 +89,7 @@ TEST(FailingMemory, in_parts_that_many_ranks_make) {
     if (num_ranks() < 3) return;
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         Options options = refining(refine);
-        options.tuning.central_parts = 2;
+        options.expert.max_root_parts = 2;
         fail_in_balance(options);
     }
 }
@@ -108,7 +108,7 @@ TEST(FailingMemory, in_cuts_from_an_earlier_call) {
 TEST(FailingMemory, in_cuts_made_by_many_ranks) {
     if (num_ranks() < 3) return;
     Options options = refining(Refine::tolerance);
-    options.tuning.central_parts = 2;
+    options.expert.max_root_parts = 2;
     options.num_parts = 9;
     options.imbalance_tolerance = 1.5;
     std::vector<double> coordinates = cloud_here(2);
@@ -173,7 +173,7 @@ TEST(FailingMemory, in_parts_that_stay) {
             Options options = refining(refine);
             options.num_parts = 0;
             options.imbalance_tolerance = 1.05;
-            options.axes.order =
+            options.expert.axes.order =
                 AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks() - 1), 0));
             fail_in_balance(options, nullptr, slab_here(surplus));
         }

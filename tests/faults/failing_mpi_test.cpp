@@ -252,7 +252,7 @@ TEST(FailingMpi, of_one_rank_while_earlier_cuts_are_kept_reaches_its_caller) {
 
 TEST(FailingMpi, of_one_rank_in_a_remap_or_look_up_reaches_its_caller) {
     const Cloud cloud;
-    const Options options{.tuning = {.central_parts = 2}};
+    const Options options{.expert = {.max_root_parts = 2}};
     const Balance made = balance(cloud.points(), MPI_COMM_WORLD, options);
     std::vector<RankRange> ranks;
     for (int rank = 0; rank < num_ranks(); ++rank) ranks.push_back({rank, 1});
@@ -265,7 +265,7 @@ TEST(FailingMpi, of_one_rank_in_a_remap_or_look_up_reaches_its_caller) {
 
 /// Options by which many ranks make the parts.
 Options wide() {
-    Options options{.refine = Refine::exact, .tuning = {.central_parts = 2}};
+    Options options{.refine = Refine::exact, .expert = {.max_root_parts = 2}};
     return options;
 }
 

@@ -42,8 +42,8 @@ Request take_request(rrcb::fuzz::Input& input) {
     rrcb::PaperOptions paper;
     paper.domain = method == 1 ? rrcb::PaperDomain::sampled : rrcb::PaperDomain::points;
     paper.cut_rule = static_cast<rrcb::CutRule>(input.take_below(2));
-    own.tuning.support_mesh = input.take_below(12);
-    own.axes.plain = input.take_below(2) == 1;
+    own.expert.cells_per_axis = input.take_below(12);
+    own.expert.axes.plain = input.take_below(2) == 1;
     own.imbalance_tolerance = 1 + 0.05 * input.take_below(5);
     own.part_sizes.resize(input.take_below(4) == 0 ? std::size_t(own.num_parts) : 0);
     // Over up to 600 decades, to subnormal numbers.
@@ -52,8 +52,8 @@ Request take_request(rrcb::fuzz::Input& input) {
         size = std::ldexp(input.take_below(3), -(most_halvings * input.take_below(256) / 255));
     paper.num_parts = own.num_parts;
     paper.part_sizes = own.part_sizes;
-    paper.support_mesh = std::max(1, own.tuning.support_mesh);
-    paper.plain_cuts = own.axes.plain;
+    paper.support_mesh = std::max(1, own.expert.cells_per_axis);
+    paper.plain_cuts = own.expert.axes.plain;
     if (method == 1 || method == 2) return {own, paper};
     return {own, {}};
 }

@@ -12,7 +12,7 @@ namespace {
 void expect_legal(const rrcb::zoltan::Parameters& parameters) {
     using rrcb::fuzz::expect;
     const rrcb::Options& options = parameters.options;
-    expect(options.tuning.support_mesh >= 0 && options.tuning.support_mesh <= 4096,
+    expect(options.expert.cells_per_axis >= 0 && options.expert.cells_per_axis <= 4096,
            "cells in range");
     expect(options.imbalance_tolerance >= 1 && std::isfinite(options.imbalance_tolerance),
            "tolerance in range");

@@ -24,7 +24,7 @@ void check(const Teuchos::ParameterList& list) {
     using rrcb::fuzz::expect;
     const rrcb::Options options = rrcb::teuchos::options_from(list);
     expect(options.num_parts >= 0, "parts in range");
-    expect(options.tuning.support_mesh >= 0 && options.tuning.support_mesh <= 4096,
+    expect(options.expert.cells_per_axis >= 0 && options.expert.cells_per_axis <= 4096,
            "cells in range");
     expect(options.imbalance_tolerance >= 1 && std::isfinite(options.imbalance_tolerance),
            "tolerance in range");

@@ -94,9 +94,9 @@ TEST(Errors, options_that_differ_between_ranks) {
             own_methods);
     };
     differs("num_parts", [](Options& o) { o.num_parts = 99; });
-    differs("tuning.support_mesh", [](Options& o) { o.tuning.support_mesh = 7; });
+    differs("cells_per_axis", [](Options& o) { o.expert.cells_per_axis = 7; });
     differs("imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 1.5; });
-    differs("coincident", [](Options& o) { o.coincident = Coincident::divide; });
+    differs("coincident", [](Options& o) { o.expert.coincident = Coincident::divide; });
 }
 
 /// No rank may wait for points that others never send, nor leave any behind.

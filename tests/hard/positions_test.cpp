@@ -37,7 +37,7 @@ TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
                       0.01 * uniform(i, 2)};
     };
     const Share share = scattered_share(cloud);
-    Options options{.num_parts = 4, .refine = Refine::none, .tuning = {.support_mesh = 1}};
+    Options options{.num_parts = 4, .refine = Refine::none, .expert = {.cells_per_axis = 1}};
     const Balance blind = balance(share.points(), MPI_COMM_WORLD, options);
     const auto weights = part_weights(share.points(), blind.parts, 4, MPI_COMM_WORLD);
     EXPECT_NEAR(blind.report.details.estimated_imbalance, 1, 1e-9);

@@ -36,12 +36,13 @@ ONLY_CPP = {
     "Points": "rrcb_points is a struct",
     "RankRange": "a shorthand for members of a struct",
     "AxisOrder": "axes.order is for C++ only",
+    "GhostArrays": "made by ghosts_of",
     "Cuts": "rrcb_get_cuts fails without cuts",
     "Error": "rrcb_code and rrcb_last_error",
 }
 # Functions in C alone: a handle holds what is an argument or a result in C++.
 ONLY_C = {
-    "rrcb_balancer_create", "rrcb_balancer_destroy", "rrcb_balancer_set", "rrcb_balancer_set_part_sizes", "rrcb_set_cuts", "rrcb_clear_cuts",
+    "rrcb_balancer_create", "rrcb_balancer_destroy", "rrcb_balancer_set", "rrcb_balancer_set_part_sizes", "rrcb_set_cuts",
     "rrcb_get_cuts", "rrcb_get_plan", "rrcb_get_report", "rrcb_ghosts_destroy",
     "rrcb_ghosts_get_plan", "rrcb_groups_destroy",
     "rrcb_neighbours_apply_shifts",  # of its ghost_plan()
@@ -53,7 +54,8 @@ ONLY_C = {
 # Functions in C that are no procedure of their own in Fortran.
 NOT_FORTRAN = {}
 # Procedures of Fortran alone.
-ONLY_FORTRAN = {"rrcb_array%take", "rrcb_array%give"}  # C reads its struct
+ONLY_FORTRAN = {"rrcb_array%take", "rrcb_array%give",  # C reads its struct
+                "rrcb_balancer%clear_cuts"}  # rrcb_set_cuts(balancer, NULL)
 # Functions in C that Fortran does not call, but has as its own.
 OWN_OF_FORTRAN = {"rrcb_interleaved_points", "rrcb_column_points"}
 # Functions in Python with another name, or as a method.

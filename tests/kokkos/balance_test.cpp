@@ -36,12 +36,12 @@ void expect_same_cuts(const Cuts& cuts, const Cuts& expected) {
 
 template <class T, class Layout>
 void expect_exact_cuts_of_the_host(const Cloud& cloud, Coincident coincident) {
-    Options options{.num_parts = 7, .refine = Refine::exact, .coincident = coincident};
+    Options options{.num_parts = 7, .refine = Refine::exact, .expert = {.coincident = coincident}};
     const Balance expected = balance(cloud.points(), MPI_COMM_WORLD, options);
     std::vector<int> axes;
     for (const Cut& cut : expected.cuts.tree) axes.push_back(cut.axis);
-    options.axes.order = AxisOrder::given(axes);
-    options.tree = expected.cuts.shape;
+    options.expert.axes.order = AxisOrder::given(axes);
+    options.expert.tree = expected.cuts.shape;
     const auto found = balance_views<T, Layout>(cloud, options, {});
     expect_same_cuts(found.cuts, expected.cuts);
     EXPECT_EQ(on_host(found.parts), expected.parts);

@@ -32,9 +32,9 @@ struct Case {
         is_strided = one_of(2) == 0;
         options.num_parts = 1 + one_of(one_of(4) == 0 ? 400 : 12);
         options.refine = one_of(3) == 0 ? Refine::exact : Refine::tolerance;
-        options.coincident = one_of(2) == 0 ? Coincident::together : Coincident::divide;
+        options.expert.coincident = one_of(2) == 0 ? Coincident::together : Coincident::divide;
         const auto size = static_cast<std::size_t>(1) << one_of(15);
-        if (one_of(4) == 0) options.tuning.central_parts = 2;  // many ranks make more parts
+        if (one_of(4) == 0) options.expert.max_root_parts = 2;  // many ranks make more parts
         name = "seed " + std::to_string(seed) + " shape " + std::to_string(shape);
         std::mt19937_64 engine(1000 * seed + static_cast<unsigned>(rank()));
         add_points(shape, engine() % (2 * size), engine);
@@ -117,7 +117,7 @@ void expect_totals(const Case& test, const Answer& found) {
 }
 
 void expect_parts_of_the_cuts(const Case& test, const Answer& found) {
-    if (test.options.coincident == Coincident::divide) return;
+    if (test.options.expert.coincident == Coincident::divide) return;
     std::vector<Part> parts(test.cloud.count());
     assign(found.cuts, test.cloud.points(), parts);
     EXPECT_EQ(found.parts, parts) << test.name;

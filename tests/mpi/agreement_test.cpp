@@ -91,10 +91,10 @@ TEST_F(Agreement, on_options_out_of_range) {
         expect_error(Points(x, 1), options, "rank 0: " + expected);
     };
     with([](Options& o) { o.num_parts = -1; }, "num_parts");
-    with([](Options& o) { o.tuning.support_mesh = 5000; },
-         "tuning.support_mesh must be 1 ... 4096");
+    with([](Options& o) { o.expert.cells_per_axis = 5000; }, "cells_per_axis must be 1 ... 4096");
     with([](Options& o) { o.refine = static_cast<Refine>(-3); }, "refine must be NONE");
-    with([](Options& o) { o.coincident = static_cast<Coincident>(7); }, "coincident must be");
+    with([](Options& o) { o.expert.coincident = static_cast<Coincident>(7); },
+         "coincident must be");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {1}; }, "part_sizes must hold one");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {0, 0}; }, "part_sizes must have a");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {2, -1}; }, "part_sizes must be finite");
@@ -102,19 +102,20 @@ TEST_F(Agreement, on_options_out_of_range) {
          "imbalance_tolerance must be finite and at least 1");
     with(
         [](Options& o) {
-            o.axes.order = AxisOrder::grouped({0, 0});
+            o.expert.axes.order = AxisOrder::grouped({0, 0});
         },
         "axes.order must name every axis of the points once if it groups them, 0");
     with(
         [](Options& o) {
-            o.axes.order = AxisOrder::grouped({1, 2});
+            o.expert.axes.order = AxisOrder::grouped({1, 2});
         },
         "axes.order must name every axis");
     for (const std::vector<int>& axes : {std::vector<int>{}, {2}, {0, 0}})
-        with([&](Options& o) { o.axes.order = AxisOrder::among(axes); }, "axes.order must name");
-    with([](Options& o) { o.num_parts = 3, o.axes.order = AxisOrder::given({0}); },
+        with([&](Options& o) { o.expert.axes.order = AxisOrder::among(axes); },
+             "axes.order must name");
+    with([](Options& o) { o.num_parts = 3, o.expert.axes.order = AxisOrder::given({0}); },
          "axes.order must hold one axis");
-    with([](Options& o) { o.num_parts = 2, o.axes.order = AxisOrder::given({1}); },
+    with([](Options& o) { o.num_parts = 2, o.expert.axes.order = AxisOrder::given({1}); },
          "axes.order must hold axes");
 }
 
@@ -128,12 +129,12 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
                      name + " differs between rank 0 and rank " + std::to_string(num_ranks_ - 1));
     };
     with([](Options& o) { o.num_parts = 99; }, "num_parts");
-    with([](Options& o) { o.tuning.support_mesh = 3; }, "tuning.support_mesh");
+    with([](Options& o) { o.expert.cells_per_axis = 3; }, "cells_per_axis");
     with([](Options& o) { o.refine = Refine::exact; }, "refine");
     with([](Options& o) { o.imbalance_tolerance = 2; }, "imbalance_tolerance");
-    with([](Options& o) { o.axes.plain = true; }, "axes.plain");
-    with([](Options& o) { o.tree.larger_below = true; }, "tree.larger_below");
-    with([](Options& o) { o.axes.min_width = {1}; },
+    with([](Options& o) { o.expert.axes.plain = true; }, "axes.plain");
+    with([](Options& o) { o.expert.tree.larger_below = true; }, "tree.larger_below");
+    with([](Options& o) { o.expert.axes.min_width = {1}; },
          "one of axes.order, axes.min_width, axes.grid");
     with([&](Options& o) { o.part_sizes.assign(static_cast<std::size_t>(num_ranks_), 2.0); },
          "part_sizes");

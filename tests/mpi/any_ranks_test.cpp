@@ -94,13 +94,14 @@ void expect_same_division(const Cloud& cloud, const Options& options) {
 
 /// Options whose axes do not depend on estimates.
 std::vector<Options> options_for(int dimension, int num_parts) {
-    Options options{.num_parts = num_parts, .refine = Refine::exact, .tree = TreeShape{}};
+    Options options{
+        .num_parts = num_parts, .refine = Refine::exact, .expert = {.tree = TreeShape{}}};
     std::vector<int> axes;
     for (int k = 0; k + 1 < num_parts; ++k) axes.push_back(k % dimension);
-    if (dimension > 1) options.axes.order = AxisOrder::given(axes);
+    if (dimension > 1) options.expert.axes.order = AxisOrder::given(axes);
     Options by_many = options;
-    by_many.tuning.central_parts = 2;
-    if (dimension == 2) by_many.axes.order = AxisOrder::among({1});
+    by_many.expert.max_root_parts = 2;
+    if (dimension == 2) by_many.expert.axes.order = AxisOrder::among({1});
     return {options, by_many};
 }
 
@@ -121,7 +122,7 @@ TEST(AnyRanks, make_the_same_cuts) {
                 SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << dimension << "-D");
                 const Cloud cloud = cloud_of(dimension, place, weight, seed, 600);
                 for (const Options& options : options_for(dimension, num_parts)) {
-                    SCOPED_TRACE(options.tuning.central_parts);
+                    SCOPED_TRACE(options.expert.max_root_parts);
                     expect_same_division(cloud, options);
                 }
             }

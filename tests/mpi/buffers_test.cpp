@@ -53,7 +53,7 @@ Options options_of(Refine refine, double tolerance = 1.01) {
     Options options{.num_parts = 2 * num_ranks(),
                     .imbalance_tolerance = tolerance,
                     .refine = refine,
-                    .tuning = {.support_mesh = 4}};
+                    .expert = {.cells_per_axis = 4}};
     return options;
 }
 
@@ -105,7 +105,7 @@ TEST(Buffers, serve_second_searches) {
     const Cloud cloud(many);
     expect_no_memory(cloud, options_of(Refine::tolerance, 1.0001), false);
     Options options = options_of(Refine::tolerance);
-    options.axes.min_width = {0.01, 0.01};
+    options.expert.axes.min_width = {0.01, 0.01};
     expect_no_memory(cloud, options, false);
 }
 
@@ -113,7 +113,7 @@ TEST(Buffers, serve_cuts_that_many_ranks_make) {
     if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
     const Cloud cloud(many);
     Options options = options_of(Refine::tolerance);
-    options.tuning.central_parts = 2;
+    options.expert.max_root_parts = 2;
     // Lists of all points.
     expect_no_memory(cloud, options, false, 20);
 }

@@ -39,7 +39,7 @@ class CInterface : public testing::Test {
     int balance(const Cloud& cloud) {
         parts.assign(cloud.count(), -1);
         const rrcb_points points = cloud.in_c();
-        EXPECT_EQ(rrcb_clear_cuts(balancer), RRCB_OK);
+        EXPECT_EQ(rrcb_set_cuts(balancer, nullptr), RRCB_OK);
         return rrcb_balance(balancer, &points, parts.data());
     }
 
@@ -97,10 +97,10 @@ TEST_F(CInterface, gives_the_parts_cuts_and_report_of_a_call_in_cpp) {
     Options options{.num_parts = 5, .part_sizes = {1, 2, 1, 1, 3}, .refine = Refine::exact};
     for (int dimension = 1; dimension <= 3; ++dimension)
         expect_as_in_cpp(dimension, options, {{"num_parts", "5"}, {"refine", "exact"}});
-    options = {.num_parts = 12, .axes = {.plain = true}};
+    options = {.num_parts = 12, .expert = {.axes = {.plain = true}}};
     for (const TreeShape& shape : {TreeShape{}, TreeShape{0}, TreeShape{2}, TreeShape{4, true},
                                    TreeShape{2, false, 1}, TreeShape{4, true, 2}}) {
-        options.tree = shape;
+        options.expert.tree = shape;
         const std::string group = shape.group_size == 0 ? "AUTO" : std::to_string(shape.group_size);
         expect_as_in_cpp(2, options,
                          {{"num_parts", "12"},
@@ -159,7 +159,7 @@ TEST_F(CInterface, starts_from_its_cuts_until_they_are_cleared) {
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     expect_same_cuts(cuts, first);
     const Balance anew = rrcb::balance(cloud.points(), MPI_COMM_WORLD, options);
-    ASSERT_EQ(rrcb_clear_cuts(balancer), RRCB_OK);
+    ASSERT_EQ(rrcb_set_cuts(balancer, nullptr), RRCB_OK);
     EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_INVALID_ARGUMENT);
     ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK) << rrcb_last_error();
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);

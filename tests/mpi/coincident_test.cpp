@@ -9,7 +9,8 @@ namespace rrcb {
 namespace {
 
 Options dividing(int num_parts, Refine refine = Refine::exact) {
-    Options options{.num_parts = num_parts, .refine = refine, .coincident = Coincident::divide};
+    Options options{
+        .num_parts = num_parts, .refine = refine, .expert = {.coincident = Coincident::divide}};
     return options;
 }
 
@@ -37,7 +38,7 @@ TEST(CoincidentPoints, beside_one_that_outweighs_them_are_divided_by_number) {
                 std::vector<double> weights(count, 1.0);
                 if (rank() == num_parts % num_ranks()) weights[count / 2] = heaviest;
                 Options options = dividing(num_parts);
-                options.tuning.central_parts = central_parts;
+                options.expert.max_root_parts = central_parts;
                 const Balance result = balance(Points(mine, 1, weights), MPI_COMM_WORLD, options);
                 EXPECT_TRUE(are_cuts_within(
                     part_weights(Points(mine, 1, weights), result.parts, num_parts, MPI_COMM_WORLD),
@@ -52,12 +53,12 @@ TEST(CoincidentPoints, are_divided_as_distinct_ones_on_a_line) {
     std::mt19937_64 engine(11);
     for (int round = 0; round < 400; ++round) {
         Options options = dividing(2 + static_cast<int>(engine() % 12));
-        options.tuning.central_parts = engine() % 2 == 0 ? 2 : 4096;
+        options.expert.max_root_parts = engine() % 2 == 0 ? 2 : 4096;
         if (engine() % 3 != 0)
             for (int k = 0; k < options.num_parts; ++k)
                 options.part_sizes.push_back(test::uniform(engine, 0.05));
         if (engine() % 3 == 0)
-            options.tree = {1 + static_cast<int>(engine() % 3), engine() % 2 == 0};
+            options.expert.tree = {1 + static_cast<int>(engine() % 3), engine() % 2 == 0};
         // The row over the ranks is in ascending order.
         std::vector<double> apart(std::mt19937_64(engine() + rank())() % 100);
         std::iota(apart.begin(), apart.end(), 100.0 * rank());
@@ -92,7 +93,7 @@ TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
     for (const auto& [tolerance, together] : {std::pair{1.03, true}, std::pair{1.01, false}}) {
         Options options = dividing(2, Refine::tolerance);
         options.imbalance_tolerance = tolerance;
-        options.tuning.support_mesh = 1;
+        options.expert.cells_per_axis = 1;
         const Balance result = balance(points, MPI_COMM_WORLD, options);
         EXPECT_LE(result.report.imbalance, tolerance);
         int places = 0;
@@ -106,7 +107,7 @@ TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
 TEST(CoincidentPoints, on_a_plain_cut_stay_together) {
     const std::vector<double> mine(600, 0.7);
     Options options = dividing(4);
-    options.axes.plain = true;
+    options.expert.axes.plain = true;
     const Balance result = balance(Points(mine, 3), MPI_COMM_WORLD, options);
     for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
 }

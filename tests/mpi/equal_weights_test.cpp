@@ -44,7 +44,7 @@ TEST(EqualWeights, change_no_bit) {
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact})
         for (int num_parts = 2; num_parts <= 17; ++num_parts) {
             Options options{.num_parts = num_parts, .refine = refine};
-            if (num_parts % 4 == 3) options.tuning.central_parts = 2;
+            if (num_parts % 4 == 3) options.expert.max_root_parts = 2;
             const std::vector<Balance> none = results_with(-1, options);
             for (const double weight : {0.0, 1.0, 3.0, 0.1, 1e-300, 0x1p-20, 0x1p40}) {
                 const std::vector<Balance> equal = results_with(weight, options);

@@ -70,8 +70,8 @@ double any_weight(int kind, Random& random) {
 Options any_options(Random& random) {
     Options options{.num_parts = 2 + random.below(12),
                     .refine = random.below(2) == 0 ? Refine::tolerance : Refine::exact,
-                    .axes = {.plain = random.below(5) == 0},
-                    .tuning = {.central_parts = random.below(4) == 0 ? 2 : 4096}};
+                    .expert = {.axes = {.plain = random.below(5) == 0},
+                               .max_root_parts = random.below(4) == 0 ? 2 : 4096}};
     const int kind = random.below(6);
     for (int part = 0; part < options.num_parts && kind < 5; ++part)
         options.part_sizes.push_back(any_size(kind, random));

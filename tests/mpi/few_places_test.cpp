@@ -64,13 +64,14 @@ struct Held {
 Options options_from(std::mt19937_64& engine) {
     Options options;
     options.num_parts = engine() % 4 == 0 ? num_ranks() : 2 + static_cast<int>(engine() % 10);
-    options.coincident = Coincident::divide;
+    options.expert.coincident = Coincident::divide;
     options.refine = engine() % 2 == 0 ? Refine::exact : Refine::tolerance;
-    options.tuning.central_parts = engine() % 2 == 0 ? 2 : 4096;
+    options.expert.max_root_parts = engine() % 2 == 0 ? 2 : 4096;
     if (engine() % 3 == 0)
         for (int k = 0; k < options.num_parts; ++k)
             options.part_sizes.push_back(test::uniform(engine, 0.05));
-    if (engine() % 3 == 0) options.tree = {1 + static_cast<int>(engine() % 3), engine() % 2 == 0};
+    if (engine() % 3 == 0)
+        options.expert.tree = {1 + static_cast<int>(engine() % 3), engine() % 2 == 0};
     return options;
 }
 

@@ -91,7 +91,7 @@ TEST(FewPoints, in_one_place_raise_the_imbalance_but_not_its_bound) {
             Options options;
             options.num_parts = 16;
             options.refine = refine;
-            options.coincident = coincident;
+            options.expert.coincident = coincident;
             const Report report = balance(Points(mine, 1), MPI_COMM_WORLD, options).report;
             const bool stay = coincident == Coincident::together;
             EXPECT_EQ(report.details.least_imbalance, 1.6);

@@ -37,7 +37,7 @@ TEST(Parts, are_filled_whatever_the_weights) {
     for (int round = 0; round < 120; ++round) {
         Options options{.num_parts = 2 + static_cast<int>(engine() % 30),
                         .refine = round % 3 == 0 ? Refine::exact : Refine::tolerance,
-                        .tuning = {.central_parts = round % 5 == 0 ? 2 : 4096}};
+                        .expert = {.max_root_parts = round % 5 == 0 ? 2 : 4096}};
         const bool is_power = round % 2 == 0;
         const SkewedPoints skewed(engine, (is_power ? 20 : 5) * options.num_parts, is_power);
         const Balance result = balance(skewed.points(), MPI_COMM_WORLD, options);

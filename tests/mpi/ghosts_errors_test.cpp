@@ -74,7 +74,7 @@ void expect_loop(std::vector<double> x, const Options& options) {
 }
 
 TEST(Ghosts, of_divided_points_are_found_after_a_transfer_that_moves_none) {
-    Options options{.coincident = Coincident::divide};
+    Options options{.expert = {.coincident = Coincident::divide}};
     expect_loop({0.5, 0.5}, options);
     std::vector<double> tenth = test::uniform_cloud(1000, 2, static_cast<unsigned>(rank()));
     std::fill(tenth.begin(), tenth.begin() + 200, 0.5);
@@ -82,7 +82,7 @@ TEST(Ghosts, of_divided_points_are_found_after_a_transfer_that_moves_none) {
 }
 
 TEST(Ghosts, of_points_that_look_like_those_before_the_transfer_are_found) {
-    Options options{.refine = Refine::exact, .coincident = Coincident::divide};
+    Options options{.refine = Refine::exact, .expert = {.coincident = Coincident::divide}};
     // Rank 1 passes on one of the coincident points and gets another.
     const std::vector<double> two{0.5, 0.5, 0.5, 0.5};
     expect_loop(rank() == 0 ? two : std::vector<double>(rank() % 2 * 2, 0.5), options);

@@ -23,7 +23,7 @@ using test::Step;
 Options with(Refine refine, int support_mesh = 0) {
     Options options;
     options.refine = refine;
-    options.tuning.support_mesh = support_mesh;
+    options.expert.cells_per_axis = support_mesh;
     return options;
 }
 
@@ -121,13 +121,13 @@ TEST(PointsAtRest, in_parts_of_given_sizes_rest) {
 
 TEST(PointsAtRest, in_given_axes_or_between_planes_rest) {
     Options plain = with(Refine::tolerance);
-    plain.axes.plain = true;
+    plain.expert.axes.plain = true;
     expect_rest(random_points(9000, 2, 5), plain, 3);
     Options grouped = with(Refine::tolerance);
-    grouped.axes.order = AxisOrder::grouped({1, 0});
+    grouped.expert.axes.order = AxisOrder::grouped({1, 0});
     expect_rest(random_points(9000, 2, 5), grouped, 3);
     Options given = with(Refine::tolerance);
-    given.axes.order =
+    given.expert.axes.order =
         AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks() - 1), 1));
     expect_rest(random_points(9000, 2, 5), given, 3);
 }
@@ -135,7 +135,7 @@ TEST(PointsAtRest, in_given_axes_or_between_planes_rest) {
 TEST(PointsAtRest, in_groups_of_parts_rest) {
     Options options = with(Refine::tolerance);
     for (const TreeShape tree : {TreeShape{2, true}, TreeShape{3, false}}) {
-        options.tree = tree;
+        options.expert.tree = tree;
         expect_rest(random_points(9000, 2, 5), options, 3);
     }
 }
@@ -158,7 +158,7 @@ TEST(PointsAtRest, in_one_place_and_divided_rest) {
     HeldPoints all{2, std::vector<double>(2000, 0.5)};
     all.scatter();
     Options options = with(Refine::tolerance);
-    options.coincident = Coincident::divide;
+    options.expert.coincident = Coincident::divide;
     balance_and_move(all, options);
     for (int call = 2; call <= 4; ++call) {
         const Step step = balance_and_move(all, options);
@@ -217,7 +217,7 @@ TEST(PointsAtRest, in_balanced_slabs_become_blocks) {
     EXPECT_FALSE(step.balance.report.kept);
     EXPECT_GT(step.num_moved, 1000u);
     Options given = with(Refine::tolerance);
-    given.axes.order =
+    given.expert.axes.order =
         AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks() - 1), 0));
     HeldPoints asked_for = slabs(6000);
     EXPECT_EQ(balance_and_move(asked_for, given).num_moved, 0u);

@@ -78,7 +78,7 @@ void call_all(const std::vector<double>& cloud, const Options& options) {
 TEST(LeastTags, are_enough_for_any_number_of_calls) {
     const std::vector<double> cloud = test::uniform_cloud(50, 2, static_cast<unsigned>(rank()));
     Options by_root;
-    const Options by_many{.tuning = {.central_parts = 2}};
+    const Options by_many{.expert = {.max_root_parts = 2}};
     // More calls than the numbers that tags distinguish, of every kind.
     for (int round = 0; round < 12; ++round) {
         call_all(cloud, by_root);

@@ -70,7 +70,7 @@ TEST(MinWidth, holds_for_every_part_while_the_rest_is_balanced) {
         for (const int num_parts : {2, 5, 12}) {
             Options options{.num_parts = num_parts, .refine = refine};
             const Balance free = balance(points, MPI_COMM_WORLD, options);
-            options.axes.min_width = {0.15, 0.1};
+            options.expert.axes.min_width = {0.15, 0.1};
             const Balance wide = balance(points, MPI_COMM_WORLD, options);
             EXPECT_GE(least_width(wide.cuts, box, 0), 0.15) << num_parts;
             EXPECT_GE(least_width(wide.cuts, box, 1), 0.1) << num_parts;
@@ -97,10 +97,10 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
     if (rank() == 0) coordinates = {0, 0, 8, 2};
     for (const double x : dense_corner(500, 2)) coordinates.push_back(2 * x);
     const Points points(coordinates, 2);
-    Options options{.num_parts = 32, .axes = {.min_width = {1, 0.5}}};
+    Options options{.num_parts = 32, .expert = {.axes = {.min_width = {1, 0.5}}}};
     const Balance full = balance(points, MPI_COMM_WORLD, options);
     for (const Cut& cut : full.cuts.tree) {
-        const double unit = options.axes.min_width[static_cast<std::size_t>(cut.axis)];
+        const double unit = options.expert.axes.min_width[static_cast<std::size_t>(cut.axis)];
         const double value = cut.at[static_cast<std::size_t>(cut.axis)];
         EXPECT_EQ(value, unit * std::round(value / unit));
     }
@@ -109,7 +109,7 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
               "rank 0: axes.min_width leaves room for 32 parts, but 33 are asked for; ask "
               "for fewer, or set narrower limits");
     options.num_parts = 32;
-    options.axes.min_width[0] = std::nextafter(1, 2);
+    options.expert.axes.min_width[0] = std::nextafter(1, 2);
     EXPECT_EQ(message_of(points, options),
               "rank 0: axes.min_width leaves room for 28 parts, but 32 are asked for; ask "
               "for fewer, or set narrower limits");
@@ -118,15 +118,16 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
 TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
     const auto coordinates = dense_corner(1000, 3);
     const Points points(coordinates, 2);
-    Options options{.num_parts = 4,
-                    .axes = {.order = AxisOrder::given({0, 0, 0}), .min_width = {0.3, 0.1}}};
+    Options options{
+        .num_parts = 4,
+        .expert = {.axes = {.order = AxisOrder::given({0, 0, 0}), .min_width = {0.3, 0.1}}}};
     EXPECT_EQ(
         message_of(points, options),
         "rank 0: axes.min_width leaves room for 3 x 4 parts side by side, not enough for the given "
         "axes of the cuts; set narrower limits, or leave the axes free");
-    options.axes.order = AxisOrder::given({0, 1, 1});
+    options.expert.axes.order = AxisOrder::given({0, 1, 1});
     EXPECT_EQ(message_of(points, options), "");
-    options.axes.order = AxisOrder::grouped({1, 0});
+    options.expert.axes.order = AxisOrder::grouped({1, 0});
     EXPECT_EQ(message_of(points, options), "");
 }
 
@@ -137,11 +138,11 @@ TEST(Grid, holds_all_cuts_on_its_lines) {
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             Options options{.num_parts = 7,
                             .refine = refine,
-                            .axes = {.grid = {{0.1, spacing}, {-7, spacing / 3}}}};
+                            .expert = {.axes = {.grid = {{0.1, spacing}, {-7, spacing / 3}}}}};
             const Balance result = balance(points, MPI_COMM_WORLD, options);
             for (const Cut& cut : result.cuts.tree) {
                 const auto axis = static_cast<std::size_t>(cut.axis);
-                const auto [origin, step] = options.axes.grid[axis];
+                const auto [origin, step] = options.expert.axes.grid[axis];
                 const double k = std::round((cut.at[axis] - origin) / step);
                 EXPECT_EQ(cut.at[axis], origin + k * step);
                 EXPECT_EQ(cut.at[1 - axis], -infinity);
@@ -161,7 +162,7 @@ TEST(Grid, holds_all_cuts_on_its_lines) {
 TEST(Grid, that_coordinates_cannot_tell_apart_is_refused) {
     std::vector<double> coordinates{1e15 + rank(), 3, 1e15, 4};
     const Points points(coordinates, 2);
-    Options options{.num_parts = 2, .axes = {.grid = {{0, 0.1}, {0, 0.1}}}};
+    Options options{.num_parts = 2, .expert = {.axes = {.grid = {{0, 0.1}, {0, 0.1}}}}};
     EXPECT_EQ(message_of(points, options),
               "rank 0: axes.grid is finer along axis 0 than doubles resolve at these coordinates; "
               "give a larger "
@@ -171,7 +172,8 @@ TEST(Grid, that_coordinates_cannot_tell_apart_is_refused) {
 TEST(Limits, that_differ_between_ranks_are_an_error_on_all) {
     if (num_ranks() == 1) GTEST_SKIP();
     const auto coordinates = dense_corner(1000, 5);
-    Options options{.axes = {.min_width = {0.1, rank() == num_ranks() - 1 ? 0.1 : 0.2}}};
+    Options options{
+        .expert = {.axes = {.min_width = {0.1, rank() == num_ranks() - 1 ? 0.1 : 0.2}}}};
     const std::string message = message_of(Points(coordinates, 2), options);
     EXPECT_NE(message.find("axes.min_width, axes.grid differs between rank"), std::string::npos)
         << message;
@@ -186,7 +188,7 @@ TEST(Limits, move_earlier_cuts_that_break_them) {
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         options.refine = refine;
         options.imbalance_tolerance = 1.01;
-        options.axes.min_width = {0.15, 0.1};
+        options.expert.axes.min_width = {0.15, 0.1};
         const Balance moved = balance(points, MPI_COMM_WORLD, options, previous);
         EXPECT_GE(least_width(moved.cuts, box, 0), 0.15);
         EXPECT_GE(least_width(moved.cuts, box, 1), 0.1);
@@ -212,8 +214,7 @@ TEST(Limits, hold_where_nothing_has_weight) {
         const Points points(coordinates, 2, weights);
         Options options{.num_parts = 11,
                         .refine = Refine::exact,
-                        .axes = {.min_width = {0.07, 0.07}},
-                        .tuning = {.support_mesh = 1}};
+                        .expert = {.axes = {.min_width = {0.07, 0.07}}, .cells_per_axis = 1}};
         const Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), 0.07) << seed;
         EXPECT_GE(least_width(cuts, box_of_all(points), 1), 0.07) << seed;
@@ -232,10 +233,9 @@ TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
     const Points points(coordinates, 1, weights);
     Options options{.num_parts = 10,
                     .imbalance_tolerance = 1.3,
-                    .coincident = Coincident::divide,
-                    .axes = {.min_width = {width}}};
+                    .expert = {.coincident = Coincident::divide, .axes = {.min_width = {width}}}};
     for (const bool larger_below : {false, true}) {
-        options.tree.larger_below = larger_below;
+        options.expert.tree.larger_below = larger_below;
         const Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), width) << larger_below;
         const Cuts again = balance(points, MPI_COMM_WORLD, options, cuts).cuts;
@@ -245,7 +245,7 @@ TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
 
 TEST(Limits, need_no_points) {
     Options options{.num_parts = 9,
-                    .axes = {.min_width = {1, 1, 1}, .grid = {{0, 1}, {0, 1}, {0, 1}}}};
+                    .expert = {.axes = {.min_width = {1, 1, 1}, .grid = {{0, 1}, {0, 1}, {0, 1}}}}};
     const Balance result = balance(Points({}, 3), MPI_COMM_WORLD, options);
     EXPECT_EQ(result.cuts.tree.size(), 8u);
 }

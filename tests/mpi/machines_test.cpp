@@ -116,20 +116,20 @@ TEST(Machines, that_are_not_alike_are_not_looked_at) {
 }
 
 TEST(Machines, leave_a_tree_that_was_asked_for) {
-    Options options{.tree = TreeShape{}};
+    Options options{.expert = {.tree = TreeShape{}}};
     EXPECT_EQ(group_size(blocks_of(2), options), 1);
-    options.tree.group_size = 4;
+    options.expert.tree.group_size = 4;
     EXPECT_EQ(group_size(blocks_of(2), options), 4);
 }
 
 TEST(Machines, ask_for_the_shape_of_the_tree_that_given_axes_are_for) {
     if (!matters(2)) return;
     const Cloud cloud(2);
-    Options options{.axes = {.order = AxisOrder::given(
-                                 std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 0))}};
+    Options options{.expert = {.axes = {.order = AxisOrder::given(std::vector<int>(
+                                            static_cast<std::size_t>(num_ranks()) - 1, 0))}}};
     with_machines(blocks_of(2), [&](MPI_Comm comm) {
         EXPECT_THROW(balance(cloud.points, comm, options), Error);
-        options.tree.group_size = 2;
+        options.expert.tree.group_size = 2;
         EXPECT_EQ(balance(cloud.points, comm, options).cuts.shape.group_size, 2);
     });
 }
@@ -168,7 +168,7 @@ void expect_fewer_ghosts(std::function<int(int, int)> machine) {
         SCOPED_TRACE(dimension);
         const Cloud cloud(dimension, 24000);
         with_machines(machine, [&](MPI_Comm comm) {
-            Options halving{.tree = TreeShape{}};
+            Options halving{.expert = {.tree = TreeShape{}}};
             const Balance halved = balance(cloud.points, comm, halving);
             const Balance grouped = balance(cloud.points, comm);
             const auto [off, all] = ghosts_of(grouped, cloud, comm);

@@ -48,7 +48,7 @@ class NeighbourRun {
             for (T& x : places) x = std::floor(x * 4) / 4;
         Options options;
         options.num_parts = input.num_parts == 0 ? num_ranks() : input.num_parts;
-        if (input.has_lattice) options.coincident = Coincident::divide;
+        if (input.has_lattice) options.expert.coincident = Coincident::divide;
         const Balance whole = balance(Points(places, input.dimension), MPI_COMM_SELF, options);
         cuts_ = whole.cuts;
         for (Part part = 0; part < cuts_.num_parts; ++part)

@@ -48,13 +48,13 @@ std::vector<Options> kinds() {
     kinds[1].refine = Refine::exact;
     kinds[2].imbalance_tolerance = 1.0005;
     kinds[3].refine = Refine::exact;
-    kinds[3].coincident = Coincident::divide;
-    kinds[4].axes.min_width.assign(2, 0.02);
-    kinds[5].axes.plain = true;
+    kinds[3].expert.coincident = Coincident::divide;
+    kinds[4].expert.axes.min_width.assign(2, 0.02);
+    kinds[5].expert.axes.plain = true;
     kinds[5].refine = Refine::exact;
     // On more than two ranks many of these make the parts.
     for (int k = 0; k < 4; ++k) kinds.push_back(kinds[static_cast<std::size_t>(k)]);
-    for (std::size_t k = 6; k < kinds.size(); ++k) kinds[k].tuning.central_parts = 2;
+    for (std::size_t k = 6; k < kinds.size(); ++k) kinds[k].expert.max_root_parts = 2;
     return kinds;
 }
 

@@ -67,12 +67,12 @@ std::vector<Options> kinds(int num_parts, int dimension = 2) {
     kinds[2].refine = Refine::none;
     kinds[3].imbalance_tolerance = 1.0005;
     kinds[4].refine = Refine::exact;
-    kinds[4].coincident = Coincident::divide;
-    kinds[5].axes.min_width.assign(static_cast<std::size_t>(dimension), 0.02);
-    kinds[5].coincident = Coincident::divide;
+    kinds[4].expert.coincident = Coincident::divide;
+    kinds[5].expert.axes.min_width.assign(static_cast<std::size_t>(dimension), 0.02);
+    kinds[5].expert.coincident = Coincident::divide;
     kinds[5].imbalance_tolerance = 1.0001;
     kinds[6].imbalance_tolerance = 1;
-    kinds[6].coincident = Coincident::divide;
+    kinds[6].expert.coincident = Coincident::divide;
     return kinds;
 }
 
@@ -250,7 +250,7 @@ TEST(Passes, are_divided_by_many_ranks_too) {
     Cloud cloud(700, 2, 5);
     for (std::size_t i = 0; i < 700; ++i) cloud.weights.push_back(static_cast<double>(1 + i % 7));
     for (Options& options : kinds(9)) {
-        options.tuning.central_parts = 2;
+        options.expert.max_root_parts = 2;
         expect_same(cloud, options, {}, "many ranks");
     }
 }

@@ -111,7 +111,7 @@ int num_outside(const std::vector<double>& x, const Balance& made) {
 TEST(HalfOpenBoxes, contain_the_points_of_a_lattice_by_plain_cuts) {
     const std::vector<double> x = lattice();
     for (const bool plain : {false, true}) {
-        Options options{.refine = Refine::exact, .axes = {.plain = plain}};
+        Options options{.refine = Refine::exact, .expert = {.axes = {.plain = plain}}};
         const Balance made = balance(Points(x, 2), MPI_COMM_WORLD, options);
         EXPECT_EQ(num_outside(x, made) > 0, !plain && num_ranks() > 1);
     }

@@ -136,11 +136,12 @@ TEST(EarlierCuts, make_room_for_other_part_sizes) {
 TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
     const std::vector<double> mine = three_columns();
     const Points points(mine, 2);
-    Options options{
-        .num_parts = 2, .refine = Refine::exact, .axes = {.order = AxisOrder::longest()}};
+    Options options{.num_parts = 2,
+                    .refine = Refine::exact,
+                    .expert = {.axes = {.order = AxisOrder::longest()}}};
     const Balance tilted = balance(points, MPI_COMM_WORLD, options);
     ASSERT_GT(tilted.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
-    options.axes.plain = true;
+    options.expert.axes.plain = true;
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         options.refine = refine;
         const Balance plain = balance(points, MPI_COMM_WORLD, options, tilted.cuts);

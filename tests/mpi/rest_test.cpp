@@ -58,7 +58,7 @@ void weigh(const Weights& kind, HeldPoints& all) {
 void expect_rest(HeldPoints all, const Options& options) {
     for (int call = 1; call <= 10; ++call) {
         const test::Step step = test::balance_and_move(all, options);
-        if (options.coincident == Coincident::together) {
+        if (options.expert.coincident == Coincident::together) {
             EXPECT_EQ(step.num_strays, 0);
         }
         if (call > 2) {
@@ -77,7 +77,7 @@ void expect_rest_on(const Lattice& lattice) {
                 SCOPED_TRACE("weights " + kind.name + ", refine " +
                              std::to_string(static_cast<int>(refine)) + ", coincident " +
                              std::to_string(static_cast<int>(coincident)));
-                Options options{.refine = refine, .coincident = coincident};
+                Options options{.refine = refine, .expert = {.coincident = coincident}};
                 expect_rest(all, options);
             }
     }

@@ -116,7 +116,7 @@ TEST(Reuse, of_the_same_axes_makes_the_cuts_of_a_call_from_nothing) {
         HeldPoints all = cloud(2, 6000, false);
         Options options = with_parts(7, 1.02);
         options.refine = refine;
-        options.axes.order = AxisOrder::given({0, 1, 1, 0, 1, 1});
+        options.expert.axes.order = AxisOrder::given({0, 1, 1, 0, 1, 1});
         const Cuts first = balance(Share(all).points(), MPI_COMM_WORLD, options).cuts;
         for (double& x : all.coordinates) x *= x;
         const Share mine(all);
@@ -175,7 +175,7 @@ TEST(Reuse, moves_no_points_at_rest_unless_parts_become_more_even) {
         all.scatter();
         const Share mine(all);
         Options options = with_parts(static_cast<int>(2 + seed % 17), 1.001);
-        options.axes.order = AxisOrder::longest();
+        options.expert.axes.order = AxisOrder::longest();
         const Balance first = balance(mine.points(), MPI_COMM_WORLD, options);
         const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
         constexpr double round_off = 1e-12;
@@ -217,7 +217,8 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
         [&] {
             call(is_last ? Cuts{2, 3, {Cut{}, Cut{}}} : cuts);
         },
-        "previous cuts have 3 parts, not 4; pass no cuts ({}; None; rrcb_clear_cuts), or set "
+        "previous cuts have 3 parts, not 4; pass no cuts ({}; None; in C rrcb_set_cuts(balancer, "
+        "NULL)), or set "
         "num_parts to 3 to keep their parts");
     std::vector<double> weights(700, 1.0);
     if (is_last) weights[3] = -1;
@@ -256,7 +257,7 @@ TEST(Reuse, without_points_tells_what_a_call_from_nothing_does) {
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             Options options = with_parts(3, 1.05);
             options.refine = refine;
-            if (limited) options.axes.min_width = {0.1, 0.1};
+            if (limited) options.expert.axes.min_width = {0.1, 0.1};
             const Cuts cuts = balance(Share(all).points(), MPI_COMM_WORLD, options).cuts;
             const Balance empty = balance(none, MPI_COMM_WORLD, options, cuts);
             EXPECT_TRUE(same_cuts(empty.cuts, cuts));

@@ -25,8 +25,8 @@ std::vector<double> drops(int dimension) {
 Balance balance_by(const AxisOrder& order, int central_parts, int dimension) {
     Options options;
     options.num_parts = 16;
-    options.axes.order = order;
-    options.tuning.central_parts = central_parts;
+    options.expert.axes.order = order;
+    options.expert.max_root_parts = central_parts;
     const std::vector<double> mine = drops(dimension);
     return balance(Points(mine, dimension), MPI_COMM_WORLD, options);
 }

@@ -1,4 +1,4 @@
-// Parts that many ranks make, see Tuning::central_parts.
+// Parts that many ranks make, see ExpertOptions::max_root_parts.
 #include "../support/same_error.hpp"
 #include "clouds_of_all_ranks.hpp"
 #include "spread_checks.hpp"
@@ -33,7 +33,7 @@ double uniform(std::size_t, int, double u) {
 
 Options spread_options(int central_parts, Refine refine = Refine::exact) {
     Options options;
-    options.tuning.central_parts = central_parts;
+    options.expert.max_root_parts = central_parts;
     options.refine = refine;
     return options;
 }
@@ -120,7 +120,7 @@ TEST(SpreadBalance, cuts_lie_across_the_axes_given_to_them) {
             std::vector<int> axes;
             for (int node = 0; node + 1 < num_ranks(); ++node)
                 axes.push_back((node * node + 1) % 3);
-            options.axes.order = AxisOrder::given(axes);
+            options.expert.axes.order = AxisOrder::given(axes);
             const Balance result = balance(points, MPI_COMM_WORLD, options);
             EXPECT_LE(imbalance(expect_consistent(points, result)), 1.05);
             expect_axes(result.cuts, axes);
@@ -129,7 +129,7 @@ TEST(SpreadBalance, cuts_lie_across_the_axes_given_to_them) {
             expect_axes(again.cuts, axes);
             EXPECT_EQ(again.parts, result.parts);
             if (refine != Refine::exact) continue;
-            options.tuning.central_parts = num_ranks();
+            options.expert.max_root_parts = num_ranks();
             EXPECT_EQ(result.parts, balance(points, MPI_COMM_WORLD, options).parts);
         }
 }
@@ -142,7 +142,7 @@ TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ra
                 600, 2, [&](std::size_t, int, double u) { return std::floor(u * places); });
             const Points points(mine, 2);
             Options options = spread_options(central);
-            options.coincident = Coincident::divide;
+            options.expert.coincident = Coincident::divide;
             options.refine = Refine::tolerance;
             options.imbalance_tolerance = 1.05;
             const Balance good = balance(points, MPI_COMM_WORLD, options);
@@ -188,7 +188,7 @@ TEST(SpreadBalance, points_in_a_divided_place_are_looked_up_on_every_rank) {
     for (const Refine refine : {Refine::exact, Refine::tolerance}) {
         Options options = spread_options(2, refine);
         options.num_parts = 3 * num_ranks();
-        options.coincident = Coincident::divide;
+        options.expert.coincident = Coincident::divide;
         const Balance result = balance(points, MPI_COMM_WORLD, options);
         EXPECT_GT(result.report.details.coincident_cuts, 0);
         test::expect_same_cuts_on_all_ranks(result.cuts);
@@ -204,11 +204,11 @@ TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
     const Points points(mine, 2);
     for (const int faulty : {0, num_ranks() - 1}) {
         Options options = spread_options(2);
-        if (rank() == faulty) options.tuning.central_parts = 1;
+        if (rank() == faulty) options.expert.max_root_parts = 1;
         test::expect_same_error(
             [&] { balance(points, MPI_COMM_WORLD, options); },
-            "rank " + std::to_string(faulty) + ": tuning.central_parts must be at least 2");
-        options.tuning.central_parts = rank() == faulty ? 2 : 1000;
+            "rank " + std::to_string(faulty) + ": max_root_parts must be at least 2");
+        options.expert.max_root_parts = rank() == faulty ? 2 : 1000;
         test::expect_same_error([&] { balance(points, MPI_COMM_WORLD, options); },
                                 "central_parts differs between rank");
     }

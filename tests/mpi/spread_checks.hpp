@@ -1,4 +1,4 @@
-// What holds for any call in which many ranks make the parts, see Tuning::central_parts.
+// What holds for any call in which many ranks make the parts, see ExpertOptions::max_root_parts.
 #pragma once
 
 #include "../support/ranks.hpp"

@@ -19,7 +19,7 @@ using test::Share;
 
 Options spread_options(double tolerance) {
     Options options;
-    options.tuning.central_parts = 2;
+    options.expert.max_root_parts = 2;
     options.refine = Refine::tolerance;
     options.imbalance_tolerance = tolerance;
     return options;
@@ -117,9 +117,9 @@ TEST(SpreadPointsAtRest, in_parts_of_given_sizes_rest) {
 
 TEST(SpreadPointsAtRest, in_given_axes_or_between_planes_rest) {
     Options options = spread_options(1.05);
-    options.axes.plain = true;
+    options.expert.axes.plain = true;
     expect_rest(random_points(6000, 2, 5), options);
-    options.axes.order =
+    options.expert.axes.order =
         AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 1));
     expect_rest(random_points(6000, 2, 5), options);
 }
@@ -128,7 +128,7 @@ TEST(SpreadPointsAtRest, in_one_place_and_divided_rest) {
     HeldPoints all{2, std::vector<double>(1200, 0.5)};
     all.scatter();
     Options options = spread_options(1.05);
-    options.coincident = Coincident::divide;
+    options.expert.coincident = Coincident::divide;
     expect_rest(all, options);
 }
 

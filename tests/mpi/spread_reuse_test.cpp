@@ -25,7 +25,7 @@ using test::Share;
 
 Options spread_options(int num_parts, double tolerance) {
     Options options = test::with_parts(num_parts, tolerance);
-    options.tuning.central_parts = 2;
+    options.expert.max_root_parts = 2;
     return options;
 }
 
@@ -113,11 +113,11 @@ TEST(SpreadReuse, keeps_points_together_that_a_cut_divided) {
     all.scatter();
     const Share mine(all);
     Options options = spread_options(num_ranks() + 2, 1.02);
-    options.coincident = Coincident::divide;
+    options.expert.coincident = Coincident::divide;
     const Balance first = balance(mine.points(), MPI_COMM_WORLD, options);
     options.imbalance_tolerance = 1000;
     for (const bool plain : {false, true}) {
-        options.axes.plain = plain;
+        options.expert.axes.plain = plain;
         const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
         const Cuts& after = again.cuts;
         expect_parts(mine, after, again);
@@ -141,7 +141,7 @@ TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         options.refine = refine;
         Options along = options;
-        along.axes.order = AxisOrder::given(axes);
+        along.expert.axes.order = AxisOrder::given(axes);
         const Balance fresh = balance(mine.points(), MPI_COMM_WORLD, along);
         const Balance again = balance(mine.points(), MPI_COMM_WORLD, options, first.cuts);
         if (num_ranks() > 2) {
@@ -151,7 +151,7 @@ TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
         EXPECT_TRUE(num_ranks() <= 2 || test::same_cuts(again.cuts, fresh.cuts));
     }
     // Rank 0 makes the parts, from cuts of many.
-    options.tuning.central_parts = 1000;
+    options.expert.max_root_parts = 1000;
     options.refine = Refine::tolerance;
     EXPECT_LE(balance(mine.points(), MPI_COMM_WORLD, options, first.cuts).report.imbalance, 1.05);
 }
@@ -208,7 +208,7 @@ TEST(SpreadReuse, tells_all_ranks_what_is_wrong_on_one) {
     if (is_last) other.refine = Refine::exact;
     expect("refine differs", first.cuts, other);
     other = options;
-    if (is_last) other.tuning.central_parts = 1000;
+    if (is_last) other.expert.max_root_parts = 1000;
     expect("central_parts differs", first.cuts, other);
     if (is_last) mine.coordinates[7] = std::nan("");
     expect("is NaN or infinite", first.cuts, options);

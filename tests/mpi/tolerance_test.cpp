@@ -111,7 +111,7 @@ TEST(Tolerance, is_met_among_points_that_share_coordinates) {
         const Balance result = balance(mine.points(), MPI_COMM_WORLD, options);
         EXPECT_LE(result.report.imbalance, 1.01);
         expect_as_looked_up(all, mine.points(), result, options.part_sizes);
-        options.axes.plain = true;
+        options.expert.axes.plain = true;
         const Balance plain = balance(mine.points(), MPI_COMM_WORLD, options);
         expect_as_looked_up(all, mine.points(), plain, options.part_sizes);
         for (const Cut& cut : plain.cuts.tree) EXPECT_EQ(cut.at[1 - cut.axis], -INFINITY);

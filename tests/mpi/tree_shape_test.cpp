@@ -24,7 +24,7 @@ constexpr Machines machines[] = {{3, 4},    {5, 3},    {6, 2},    {3, 28},
 
 Options options_for(const Machines& all, bool larger_below) {
     Options options{.num_parts = all.count * all.parts_each,
-                    .tree = {all.parts_each, larger_below, all.round_robin_block}};
+                    .expert = {.tree = {all.parts_each, larger_below, all.round_robin_block}}};
     return options;
 }
 
@@ -118,7 +118,7 @@ TEST(TreeShape, each_point_is_where_the_cuts_of_whole_groups_put_it) {
             const std::vector<double> coordinates = cloud_here(2);
             const Points points(coordinates, 2);
             const Balance result = balance(points, MPI_COMM_WORLD, options);
-            EXPECT_EQ(result.cuts.shape, options.tree);
+            EXPECT_EQ(result.cuts.shape, options.expert.tree);
             const std::vector<Node> nodes = nodes_of(all, larger_below);
             ASSERT_EQ(result.cuts.tree.size(), nodes.size());
             const std::vector<Part> numbers = parts_of_ends(all);
@@ -139,7 +139,7 @@ TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
     if (num_ranks() < 3) GTEST_SKIP() << "rank 0 makes two parts and more alone";
     for_each_shape([](const Machines& all, bool larger_below) {
         Options options = options_for(all, larger_below);
-        options.tuning.central_parts = 2;
+        options.expert.max_root_parts = 2;
         if (all.round_robin_block > 0) {
             EXPECT_THROW(balance(Points({}, 3), MPI_COMM_WORLD, options), Error);
             return;
@@ -158,26 +158,26 @@ TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
 }
 
 TEST(TreeShape, is_that_of_earlier_cuts) {
-    Options options{.tree = {2, true}};
+    Options options{.expert = {.tree = {2, true}}};
     const std::vector<double> coordinates = cloud_here(2);
     const Points points(coordinates, 2);
     const Balance first = balance(points, MPI_COMM_WORLD, options);
     const Balance again = balance(points, MPI_COMM_WORLD, options, first.cuts);
     EXPECT_EQ(again.parts, first.parts);
-    EXPECT_EQ(again.cuts.shape, options.tree);
+    EXPECT_EQ(again.cuts.shape, options.expert.tree);
     Options other = options;
-    other.tree = {};
+    other.expert.tree = {};
     if (num_ranks() == 1) return;
     EXPECT_THROW(balance(points, MPI_COMM_WORLD, other, first.cuts), Error);
 }
 
 TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
-    Options options{.tree = {.group_size = -1}};
+    Options options{.expert = {.tree = {.group_size = -1}}};
     EXPECT_THROW(balance(Points({}, 2), MPI_COMM_WORLD, options), Error);
     options.num_parts = 10;
     for (const TreeShape& shape :
          {TreeShape{4, false, 1}, {5, false, 2}, {3, false, -1}, {0, false, 2}}) {
-        options.tree = shape;
+        options.expert.tree = shape;
         EXPECT_THROW(balance(Points({}, 2), MPI_COMM_WORLD, options), Error);
     }
 }

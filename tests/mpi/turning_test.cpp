@@ -38,7 +38,7 @@ struct State {
     }
     Balance balance(const Cuts& previous, const AxisOrder& order = {}) const {
         Options options;
-        options.axes.order = order;
+        options.expert.axes.order = order;
         options.num_parts = 4;
         options.refine = refine;
         const std::vector<double> coordinates = mine();

@@ -134,8 +134,8 @@ TEST(Balance, divides_points_in_one_place_where_that_is_asked_for) {
         [](const Case& input) -> std::string {
             Options options = input.options();
             options.refine = Refine::exact;
-            options.axes.plain = false;
-            options.coincident = Coincident::divide;
+            options.expert.axes.plain = false;
+            options.expert.coincident = Coincident::divide;
             const Answer answer(input, options);
             if (answer.cloud.size() == 0) return {};
             return first_of({fault_of_range(answer.parts, options.num_parts),

@@ -118,11 +118,11 @@ Options Case::options() const {
         options.part_sizes.push_back(
             size(shape.sizes, number, static_cast<std::int32_t>(options.part_sizes.size())));
     options.refine = shape.refine;
-    options.tuning.support_mesh = shape.support_mesh;
-    if (shape.central_parts != 0) options.tuning.central_parts = shape.central_parts;
+    options.expert.cells_per_axis = shape.support_mesh;
+    if (shape.central_parts != 0) options.expert.max_root_parts = shape.central_parts;
     options.imbalance_tolerance = shape.tolerance;
-    options.axes.plain = shape.plain_cuts != 0;
-    options.tree = {shape.group_size, shape.larger_below != 0};
+    options.expert.axes.plain = shape.plain_cuts != 0;
+    options.expert.tree = {shape.group_size, shape.larger_below != 0};
     return options;
 }
 

@@ -27,10 +27,10 @@ Tally tally(const Cloud& cloud, const std::vector<Part>& parts, const Options& o
         result.counts[static_cast<std::size_t>(parts[i])] += 1;
     }
     result.sizes = options.part_sizes;
-    result.tree = options.tree;
+    result.tree = options.expert.tree;
     if (result.sizes.empty()) result.sizes.assign(result.part_weights.size(), 1.0);
     result.total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    result.object = heaviest_object(cloud, options.axes.plain);
+    result.object = heaviest_object(cloud, options.expert.axes.plain);
     return result;
 }
 
@@ -119,7 +119,7 @@ std::string fault_of_heaviest_part(const Cloud& cloud, const std::vector<Part>& 
     const double all_sizes = sum(result.sizes);
     for (std::size_t p = 0; p < result.sizes.size(); ++p) {
         const double most = tolerance * result.total * (result.sizes[p] / all_sizes) +
-                            num_levels(options.tree, options.num_parts) * result.object +
+                            num_levels(options.expert.tree, options.num_parts) * result.object +
                             rounding * result.total;
         if (result.part_weights[p] <= most) continue;
         std::ostringstream text;

@@ -14,10 +14,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string fault_of_lines(const Cut& cut, const Options& options) {
-    if (options.axes.grid.empty() || std::isinf(cut.at[static_cast<std::size_t>(cut.axis)]))
+    if (options.expert.axes.grid.empty() || std::isinf(cut.at[static_cast<std::size_t>(cut.axis)]))
         return {};
     const auto axis = static_cast<std::size_t>(cut.axis);
-    const GridLines& lines = options.axes.grid[axis];
+    const GridLines& lines = options.expert.axes.grid[axis];
     const double k = std::nearbyint(cut.at[axis] / lines.spacing - lines.origin / lines.spacing);
     bool on_line = false;
     for (const double near : {k - 1, k, k + 1})
@@ -54,9 +54,9 @@ class Reference {
     };
 
     double min_width(int axis) const {
-        return options_.axes.min_width.empty()
+        return options_.expert.axes.min_width.empty()
                    ? 0
-                   : options_.axes.min_width[static_cast<std::size_t>(axis)];
+                   : options_.expert.axes.min_width[static_cast<std::size_t>(axis)];
     }
 
     /// Where moving a cut any farther would change something: behind a point, or a width away from
@@ -64,8 +64,8 @@ class Reference {
     std::set<double> candidates(int axis) const {
         const auto a = static_cast<std::size_t>(axis);
         std::set<double> all;
-        if (!options_.axes.grid.empty()) {
-            const auto [origin, spacing] = options_.axes.grid[a];
+        if (!options_.expert.axes.grid.empty()) {
+            const auto [origin, spacing] = options_.expert.axes.grid[a];
             const double first = std::floor((box_.lower[a] - origin) / spacing) - 1;
             for (double k = first; origin + k * spacing <= box_.upper[a]; ++k)
                 all.insert(origin + k * spacing);
@@ -91,7 +91,7 @@ class Reference {
 
     /// Two cells of a grid meet at a cut; a box keeps its width.
     bool is_wide(double lower, double upper, int axis, bool is_outermost) const {
-        if (!options_.axes.min_width.empty()) return upper - lower >= min_width(axis);
+        if (!options_.expert.axes.min_width.empty()) return upper - lower >= min_width(axis);
         return is_outermost ? upper >= lower : upper > lower;
     }
 
@@ -127,7 +127,7 @@ class Reference {
         lower.upper[a] = value;
         lower.is_outermost[a] = false;
         upper.lower[a] = value;
-        const int num_below = options_.tree.lower_parts(num_parts);
+        const int num_below = options_.expert.tree.lower_parts(num_parts);
         const double of_lower = heaviest_part(below, lower, num_below, enough);
         if (of_lower >= enough) return enough;
         return std::max(of_lower, heaviest_part(above, upper, num_parts - num_below, enough));
@@ -153,7 +153,8 @@ std::string fault_of_limits(const Cuts& cuts, const Options& options, const Box&
             const double lower = std::isinf(region.lower[a]) ? box.lower[a] : region.lower[a];
             const double upper = std::isinf(region.upper[a]) ? box.upper[a] : region.upper[a];
             const bool is_cell = std::isinf(region.upper[a]) ? upper >= lower : upper > lower;
-            const double width = options.axes.min_width.empty() ? 0 : options.axes.min_width[a];
+            const double width =
+                options.expert.axes.min_width.empty() ? 0 : options.expert.axes.min_width[a];
             if (!is_cell || !(upper - lower >= width))
                 return "part " + std::to_string(part) + " is " + std::to_string(upper - lower) +
                        " wide along axis " + std::to_string(a);

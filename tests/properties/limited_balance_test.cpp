@@ -21,10 +21,11 @@ void add_limits(double lower, double upper, std::int32_t choice, Options& option
     const double unit = half > 0 && std::isfinite(half) ? half : 1;
     const bool has_width = choice % 3 != 1;
     const bool has_grid = choice % 3 != 0;
-    if (has_width) options.axes.min_width.push_back(std::max(unit / (1 + choice / 3 % 29), 5e-324));
+    if (has_width)
+        options.expert.axes.min_width.push_back(std::max(unit / (1 + choice / 3 % 29), 5e-324));
     if (has_grid)
-        options.axes.grid.push_back({choice / 87 % 2 == 0 ? lower : lower / 3,
-                                     std::max(unit / (1 + choice / 174 % 23), 5e-324)});
+        options.expert.axes.grid.push_back({choice / 87 % 2 == 0 ? lower : lower / 3,
+                                            std::max(unit / (1 + choice / 174 % 23), 5e-324)});
 }
 
 Options limited_options(const Case& input, const Box& box) {
@@ -87,8 +88,8 @@ TEST(LimitedBalance, keeps_widths_and_lines_whatever_the_points) {
             if (!fault.empty()) return "second call: " + fault;
             // From cuts that know no limits.
             Options free = options;
-            free.axes.min_width.clear();
-            free.axes.grid.clear();
+            free.expert.axes.min_width.clear();
+            free.expert.axes.grid.clear();
             const Cuts previous = balance(mine.points(), MPI_COMM_WORLD, free).cuts;
             const auto third = answer_of(
                 [&] { return balance(mine.points(), MPI_COMM_WORLD, options, previous); });

@@ -181,12 +181,13 @@ Limited any_limited(int most_points, int most_parts) {
     made.options.part_sizes.assign(static_cast<std::size_t>(made.options.num_parts), 1.0);
     const int kind = *gen::inRange(0, 3);
     for (int a = 0; a < made.dimension; ++a) {
-        if (kind != 1) made.options.axes.min_width.push_back(unit * scale / *gen::inRange(2, 24));
+        if (kind != 1)
+            made.options.expert.axes.min_width.push_back(unit * scale / *gen::inRange(2, 24));
         if (kind != 0)
-            made.options.axes.grid.push_back(
+            made.options.expert.axes.grid.push_back(
                 {unit * *gen::inRange(-9, 9) / 3, unit * scale / *gen::inRange(2, 16)});
     }
-    made.options.axes.plain = kind != 0;
+    made.options.expert.axes.plain = kind != 0;
     return made;
 }
 

@@ -122,7 +122,7 @@ def test_raises_the_error_of_one_rank_on_all():
         ("refine", "WRONG", "refine"),
         ("refine", None, "refine"),
         ("tolerence", 1.1, "did you mean imbalance_tolerance?"),
-        ("support_mesh", 8, "did you mean tuning__support_mesh?"),
+        ("cell_per_axis", 8, "did you mean cells_per_axis?"),
         ("tree__larger_below", 2, "tree__larger_below takes OFF or ON"),
     ):
         given = on_rank(last, {name: value}, {})

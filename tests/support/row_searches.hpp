@@ -220,8 +220,8 @@ class RowSearches {
         Options options;
         options.num_parts = case_.num_parts;
         options.part_sizes = case_.part_sizes;
-        options.axes.plain = case_.plain_cuts;
-        options.tree = case_.shape;
+        options.expert.axes.plain = case_.plain_cuts;
+        options.expert.tree = case_.shape;
         Bisection made = bisect(analytic_domain(cells, case_.dimension, box_), options, true);
         if (case_.start != Start::estimate) move(made, random);
         start_from(made.cuts, std::move(made.brackets));

@@ -40,9 +40,9 @@ void expect_error(const ParameterList& list, const std::vector<std::string>& pie
 void expect_defaults(const Options& options) {
     const Options defaults;
     EXPECT_EQ(options.num_parts, defaults.num_parts);
-    EXPECT_EQ(options.tuning.support_mesh, defaults.tuning.support_mesh);
+    EXPECT_EQ(options.expert.cells_per_axis, defaults.expert.cells_per_axis);
     EXPECT_EQ(options.refine, defaults.refine);
-    EXPECT_EQ(options.coincident, defaults.coincident);
+    EXPECT_EQ(options.expert.coincident, defaults.expert.coincident);
     EXPECT_EQ(options.imbalance_tolerance, defaults.imbalance_tolerance);
 }
 
@@ -62,7 +62,7 @@ TEST(Parameters, of_the_papers_methods_have_the_defaults_of_these) {
 void expect_all_set(const ParameterList& list) {
     const Options options = options_from(list);
     EXPECT_EQ(options.num_parts, 6);
-    EXPECT_EQ(options.tuning.support_mesh, 12);
+    EXPECT_EQ(options.expert.cells_per_axis, 12);
     EXPECT_EQ(options.refine, Refine::exact);
     EXPECT_EQ(options.imbalance_tolerance, 2.0);
     std::map<std::string, std::string> strings;
@@ -194,11 +194,11 @@ TEST(Parameters, of_rows_of_numbers_are_strings) {
     list.set("RRCB_MIN_WIDTH", "0.1 0.2");
     list.set("RRCB_GRID", "0 0.05, -1 0.05");
     const Options options = options_from(list);
-    EXPECT_EQ(options.axes.min_width, (std::vector<double>{0.1, 0.2}));
-    ASSERT_EQ(options.axes.grid.size(), 2u);
-    EXPECT_EQ(options.axes.grid[1].origin, -1);
-    EXPECT_EQ(options.axes.grid[1].spacing, 0.05);
-    EXPECT_TRUE(options_from(ParameterList()).axes.grid.empty());
+    EXPECT_EQ(options.expert.axes.min_width, (std::vector<double>{0.1, 0.2}));
+    ASSERT_EQ(options.expert.axes.grid.size(), 2u);
+    EXPECT_EQ(options.expert.axes.grid[1].origin, -1);
+    EXPECT_EQ(options.expert.axes.grid[1].spacing, 0.05);
+    EXPECT_TRUE(options_from(ParameterList()).expert.axes.grid.empty());
     const std::vector<std::pair<std::string, std::string>> expected = {
         {"RRCB_MIN_WIDTH", "0.1 0.2"}, {"RRCB_GRID", "0 0.05, -1 0.05"}};
     EXPECT_EQ(zoltan_strings(list), expected);

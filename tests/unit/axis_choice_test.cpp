@@ -53,7 +53,7 @@ TEST(AxisChoice, crosses_the_axes_of_one_group_after_the_other) {
                               {8, box_of(4, 2, 100), 2, {2, 1, 0}, {1, 0, 0}},
                               {9, box_of(8, 8, 1), 3, {2, 0, 1}, {0, 0, 1, 1}}}) {
         Options options = options_of(of.num_parts);
-        options.axes.order = AxisOrder::grouped(of.order);
+        options.expert.axes.order = AxisOrder::grouped(of.order);
         const AxisChoice choice(options, of.box, of.dimension);
         for (int depth = 0; depth < static_cast<int>(of.axes.size()); ++depth)
             EXPECT_EQ(choice(0, depth).front(), of.axes[static_cast<std::size_t>(depth)]);
@@ -62,7 +62,7 @@ TEST(AxisChoice, crosses_the_axes_of_one_group_after_the_other) {
 
 TEST(AxisChoice, crosses_the_axis_that_a_cut_was_given) {
     Options options = options_of(3);
-    options.axes.order = AxisOrder::given({1, 0});
+    options.expert.axes.order = AxisOrder::given({1, 0});
     const AxisChoice choice(options, box_of(4, 2), 2);
     EXPECT_EQ(choice(0, 0).front(), 1);
     EXPECT_EQ(choice(1, 1).front(), 0);
@@ -84,9 +84,9 @@ StatisticalDomain layer_with_strays() {
 
 Cuts cuts_by(const AxisOrder& order, StatisticalDomain domain, int num_parts,
              GlobalCount num_points = 0, const std::vector<int>& preferred = {}) {
-    Options options{.num_parts = num_parts, .tree = TreeShape{}};
+    Options options{.num_parts = num_parts, .expert = {.tree = TreeShape{}}};
     options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1);
-    options.axes.order = order;
+    options.expert.axes.order = order;
     return bisect(std::move(domain), options, false, num_points, preferred).cuts;
 }
 

@@ -48,12 +48,12 @@ TEST(AutomaticMesh, has_no_more_cells_than_passes_add_up_fast) {
     EXPECT_EQ(mesh_by_options(points, box, options).cells, (std::array<int, 3>{5, 5, 5}));
     test::BrutePasses others(x, 3);
     EXPECT_EQ(mesh_by_options(others, box, options).cells, (std::array<int, 3>{10, 10, 10}));
-    Options given{.tuning = {.support_mesh = 9}};
+    Options given{.expert = {.cells_per_axis = 9}};
     EXPECT_EQ(mesh_by_options(points, box, given).cells, (std::array<int, 3>{9, 9, 9}));
 }
 
 Options asking_for_mesh(int cells) {
-    Options options{.tuning = {.support_mesh = cells}};
+    Options options{.expert = {.cells_per_axis = cells}};
     return options;
 }
 

@@ -36,7 +36,7 @@ Options options_for(std::size_t num_parts) {
     options.num_parts = static_cast<int>(num_parts);
     options.part_sizes.assign(num_parts, 1);
     options.refine = Refine::tolerance;
-    options.axes.order = AxisOrder::longest();
+    options.expert.axes.order = AxisOrder::longest();
     return options;
 }
 
@@ -213,7 +213,7 @@ TEST(KeptTree, across_given_axes_are_read_just_where_some_order_of_the_ranks_is_
         std::vector<int> given;
         for (std::size_t node = 0; node + 1 < held.size(); ++node)
             given.push_back(static_cast<int>(engine() % 2));
-        options.axes.order = AxisOrder::given(given);
+        options.expert.axes.order = AxisOrder::given(given);
         const Cuts axes = across(given, 2);
         std::vector<int> order(held.size());
         std::iota(order.begin(), order.end(), 0);
@@ -254,9 +254,9 @@ TEST(KeptTree, may_lie_across_another_axis_that_is_nearly_as_long) {
     EXPECT_FALSE(read(halves(0.7), across({0}, 2)));
     EXPECT_TRUE(read(halves(0.7), across({1}, 2)));
     Options given = options_for(2);
-    given.axes.order = AxisOrder::given({0});
+    given.expert.axes.order = AxisOrder::given({0});
     EXPECT_FALSE(read(halves(0.9), across({0}, 2), given));
-    given.axes.order = AxisOrder::grouped({0, 1});
+    given.expert.axes.order = AxisOrder::grouped({0, 1});
     EXPECT_FALSE(read(halves(0.9), across({0}, 2), given));
 }
 
@@ -268,7 +268,7 @@ TEST(KeptTree, are_cut_in_the_middle_of_a_gap_along_the_first_axis_that_has_one)
     ASSERT_TRUE(tie);
     EXPECT_EQ(tie->cuts.tree[0].at, (Vector{1, 2.5, -infinity}));
     Options plain = options_for(2);
-    plain.axes.plain = true;
+    plain.expert.axes.plain = true;
     EXPECT_FALSE(read({{{0, 5}, {1, 2}}, {{1, 3}, {4, 0}}}, across({0}, 2), plain));
     const double next = std::nextafter(1.0, 2.0);
     const auto narrow = read({{{1, 0}}, {{next, 0}}}, across({0}, 2), plain);
@@ -284,7 +284,7 @@ TEST(KeptTree, in_one_place_are_read_only_where_a_search_may_divide_them) {
     const Distribution held{{{0, 0}, {1, 1}}, {{1, 1}, {2, 0}}};
     EXPECT_FALSE(read(held, across({0}, 2)));
     Options options = options_for(2);
-    options.coincident = Coincident::divide;
+    options.expert.coincident = Coincident::divide;
     const auto divided = read(held, across({0}, 2), options);
     ASSERT_TRUE(divided);
     EXPECT_EQ(divided->cuts.tree[0].divides, 1);

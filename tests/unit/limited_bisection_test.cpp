@@ -23,10 +23,10 @@ Options tight_options(int num_parts, int dimension) {
     options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
     const double along = std::ceil(1.5 * std::pow(num_parts, 1.0 / dimension)) + 1;
     for (int axis = 0; axis < dimension; ++axis) {
-        options.axes.min_width.push_back(0.95 / along);
-        options.axes.grid.push_back({0.001, 0.01 / along});
+        options.expert.axes.min_width.push_back(0.95 / along);
+        options.expert.axes.grid.push_back({0.001, 0.01 / along});
     }
-    options.axes.plain = true;
+    options.expert.axes.plain = true;
     return options;
 }
 

@@ -53,7 +53,7 @@ TEST(OptionTable, suggests_the_names_nearest_to_an_unknown_one) {
     EXPECT_EQ(nearest("tolerence"), "; did you mean imbalance_tolerance?");
     EXPECT_EQ(nearest("refine_mode"), "; did you mean refine?");
     EXPECT_EQ(nearest("min_width"), "; did you mean axes.min_width?");
-    EXPECT_EQ(nearest("parts"), "; did you mean num_parts or tuning.central_parts?");
+    EXPECT_EQ(nearest("parts"), "; did you mean num_parts or max_root_parts?");
     EXPECT_EQ(nearest("reine"), "; did you mean refine?");
     EXPECT_EQ(nearest("colour") + nearest("") + nearest("xyz"), "");
 }
@@ -61,11 +61,11 @@ TEST(OptionTable, suggests_the_names_nearest_to_an_unknown_one) {
 TEST(OptionTable, writes_what_it_reads) {
     const std::vector<std::pair<std::string_view, std::vector<std::string>>> texts = {
         {"num_parts", {"AUTO", "1", "2147483647"}},
-        {"tuning.support_mesh", {"AUTO", "1", "4096"}},
+        {"cells_per_axis", {"AUTO", "1", "4096"}},
         {"refine", {"NONE", "TOLERANCE", "EXACT"}},
         {"coincident", {"TOGETHER", "DIVIDE"}},
         {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
-        {"tuning.central_parts", {"2", "64", "2147483647"}},
+        {"max_root_parts", {"2", "64", "2147483647"}},
         {"tree.group_size", {"AUTO", "1", "12"}},
         {"tree.larger_below", {"OFF", "ON"}},
         {"tree.round_robin_block", {"0", "2"}},
@@ -85,15 +85,15 @@ TEST(OptionTable, reads_words_in_any_case) {
     Options options;
     EXPECT_TRUE(read_option(named("refine"), "exact", options));
     EXPECT_EQ(options.refine, Refine::exact);
-    EXPECT_TRUE(read_option(named("tuning.support_mesh"), "auto", options));
+    EXPECT_TRUE(read_option(named("cells_per_axis"), "auto", options));
     EXPECT_FALSE(reads("refine", "exactly"));
     EXPECT_FALSE(reads("refine", ""));
 }
 
 TEST(OptionTable, reads_0_as_auto) {
-    for (const char* name : {"num_parts", "tuning.support_mesh", "tree.group_size"}) {
+    for (const char* name : {"num_parts", "cells_per_axis", "tree.group_size"}) {
         Options options;
-        options.num_parts = options.tuning.support_mesh = options.tree.group_size = 7;
+        options.num_parts = options.expert.cells_per_axis = options.expert.tree.group_size = 7;
         EXPECT_TRUE(read_option(named(name), "0", options)) << name;
         EXPECT_EQ(write_option(named(name), options), "AUTO");
     }
@@ -103,39 +103,39 @@ TEST(OptionTable, reads_0_as_auto) {
 
 TEST(OptionTable, reads_no_number_beyond_its_range_and_leaves_the_value) {
     for (const char* text : {"-0.5", "-1", "4097", "1.5", "8X", "", "99999999999"})
-        EXPECT_FALSE(reads("tuning.support_mesh", text)) << text;
+        EXPECT_FALSE(reads("cells_per_axis", text)) << text;
     for (const char* text : {"0", "1", "-2", "2.5", "AUTO", "2147483648"})
-        EXPECT_FALSE(reads("tuning.central_parts", text)) << text;
+        EXPECT_FALSE(reads("max_root_parts", text)) << text;
     for (const char* text : {"0.99", "nan", "inf"})
         EXPECT_FALSE(reads("imbalance_tolerance", text)) << text;
     EXPECT_FALSE(reads("part_sizes", "1"));
     Options options;
-    read_option(named("tuning.central_parts"), "1", options);
-    EXPECT_EQ(options.tuning.central_parts, Options{}.tuning.central_parts);
+    read_option(named("max_root_parts"), "1", options);
+    EXPECT_EQ(options.expert.max_root_parts, Options{}.expert.max_root_parts);
 }
 
 TEST(OptionTable, reads_rows_of_numbers_with_blanks_or_commas_between_them) {
     Options options;
     EXPECT_TRUE(read_option(named("axes.min_width"), " 1,2 ,\t3 ", options));
-    EXPECT_EQ(options.axes.min_width, (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(options.expert.axes.min_width, (std::vector<double>{1, 2, 3}));
     EXPECT_TRUE(read_option(named("axes.grid"), "0.5 1 -2 3E-1", options));
-    ASSERT_EQ(options.axes.grid.size(), 2u);
-    EXPECT_EQ(options.axes.grid[1].origin, -2);
-    EXPECT_EQ(options.axes.grid[1].spacing, 0.3);
+    ASSERT_EQ(options.expert.axes.grid.size(), 2u);
+    EXPECT_EQ(options.expert.axes.grid[1].origin, -2);
+    EXPECT_EQ(options.expert.axes.grid[1].spacing, 0.3);
     for (const char* text : {"", " ", "0", "-1", "nan", "inf", "1 2 3 4", "1;2", "1x", "1 two"})
         EXPECT_FALSE(reads("axes.min_width", text)) << text;
     for (const char* text : {"", "1", "0 0", "0 -1", "nan 1", "0 inf", "0 1 0", "0 1 0 1 0 1 0 1"})
         EXPECT_FALSE(reads("axes.grid", text)) << text;
     EXPECT_TRUE(read_option(named("axes.grid"), "none", options));
-    EXPECT_TRUE(options.axes.grid.empty());
-    EXPECT_FALSE(options.axes.min_width.empty());
+    EXPECT_TRUE(options.expert.axes.grid.empty());
+    EXPECT_FALSE(options.expert.axes.min_width.empty());
 }
 
 TEST(Check, refuses_limits_of_cuts_that_are_no_lengths_or_not_one_per_axis) {
     const std::string one_each =
         "axes.min_width must hold one number per axis of the points, or be empty";
     const auto width = [](std::vector<double> widths, int dimension) {
-        return complaint([&](Options& o) { o.axes.min_width = widths; }, dimension);
+        return complaint([&](Options& o) { o.expert.axes.min_width = widths; }, dimension);
     };
     EXPECT_EQ(width({1, 2}, 2) + width({5e-324}, 1) + width({1e308, 1, 1}, 3), "");
     EXPECT_EQ(width({1}, 2), one_each);
@@ -143,7 +143,7 @@ TEST(Check, refuses_limits_of_cuts_that_are_no_lengths_or_not_one_per_axis) {
     for (const double value : {0.0, -1.0, std::nan(""), HUGE_VAL})
         EXPECT_EQ(width({1, value}, 2), "axes.min_width must be finite and above 0");
     const auto grid = [](std::vector<GridLines> lines, int dimension) {
-        return complaint([&](Options& o) { o.axes.grid = lines; }, dimension);
+        return complaint([&](Options& o) { o.expert.axes.grid = lines; }, dimension);
     };
     EXPECT_EQ(grid({{0, 1}, {-1e308, 1e-300}}, 2), "");
     EXPECT_EQ(grid({{0, 1}}, 3),
@@ -156,17 +156,17 @@ TEST(Check, refuses_limits_of_cuts_that_are_no_lengths_or_not_one_per_axis) {
 
 TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range) {
     EXPECT_EQ(complaint([](Options&) {}), "");
-    EXPECT_EQ(complaint([](Options& o) { o.tree.group_size = -1; }),
+    EXPECT_EQ(complaint([](Options& o) { o.expert.tree.group_size = -1; }),
               "tree.group_size must be positive, or 0 for the parts of each machine");
     EXPECT_EQ(complaint([](Options& o) { o.num_parts = -1; }),
               "num_parts must be positive, or 0 for one part per rank");
     for (const int dimension : {1, 2, 3}) {
         const int most = dimension < 3 ? 4096 : 256;
         const auto mesh = [&](int cells) {
-            return complaint([&](Options& o) { o.tuning.support_mesh = cells; }, dimension);
+            return complaint([&](Options& o) { o.expert.cells_per_axis = cells; }, dimension);
         };
         EXPECT_EQ(mesh(0) + mesh(1) + mesh(most), "");
-        const std::string refusal = "tuning.support_mesh must be 1 ... " + std::to_string(most) +
+        const std::string refusal = "cells_per_axis must be 1 ... " + std::to_string(most) +
                                     " cells per axis, or 0 for the default";
         EXPECT_EQ(mesh(most + 1), refusal);
         EXPECT_EQ(mesh(-1), refusal);
@@ -179,7 +179,7 @@ TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range)
 
 TEST(OptionTable, tells_what_each_option_may_be) {
     EXPECT_EQ(legal_values(named("imbalance_tolerance")), "a number, 1 or more");
-    EXPECT_EQ(legal_values(named("tuning.support_mesh")), "a whole number from 1 to 4096");
+    EXPECT_EQ(legal_values(named("cells_per_axis")), "a whole number from 1 to 4096");
     EXPECT_EQ(legal_values(named("axes.min_width")),
               "NONE, or a number above 0 for each axis: 0.1 0.1");
     EXPECT_EQ(legal_values(named("part_sizes")), "a list");
@@ -193,28 +193,28 @@ TEST(Request, differs_in_every_option_by_its_name) {
     const std::vector<std::pair<std::string_view, Change>> changes = {
         {"num_parts", [](Options& o) { o.num_parts = 3; }},
         {"part_sizes", [](Options& o) { o.part_sizes = {1}; }},
-        {"tuning.support_mesh", [](Options& o) { o.tuning.support_mesh = 3; }},
-        {"tree.group_size", [](Options& o) { o.tree.group_size = 2; }},
-        {"tree.larger_below", [](Options& o) { o.tree.larger_below = true; }},
-        {"tree.round_robin_block", [](Options& o) { o.tree.round_robin_block = 1; }},
-        {"axes.plain", [](Options& o) { o.axes.plain = true; }},
+        {"cells_per_axis", [](Options& o) { o.expert.cells_per_axis = 3; }},
+        {"tree.group_size", [](Options& o) { o.expert.tree.group_size = 2; }},
+        {"tree.larger_below", [](Options& o) { o.expert.tree.larger_below = true; }},
+        {"tree.round_robin_block", [](Options& o) { o.expert.tree.round_robin_block = 1; }},
+        {"axes.plain", [](Options& o) { o.expert.axes.plain = true; }},
         {"one of axes.order, axes.min_width, axes.grid",
-         [](Options& o) { o.axes.order = AxisOrder::given({1}); }},
+         [](Options& o) { o.expert.axes.order = AxisOrder::given({1}); }},
         {"one of axes.order, axes.min_width, axes.grid",
-         [](Options& o) { o.axes.order = AxisOrder::grouped({1}); }},
+         [](Options& o) { o.expert.axes.order = AxisOrder::grouped({1}); }},
         {"one of axes.order, axes.min_width, axes.grid",
-         [](Options& o) { o.axes.order = AxisOrder::among({1}); }},
-        {"axes.order", [](Options& o) { o.axes.order = AxisOrder::longest(); }},
+         [](Options& o) { o.expert.axes.order = AxisOrder::among({1}); }},
+        {"axes.order", [](Options& o) { o.expert.axes.order = AxisOrder::longest(); }},
         {"one of axes.order, axes.min_width, axes.grid",
-         [](Options& o) { o.axes.min_width = {1}; }},
+         [](Options& o) { o.expert.axes.min_width = {1}; }},
         {"one of axes.order, axes.min_width, axes.grid",
          [](Options& o) {
-             o.axes.grid = {{0, 1}};
+             o.expert.axes.grid = {{0, 1}};
          }},
         {"refine", [](Options& o) { o.refine = Refine::none; }},
-        {"coincident", [](Options& o) { o.coincident = Coincident::divide; }},
+        {"coincident", [](Options& o) { o.expert.coincident = Coincident::divide; }},
         {"imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 2; }},
-        {"tuning.central_parts", [](Options& o) { o.tuning.central_parts = 2; }}};
+        {"max_root_parts", [](Options& o) { o.expert.max_root_parts = 2; }}};
     const Request reference = request_of({}, 2, nullptr);
     EXPECT_EQ(first_difference(reference, request_of({}, 2, nullptr)), std::nullopt);
     for (const auto& [name, change] : changes) {
@@ -315,7 +315,7 @@ TEST(OptionTable, is_the_table_of_the_document) {
     std::ostringstream document;
     document << file.rdbuf();
     Options plug_in;  // whose handles divide points in one place, as RCB
-    plug_in.coincident = Coincident::divide;
+    plug_in.expert.coincident = Coincident::divide;
     for (const Option& option : option_table) {
         if (!std::string_view(option.parameter).starts_with("RRCB_")) continue;
         const std::string row = table_row(option, plug_in);

@@ -157,7 +157,7 @@ struct Layer {
         all.summary.num_points = 6400;
         options.num_parts = 2;
         options.part_sizes = {0.5, 0.5};
-        options.tree = TreeShape{};
+        options.expert.tree = TreeShape{};
     }
 };
 
@@ -165,13 +165,13 @@ TEST(BisectAlong, adds_the_ghosts_of_a_step_to_the_debt_until_a_turn_is_paid) {
     Layer layer;
     // Spacing 0.05, so ghosts are within 0.1 of the cut: 0.2 of the weight across y, 0.0125 across
     // x. A turn moves half of the points.
-    layer.options.axes.steps = 1;
+    layer.options.expert.axes.steps = 1;
     const Cuts first = bisect_along(layer.domain, layer.all, layer.options, layer.earlier).cuts;
     EXPECT_EQ(first.tree[0].axis, 1);
     EXPECT_NEAR(first.debt, (0.2 - 0.0125) / 10, 1e-12);
     const Cuts second = bisect_along(layer.domain, layer.all, layer.options, first).cuts;
     EXPECT_NEAR(second.debt, 2 * first.debt, 1e-12);
-    layer.options.axes.steps = 50;
+    layer.options.expert.axes.steps = 50;
     const Cuts turned = bisect_along(layer.domain, layer.all, layer.options, second).cuts;
     EXPECT_EQ(turned.tree[0].axis, 0);
     EXPECT_EQ(turned.debt, 0);

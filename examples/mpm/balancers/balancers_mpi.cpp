@@ -27,8 +27,8 @@ void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
     const int num_nodes = scene.shape_function == mpm::ShapeFunction::linear ? 2 : 3;
     const mpm::GridShape& grid = scene.grid;
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
-        options.axes.min_width.push_back(num_nodes * grid.spacing);
-        options.axes.grid.push_back({grid.lower[a], grid.spacing});
+        options.expert.axes.min_width.push_back(num_nodes * grid.spacing);
+        options.expert.axes.grid.push_back({grid.lower[a], grid.spacing});
     }
 }
 
@@ -83,7 +83,7 @@ mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weig
         points.weights = weight;
         if (!reuses_cuts) last->cuts = {};
         rrcb::balance_into(*last, points, comm, options, last->cuts);
-        return decomposition_of(*last, !options.axes.grid.empty());
+        return decomposition_of(*last, !options.expert.axes.grid.empty());
     };
 }
 

@@ -87,19 +87,15 @@ RRCB_API int rrcb_balancer_set_part_sizes(rrcb_balancer* balancer, size_t count,
                                           const double* sizes);
 
 /** Divides the points of all ranks into parts, as rrcb::balance. Starts from the cuts of the
- * balancer, if it has any, and keeps the new ones. Collective. Call rrcb_clear_cuts before, if
- * the option refine is NONE, if the dimension has changed, or if num_parts has changed and is
- * not 0.
+ * balancer, if it has any, and keeps the new ones. Collective. Call rrcb_set_cuts(balancer, NULL)
+ * before, if the option refine is NONE, if the dimension has changed, or if num_parts has changed
+ * and is not 0.
  *
  * @param balancer with the options; gets the cuts and the report
  * @param points   of this rank; if there are none, arrays may be null, but the dimension must be
  * set
  * @param parts    gets the part of each point; may be null if there are none */
 RRCB_API int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
-
-/** Forgets the cuts: the next rrcb_balance starts from scratch. Not collective, but on all ranks.
- */
-RRCB_API int rrcb_clear_cuts(rrcb_balancer* balancer);
 
 /** Frees the buffers that calls on the communicator keep for later calls, as
  * rrcb::release_buffers. Not collective. */
@@ -121,7 +117,8 @@ RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
 /** Copies cuts into the balancer, for example those of an earlier run. Not collective.
  *
  * @param balancer uses them in rrcb_balance and in look-ups
- * @param cuts     must be the same on all ranks, which rrcb_balance checks */
+ * @param cuts     must be the same on all ranks, which rrcb_balance checks. Null: forgets the cuts,
+ * so that the next rrcb_balance starts from scratch */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
 /** Returns the cuts as bytes, as rrcb::save. Not collective.

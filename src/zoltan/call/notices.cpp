@@ -63,7 +63,7 @@ std::vector<std::string> balance_warnings(const Report& report, const Parameters
                    imbalance_of(report), least));
     }
     const bool plain = parameters.rectilinear_blocks != 0;
-    const bool divided = parameters.options.coincident == Coincident::divide && !plain;
+    const bool divided = parameters.options.expert.coincident == Coincident::divide && !plain;
     if (report.details.coincident_cuts > 0 && !divided) {
         texts.push_back(format("%d cuts met objects in one %s; the imbalance is %.4f",
                                report.details.coincident_cuts,

@@ -124,11 +124,11 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
     self.attempt([&] {
         made.options =
             make_options(parameters, layout, dimension, locks ? &*call.previous : nullptr);
-        if (made.previous != nullptr) made.options.tree = made.previous->shape;
+        if (made.previous != nullptr) made.options.expert.tree = made.previous->shape;
         made.options = complete(std::move(made.options), ranks, nullptr);
         if (parameters.paper_domain) made.paper = make_paper_options(parameters, layout);
         made.renumbering.emplace(parameters, layout, call.outcome.any_names_parts,
-                                 made.options.tree, comm);
+                                 made.options.expert.tree, comm);
         made.last.emplace(static_cast<std::size_t>(layout.map.num_parts));
     });
     return made;

@@ -78,17 +78,18 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     Options options = parameters.options;
     options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;
-    options.axes.plain = parameters.rectilinear_blocks != 0;
+    options.expert.axes.plain = parameters.rectilinear_blocks != 0;
     // The parts of a machine have consecutive numbers only if each rank has the same number of
     // parts.
     const PartMap& map = layout.map;
     const bool are_alike = map.is_even && map.num_parts % map.num_ranks == 0;
-    if (!map.one_each && !are_alike) options.tree.group_size = 1;
+    if (!map.one_each && !are_alike) options.expert.tree.group_size = 1;
     if (parameters.lock_directions != 0 && previous != nullptr) {
-        options.tree = previous->cuts().shape;
-        options.axes.order = AxisOrder::given(axes_of(previous->cuts().tree));
+        options.expert.tree = previous->cuts().shape;
+        options.expert.axes.order = AxisOrder::given(axes_of(previous->cuts().tree));
     } else if (parameters.set_directions != 0) {
-        options.axes.order = AxisOrder::grouped(axis_order(parameters.set_directions, dimension));
+        options.expert.axes.order =
+            AxisOrder::grouped(axis_order(parameters.set_directions, dimension));
     }
     return options;
 }
@@ -100,8 +101,8 @@ PaperOptions make_paper_options(const Parameters& parameters, const Layout& layo
     options.domain = *parameters.paper_domain;
     options.cut_rule = parameters.cut_rule;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
-    if (parameters.options.tuning.support_mesh != 0)
-        options.support_mesh = parameters.options.tuning.support_mesh;
+    if (parameters.options.expert.cells_per_axis != 0)
+        options.support_mesh = parameters.options.expert.cells_per_axis;
     options.sigma_multiplier = parameters.sigma_multiplier;
     options.sample_fraction = parameters.sample_fraction;
     options.seed = parameters.seed;

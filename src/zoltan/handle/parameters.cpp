@@ -105,7 +105,7 @@ bool read_dump_when(bool& always, std::string_view text) {
 
 Options default_options() {
     Options options;
-    options.coincident = Coincident::divide;  // as Zoltan's RCB does
+    options.expert.coincident = Coincident::divide;  // as Zoltan's RCB does
     return options;
 }
 

@@ -98,7 +98,7 @@ TEST(Balancers, do_not_show_in_soil_that_fails) {
 
 TEST(Balancers, do_not_show_where_many_ranks_make_the_parts) {
     rrcb::Options options;
-    options.tuning.central_parts = 2;
+    options.expert.max_root_parts = 2;
     const Scene scene = in_full_weight("slope", 4);
     expect_same(run(scene, "none", MPI_COMM_SELF),
                 run(scene, rrcb_balancer(options), MPI_COMM_WORLD));

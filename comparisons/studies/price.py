@@ -48,7 +48,8 @@ LOOKS = {
 
 
 def measure(driver: Driver, parts: list[int], points: int, repeats: int) -> None:
-    driver.run("step", 4, ["none"], "--scene=slope", "--only=simulations", "--steps=200")
+    driver.run("step", 4, ["none"], "--scene=slope", "--only=simulations",
+               f"--steps={20 if driver.quick else 200}")  # fmt: skip
     methods = [*TOLERANCES.values(), *RIVALS]
     if not has_multijagged(driver.program):
         methods.remove("zoltan2-mj")

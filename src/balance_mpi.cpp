@@ -4,6 +4,7 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/machines_mpi.hpp"
+#include "collective/stamp_access.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "estimate/earlier_cuts.hpp"
 #include "estimate/keeping_mpi.hpp"
@@ -286,7 +287,7 @@ Balance balance(PointPasses& points, const Options& options, const Cuts* previou
         result =
             is_weighed ? better(given, std::move(result), std::move(made), self) : std::move(made);
     }
-    result.cuts.group = mpi::size_of(self.comm) > 1 ? self.group() : 0;
+    detail::StampAccess::ranks(result.cuts.stamp) = mpi::size_of(self.comm) > 1 ? self.group() : 0;
     return result;
 }
 
@@ -295,8 +296,9 @@ Balance balance(const Points& points, const Options& options, const Cuts* previo
     HostPasses host(points, std::move(memory));
     Balance result = balance(host, options, previous, may_keep, self);
     result.parts = host.take_parts();
-    result.cuts.points = hash_if_leaving(points, result.parts, result.cuts.num_parts,
-                                         mpi::rank_of(self.comm), mpi::size_of(self.comm));
+    detail::StampAccess::points(result.cuts.stamp) =
+        hash_if_leaving(points, result.parts, result.cuts.num_parts, mpi::rank_of(self.comm),
+                        mpi::size_of(self.comm));
     return result;
 }
 

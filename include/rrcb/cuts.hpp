@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/points.hpp>
+#include <rrcb/stamp.hpp>
 #include <rrcb/tree_shape.hpp>
 
 #include <mpi.h>
@@ -49,13 +50,7 @@ struct Cuts {
     /// number of points whose migration costs as much, divided by the number of all points. The
     /// next balance needs it.
     double debt = 0;
-    /// Random number that identifies the ranks of the balance, by which calls check their
-    /// communicator; 0 for a balance on one rank: no check. Set it to 0 to use the cuts on other
-    /// ranks.
-    std::uint64_t group = 0;
-    /// Hash of this rank's points of the balance, if at least one of them has to leave; otherwise
-    /// 0. By it ghost_plan() recognizes points that were not transferred.
-    std::uint64_t points = 0;
+    Stamp stamp{};  ///< of the balance, see unstamped()
 
     /// Returns true for cuts that no balance has made, such as Cuts{}. Not collective.
     bool empty() const { return dimension == 0 && tree.empty(); }

@@ -45,10 +45,7 @@ struct GhostPlan {
     std::vector<RankCount> receive;  ///< number of ghosts from each rank
     Box periodic{};                  ///< repeated box; empty: none
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
-    std::uint64_t group = 0;         ///< as Cuts::group
-    /// Number of the call on this rank, by which fetch() recognizes ghosts that were found before a
-    /// transfer. Set it to 0 if as many other points were transferred instead.
-    std::uint64_t stamp = 0;
+    Stamp stamp{};                   ///< of the call, see unstamped()
     double radius = std::numeric_limits<double>::quiet_NaN();  ///< as in the options
     Needs needs = Needs::scatter;                              ///< as in the options
     /// Memory that fetch() and similar functions keep for the next call. Copies of the plan share

@@ -290,7 +290,7 @@ class Neighbours {
                     std::array<detail::SumColumn, sizeof...(Columns)>{summed_alone(columns)...});
     }
 
-    /// Returns the lists of find_ghosts() with the stamp of a plan: `send` and `send_indices`, and
+    /// Returns the lists of find_ghosts() with a stamp: `send` and `send_indices`, and
     /// after the first fetch() also `receive` and `shifts`. They are valid until the next call. Not
     /// collective.
     RRCB_API const GhostPlan& ghost_plan() const;

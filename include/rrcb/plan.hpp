@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/points.hpp>
+#include <rrcb/stamp.hpp>
 
 #include <mpi.h>
 
@@ -49,8 +50,7 @@ struct Plan {
     std::vector<LocalIndex> import_indices;  ///< their indices on the source, ascending for each
                                              ///< rank
     std::vector<Part> import_parts;          ///< their new parts
-    std::uint64_t group = 0;                 ///< as Cuts::group
-    std::uint64_t stamp = 0;  ///< number of the plan on this rank; 0: made without plan()
+    Stamp stamp{};                           ///< of the call, see unstamped()
 };
 
 /// Makes the export and import lists of the points whose rank changes. Collective.

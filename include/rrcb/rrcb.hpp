@@ -14,5 +14,6 @@
 #include <rrcb/quality.hpp>
 #include <rrcb/remap.hpp>
 #include <rrcb/restart.hpp>
+#include <rrcb/stamp.hpp>
 #include <rrcb/transfer.hpp>
 #include <rrcb/version.hpp>

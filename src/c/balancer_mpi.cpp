@@ -3,6 +3,7 @@
 #include "c/for_fortran.h"
 #include "c/handle_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "collective/stamp_access.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "options/request.hpp"
 #include "verbose_mpi.hpp"
@@ -69,7 +70,7 @@ int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points, in
         const std::vector<rrcb::Part> found = rrcb::assign(own.cuts, positions, self);
         std::ranges::copy(found, parts);
         own.lower_count(positions.count);
-        own.cuts.points =
+        rrcb::detail::StampAccess::points(own.cuts.stamp) =
             rrcb::hash_if_leaving(positions, found, own.cuts.num_parts,
                                   rrcb::mpi::rank_of(self.comm), rrcb::mpi::size_of(self.comm));
     });

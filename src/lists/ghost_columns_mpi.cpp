@@ -1,6 +1,7 @@
 #include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/stamp_access.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/kept_delivery_mpi.hpp"
@@ -17,7 +18,7 @@ using detail::ByteColumn;
 
 /// Throws Error unless the plan is consistent; returns the number of ghosts.
 LocalIndex check(const GhostPlan& plan, const Participant& self) {
-    mpi::require_group(plan.group, "the plan", self);
+    mpi::require_group(detail::StampAccess::ranks(plan.stamp), "the plan", self);
     const int num_ranks = mpi::size_of(self.comm);
     check_counts(plan.send, plan.send_indices.size(), num_ranks);
     const LocalIndex num_ghosts = total(plan.receive);
@@ -32,7 +33,8 @@ LocalIndex check(const GhostPlan& plan, const Participant& self) {
 /// 0.
 std::uint64_t overtaking(const GhostPlan& plan, MPI_Comm comm) {
     const TransferLog* log = mpi::Attribute<TransferLog>::find(comm);
-    return log != nullptr && plan.stamp != 0 ? log->overtaking(plan) : 0;
+    return log != nullptr && detail::StampAccess::points(plan.stamp) != 0 ? log->overtaking(plan)
+                                                                          : 0;
 }
 
 /// Throws Error unless the groups are consistent. Returns the number of groups that other ranks

@@ -3,6 +3,7 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/rank_counts_mpi.hpp"
+#include "collective/stamp_access.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/near_boxes.hpp"
@@ -201,7 +202,8 @@ void exchange_shifts(GhostPlan& plan, Participant& self) {
 /// the hash unchanged, so points after such a transfer are accepted. If the caller gives the ranks
 /// of the parts, nothing is known and nothing is refused.
 void refuse_points_of_balance(const Cuts& cuts, const GhostRequest& request, MPI_Comm comm) {
-    if (cuts.points == 0 || request.holders.given || cuts.points != hash_of(request.points)) return;
+    const std::uint64_t hash = detail::StampAccess::points(cuts.stamp);
+    if (hash == 0 || request.holders.given || hash != hash_of(request.points)) return;
     const TransferLog* log = mpi::Attribute<TransferLog>::find(comm);
     if (log != nullptr && log->are_like_before(request.points.count)) return;
     reject(
@@ -227,7 +229,7 @@ GhostPlan ghosts(const Cuts& cuts, GhostRequest& request, Participant& self) {
         Neighbourhood(cuts, request).list(plan);
     };
     self.attempt([&] {
-        mpi::require_group(cuts.group, "the balance of the cuts", self);
+        mpi::require_group(detail::StampAccess::ranks(cuts.stamp), "the balance of the cuts", self);
         request.check(cuts);
         refuse_points_of_balance(cuts, request, self.comm);
         request.radii.are_of_receivers() ? request.note_reaches(cuts) : list();
@@ -263,8 +265,8 @@ GhostPlan ghost_plan(const Cuts& cuts, const Points& points, const GhostOptions&
     if (points.count == 0 && std::isnan(options.radius)) request.radii.each.emplace();
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);
-    plan.group = self.group();
-    plan.stamp = next_stamp();
+    detail::StampAccess::ranks(plan.stamp) = self.group();
+    detail::StampAccess::points(plan.stamp) = next_stamp();
     plan.radius = options.radius;
     plan.needs = options.needs;
     if (options.periodic) plan.periodic = *options.periodic;

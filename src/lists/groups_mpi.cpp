@@ -1,6 +1,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/stamp_access.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/notices_mpi.hpp"
 #include "options/rejection.hpp"
@@ -196,7 +197,7 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
     const int num_ranks = mpi::size_of(self.comm);
     Groups result;
     result.dimension = points.dimension;
-    result.plan.group = self.group();
+    detail::StampAccess::ranks(result.plan.stamp) = self.group();
     LocalGroups local;
     Labels ranks;
     self.attempt([&] {

@@ -4,6 +4,7 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/rank_counts_mpi.hpp"
+#include "collective/stamp_access.hpp"
 #include "lists/message_rows.hpp"
 #include "lists/neighbours_state_mpi.hpp"
 #include "lists/remap_mpi.hpp"
@@ -50,7 +51,7 @@ Neighbours::Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& 
     std::uint64_t bits_of_ranks = 0;
     std::uint64_t bits_of_box = 0;
     self.attempt([&] {
-        mpi::require_group(cuts.group, "the balance of the cuts", self);
+        mpi::require_group(detail::StampAccess::ranks(cuts.stamp), "the balance of the cuts", self);
         state_ = std::make_unique<State>(cuts, options, mpi::rank_of(self.comm),
                                          mpi::size_of(self.comm));
         near = state_->territory.near_ranks();
@@ -61,7 +62,7 @@ Neighbours::Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& 
     std::vector<int> ranks = mutual(near, self);
     self.attempt([&] {
         state_->open(std::move(ranks), self.log);
-        state_->ghosts.group = self.group();
+        detail::StampAccess::ranks(state_->ghosts.stamp) = self.group();
     });
     agree(self, {{"the tree of cuts", bits_of_cuts},
                  shared("the radius", options.radius),

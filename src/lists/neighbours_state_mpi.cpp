@@ -1,6 +1,7 @@
 #include "lists/neighbours_state_mpi.hpp"
 
 #include "collective/column_type.hpp"
+#include "collective/stamp_access.hpp"
 #include "lists/message_rows.hpp"
 #include "lists/near_points.hpp"
 #include "lists/part_reaches.hpp"
@@ -120,7 +121,7 @@ void Neighbours::State::find_ghosts(const Points& points, const Radii& radii) {
         ghosts.receive.clear();
         note_sent();
         ghosts.num_points = points.count;
-        ghosts.stamp = next_stamp();
+        detail::StampAccess::points(ghosts.stamp) = next_stamp();
         ++num_found;
         stage = Stage::found;
     });

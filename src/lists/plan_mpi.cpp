@@ -1,5 +1,6 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/stamp_access.hpp"
 #include "cuts/owned_cuts.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/notices_mpi.hpp"
@@ -104,8 +105,8 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
             result.import_parts.push_back(notice.part);
         },
         {{"num_parts", static_cast<std::uint64_t>(num_parts)}}, self);
-    result.group = self.group();
-    result.stamp = next_stamp();
+    detail::StampAccess::ranks(result.stamp) = self.group();
+    detail::StampAccess::points(result.stamp) = next_stamp();
     return result;
 }
 
@@ -116,7 +117,9 @@ Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
 
 Plan plan(const Balance& balance, MPI_Comm user) {
     Participant self = mpi::enter(user, CallName::plan);
-    self.attempt([&] { mpi::require_group(balance.cuts.group, "the balance", self); });
+    self.attempt([&] {
+        mpi::require_group(detail::StampAccess::ranks(balance.cuts.stamp), "the balance", self);
+    });
     return plan(balance.parts, balance.cuts.num_parts, self);
 }
 

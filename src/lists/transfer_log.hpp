@@ -1,5 +1,7 @@
 #pragma once
 
+#include "collective/stamp_access.hpp"
+
 #include <rrcb/ghosts.hpp>
 #include <rrcb/plan.hpp>
 
@@ -27,12 +29,13 @@ class TransferLog {
     /// result on this rank may have the same hash as the points before.
     void add(const Plan& plan, bool moves, bool is_like_before) {
         ++number_;
-        if (!moves || plan.stamp == 0) return;
-        auto place = std::ranges::find(transfers_, plan.stamp, &Transfer::plan);
+        const std::uint64_t stamp = detail::StampAccess::points(plan.stamp);
+        if (!moves || stamp == 0) return;
+        auto place = std::ranges::find(transfers_, stamp, &Transfer::plan);
         if (place == transfers_.end())
             place = std::ranges::min_element(transfers_, {}, &Transfer::number);
-        const bool was_like_before = place->plan == plan.stamp && place->is_like_before;
-        *place = {plan.stamp, number_, plan.num_points,
+        const bool was_like_before = place->plan == stamp && place->is_like_before;
+        *place = {stamp, number_, plan.num_points,
                   plan.num_points - plan.export_indices.size() + plan.import_ranks.size(),
                   is_like_before || was_like_before};
     }
@@ -50,12 +53,13 @@ class TransferLog {
 
     /// Returns the number of the latest transfer that made the ghosts stale, or 0.
     std::uint64_t overtaking(const GhostPlan& ghosts) const {
+        const std::uint64_t stamp = detail::StampAccess::points(ghosts.stamp);
         std::uint64_t back = 0;
         std::uint64_t taken = 0;
         for (const Transfer& transfer : transfers_) {
-            if (transfer.plan < ghosts.stamp && transfer.after == ghosts.num_points)
+            if (transfer.plan < stamp && transfer.after == ghosts.num_points)
                 back = std::max(back, transfer.number);
-            if (transfer.plan > ghosts.stamp && transfer.before == ghosts.num_points)
+            if (transfer.plan > stamp && transfer.before == ghosts.num_points)
                 taken = std::max(taken, transfer.number);
         }
         return taken > back ? taken : 0;

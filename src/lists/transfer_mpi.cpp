@@ -2,6 +2,7 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/rank_order.hpp"
+#include "collective/stamp_access.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"
 #include "lists/transfer_log.hpp"
@@ -48,7 +49,7 @@ struct TransferLists {
 /// Makes the lists of a transfer. Throws Error if the plan is inconsistent.
 Delivery make_lists(const Plan& plan, TransferLists& lists, Participant& self) {
     const int num_ranks = mpi::size_of(self.comm);
-    mpi::require_group(plan.group, "the plan", self);
+    mpi::require_group(detail::StampAccess::ranks(plan.stamp), "the plan", self);
     check_lists(plan, num_ranks);
     RankOrder order(plan.export_ranks, num_ranks);
     lists.sent.resize(plan.export_indices.size());

@@ -38,8 +38,8 @@ std::uint64_t hash_of(std::span<const double> values);
 /// 0.
 std::uint64_t hash_of(const Points& points);
 
-/// Returns the value of Cuts::points: hash_of(points) if at least one of the points has to leave
-/// `rank` for its part, otherwise 0.
+/// Returns the points of the stamp of cuts: hash_of(points) if at least one of the points has to
+/// leave `rank` for its part, otherwise 0.
 std::uint64_t hash_if_leaving(const Points& points, std::span<const Part> parts, int num_parts,
                               int rank, int num_ranks);
 

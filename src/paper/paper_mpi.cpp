@@ -3,6 +3,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/stamp_access.hpp"
 #include "estimate/cell_records.hpp"
 #include "estimate/decision_mpi.hpp"
 #include "options/rejection.hpp"
@@ -150,11 +151,12 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
                     [&] { bisect_domain(mine, options, plain.part_sizes, decision); });
     result.report = report_of(decision.verdict, options.num_parts, plain.part_sizes);
     result.cuts = std::move(decision.cuts);
-    result.cuts.group = mpi::size_of(self.comm) > 1 ? self.group() : 0;
+    detail::StampAccess::ranks(result.cuts.stamp) = mpi::size_of(self.comm) > 1 ? self.group() : 0;
     self.attempt([&] {
         assign(result.cuts, points, result.parts);
-        result.cuts.points = hash_if_leaving(points, result.parts, options.num_parts,
-                                             mpi::rank_of(self.comm), mpi::size_of(self.comm));
+        detail::StampAccess::points(result.cuts.stamp) =
+            hash_if_leaving(points, result.parts, options.num_parts, mpi::rank_of(self.comm),
+                            mpi::size_of(self.comm));
     });
     agree(self);
     return result;

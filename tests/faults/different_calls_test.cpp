@@ -39,7 +39,7 @@ struct Input {
         for (int r = 0; r < num_ranks(); ++r) ranks.push_back({r, 1});
         for (std::uint64_t i = 0; i < 40; ++i) keys.push_back(i / 2);
         balanced = balance(points, world);
-        balanced.cuts.points = 0;  // the points stay where they are
+        balanced.cuts = unstamped(balanced.cuts);  // the points stay where they are
         lists = plan(balanced, world);
         near = ghost_plan(balanced.cuts, points, world, {.radius = 0.1});
         clusters = groups(points, keys, world);

@@ -153,7 +153,7 @@ void moves(const Round& round, MPI_Comm comm, Answer& answer) {
 void fetches_ghosts(const Round& round, MPI_Comm comm, Answer& answer) {
     const Points points = round.mine.points();
     Cuts cuts = balance(points, comm, options_of(round)).cuts;
-    cuts.points = 0;  // the points stay where they are
+    cuts = unstamped(cuts);  // the points stay where they are
     const double radius = std::ldexp(static_cast<double>(round.drawn() % 8), -4);
     const GhostPlan lists = ghost_plan(cuts, points, comm, {.radius = radius});
     answer << lists.send << lists.send_indices

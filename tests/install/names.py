@@ -38,6 +38,7 @@ ONLY_CPP = {
     "AxisOrder": "axes.order is for C++ only",
     "GhostArrays": "made by ghosts_of",
     "Cuts": "rrcb_get_cuts fails without cuts",
+    "unstamped": "a balancer has one communicator",
     "Error": "rrcb_code and rrcb_last_error",
 }
 # Functions in C alone: a handle holds what is an argument or a result in C++.

@@ -35,7 +35,7 @@ class CGhosts : public testing::Test {
         rrcb_cuts shown = RRCB_CUTS_INIT;
         ASSERT_EQ(rrcb_get_cuts(balancer, &shown), RRCB_OK);
         ASSERT_EQ(rrcb_set_cuts(balancer, &shown), RRCB_OK);
-        cuts.points = 0;
+        cuts = unstamped(cuts);
     }
 
     Points points() const { return Points(coordinates, 3, weights); }

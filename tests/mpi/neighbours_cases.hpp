@@ -139,7 +139,7 @@ class NeighbourRun {
         if (input_.turns_parts) same.ranks_of_parts = ranks_;
         same.needs = input_.needs;
         Cuts cuts = cuts_;
-        cuts.points = cuts.group = 0;
+        cuts = unstamped(cuts);
         const GhostPlan plan = ghost_plan(cuts, points(), MPI_COMM_WORLD, same);
         if (input_.has_radii)
             neighbours.find_ghosts(column(x_, dim_), radii);

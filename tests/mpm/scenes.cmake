@@ -214,6 +214,11 @@ if(has_matplotlib)
     rrcb_set_tests_properties(mpm_draw_${scene} PROPERTIES FIXTURES_REQUIRED mpm_scene_${scene}
                                                       TIMEOUT 60 LABELS mpm)
   endforeach()
+  add_test(NAME mpm_draw_run_out
+           COMMAND ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/parts.py
+                   ${CMAKE_CURRENT_BINARY_DIR}/run_out ${CMAKE_CURRENT_BINARY_DIR}/run_out.png)
+  rrcb_set_tests_properties(mpm_draw_run_out PROPERTIES FIXTURES_REQUIRED mpm_scene_run_out TIMEOUT 60
+                                                    LABELS mpm)
   set(ending_of_draw png)
   set(ending_of_animate gif)
   foreach(kind draw animate)

@@ -54,7 +54,7 @@ Arm loop(const Flow& flow) {
         {"ghosts",
          [=](const Particles& p) {
              state->near =
-                 rrcb::ghost_plan(state->balance.cuts, p.points(), comm, {.radius = radius});
+                 rrcb::ghost_plan(state->balance.cuts, p.points(), comm, {.cutoff = radius});
          }},
         {"fetch",
          [=](Particles& p) {
@@ -73,7 +73,7 @@ Arm neighbours(const Flow& flow) {
     using rrcb::column;
     const auto near = std::make_shared<rrcb::Neighbours>(
         flow.cuts(), flow.comm(),
-        rrcb::NeighbourOptions{.radius = flow.radius(), .travel = flow.travel()});
+        rrcb::NeighbourOptions{.cutoff = flow.radius(), .travel = flow.travel()});
     const std::size_t width = static_cast<std::size_t>(flow.dimension());
     return {
         {"migrate",

@@ -62,7 +62,7 @@ Size size_of(const Flow& flow) {
     const rrcb::Plan plan = rrcb::plan(parts, num_ranks, flow.comm());
     const auto x = rrcb::transfer(plan, particles.column(particles.x), flow.comm());
     const rrcb::GhostPlan near = rrcb::ghost_plan(flow.cuts(), rrcb::Points(x, flow.dimension()),
-                                                  flow.comm(), {.radius = flow.radius()});
+                                                  flow.comm(), {.cutoff = flow.radius()});
     Size size{static_cast<double>(plan.export_ranks.size()),
               static_cast<double>(near.send_indices.size())};
     for (double* number : {&size.leavers, &size.ghosts}) {

@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
         // Sends each point to the ranks whose boxes are near it. Reads the host's copy of the
         // positions.
         const rrcb::GhostPlan near =
-            rrcb::ghost_plan(balance.cuts, rrcb::Points(here), MPI_COMM_WORLD, {.radius = 0.02});
+            rrcb::ghost_plan(balance.cuts, rrcb::Points(here), MPI_COMM_WORLD, {.cutoff = 0.02});
         const std::span values(here.data(), here.span());
         const auto ghosts = rrcb::fetch(near, rrcb::column(values, 2), MPI_COMM_WORLD);
         if (rank == 0)

@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
                 const rrcb::Plan plan = rrcb::plan(balance, comm);
                 positions = rrcb::transfer(plan, rrcb::column(positions, 2), comm);
                 cuts = balance.cuts;
-                neighbours = rrcb::Neighbours(cuts, comm, {.radius = radius, .travel = travel});
+                neighbours = rrcb::Neighbours(cuts, comm, {.cutoff = radius, .travel = travel});
                 controller.rebalanced({.cost = MPI_Wtime() - start, .report = &balance.report});
             } else {
                 neighbours->migrate(rrcb::column(positions, 2));

@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
             std::printf("continued at step %d: %s\n", run.step, model.report().c_str());
         rrcb::Cuts cuts;
         std::optional<rrcb::Neighbours> neighbours;
-        const rrcb::NeighbourOptions options{.radius = radius, .travel = travel};
+        const rrcb::NeighbourOptions options{.cutoff = radius, .travel = travel};
         if (!run.cuts.empty()) {
             cuts = rrcb::load<rrcb::Cuts>(run.cuts);
             neighbours = rrcb::Neighbours(cuts, comm, options);

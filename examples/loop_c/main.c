@@ -155,7 +155,7 @@ int main(int argc, char** argv) {
         check(rrcb_cost_model_create(comm, controller, 2, &model));
     }
     rrcb_neighbour_options options = RRCB_NEIGHBOUR_OPTIONS_INIT;
-    options.radius = radius;
+    options.cutoff = radius;
     options.travel = travel;
     rrcb_neighbours* neighbours = NULL;
     if (run.cuts.size > 0) check(rrcb_neighbours_create(balancer, &options, &neighbours));

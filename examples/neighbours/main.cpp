@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < here.size() / 2; ++i)
         radii.push_back(found[i * num_nearest + num_nearest - 1]);
     const rrcb::GhostPlan asked =
-        rrcb::ghost_plan(balance.cuts, rrcb::Points(here, 2), comm, {.radii = radii});
+        rrcb::ghost_plan(balance.cuts, rrcb::Points(here, 2), comm, {.cutoff = radii});
     const std::vector<double> queries = rrcb::fetch(asked, rrcb::column(here, 2), comm);
     const std::vector<double> answers =
         rrcb::reply(asked, rrcb::column(nearest(here, queries), num_nearest), comm);

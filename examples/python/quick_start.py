@@ -22,7 +22,7 @@ balance = rrcb.balance(x, weights=mass, comm=comm, tolerance=1.01)
 here = balance.transfer({"x": x, "mass": mass})
 
 # The ghosts are copies of other ranks' points within 0.02 of this rank's box.
-ghosts = balance.ghosts(here["x"], radius=0.02)
+ghosts = balance.ghosts(here["x"], cutoff=0.02)
 near = ghosts.fetch(here)
 
 loads = comm.allgather(here["mass"].sum())

@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     const std::vector<double> here =
         rrcb::transfer(plan, rrcb::column(coordinates, 2), MPI_COMM_WORLD);
     const rrcb::GhostPlan near =
-        rrcb::ghost_plan(balance.cuts, rrcb::Points(here, 2), MPI_COMM_WORLD, {.radius = 0.05});
+        rrcb::ghost_plan(balance.cuts, rrcb::Points(here, 2), MPI_COMM_WORLD, {.cutoff = 0.05});
     const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(here, 2), MPI_COMM_WORLD);
 
     const double moved = rrcb::moved_fraction(points, balance, MPI_COMM_WORLD);

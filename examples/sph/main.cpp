@@ -31,7 +31,7 @@ Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
             std::tie(own.positions, own.velocities, own.numbers) =
                 rrcb::transfer(rrcb::plan(balance, comm), columns, comm);
             near = rrcb::ghost_plan(balance.cuts, rrcb::Points(own.positions, 2), comm,
-                                    {.radius = reach + skin, .periodic = {{{0, 0}, {1, 1}}}});
+                                    {.cutoff = reach + skin, .periodic = {{{0, 0}, {1, 1}}}});
             numbers = joined(own.numbers, rrcb::fetch(near, own.numbers, comm));
             travelled = 0;
         }

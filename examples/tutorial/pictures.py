@@ -70,7 +70,7 @@ def parts(steps, num_parts=4):
 def ghosts_of(rank, steps):
     balance = rrcb.balance(water_after(steps)[comm.rank :: comm.size], comm=comm)
     own = balance.transfer(water_after(steps)[comm.rank :: comm.size])
-    near = balance.ghosts(own, radius=RADIUS).fetch(own)
+    near = balance.ghosts(own, cutoff=RADIUS).fetch(own)
     everything, copies = comm.gather(own), comm.gather(near)
     if comm.rank > 0:
         return None

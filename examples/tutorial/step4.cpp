@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
         const rrcb::Balance balance = rrcb::balance(points, comm);
         own = rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(own, 2), comm);
         const rrcb::GhostPlan near =
-            rrcb::ghost_plan(balance.cuts, rrcb::Points(own, 2), comm, {.radius = radius});
+            rrcb::ghost_plan(balance.cuts, rrcb::Points(own, 2), comm, {.cutoff = radius});
         const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(own, 2), comm);
         const double pairs = count_pairs(own, own) + count_pairs(own, ghosts);
         move(own);

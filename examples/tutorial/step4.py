@@ -12,7 +12,7 @@ loads = Loads()
 for step in range(NUM_STEPS):
     balance = rrcb.balance(own, comm=comm)
     own = balance.transfer(own)
-    ghosts = balance.ghosts(own, radius=RADIUS).fetch(own)
+    ghosts = balance.ghosts(own, cutoff=RADIUS).fetch(own)
     pairs = count_pairs(own, own) + count_pairs(own, ghosts)
     move(own)
     loads.add(pairs, comm)

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
                 const rrcb::Balance balance = rrcb::balance(points, comm, {}, cuts);
                 own = rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(own, 2), comm);
                 cuts = balance.cuts;
-                neighbours = rrcb::Neighbours(cuts, comm, {.radius = radius, .travel = travel});
+                neighbours = rrcb::Neighbours(cuts, comm, {.cutoff = radius, .travel = travel});
                 controller.rebalanced({.cost = cost, .report = &balance.report});
                 ++rebalances;
             } else {

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
                 const rrcb::Balance balance = rrcb::balance(points, comm, {}, cuts);
                 own = rrcb::transfer(rrcb::plan(balance, comm), rrcb::column(own, 2), comm);
                 cuts = balance.cuts;
-                neighbours = rrcb::Neighbours(cuts, comm, {.radius = radius, .travel = travel});
+                neighbours = rrcb::Neighbours(cuts, comm, {.cutoff = radius, .travel = travel});
                 controller.rebalanced({.cost = 2000, .report = &balance.report});
             } else {
                 neighbours->migrate(rrcb::column(own, 2));

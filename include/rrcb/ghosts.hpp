@@ -21,6 +21,7 @@ namespace rrcb {
 namespace detail {
 
 class KeptExchange;
+struct CutoffAccess;
 
 }  // namespace detail
 
@@ -46,25 +47,44 @@ struct GhostPlan {
     Box periodic{};                  ///< repeated box; empty: none
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
     Stamp stamp{};                   ///< of the call, see unstamped()
-    double radius = std::numeric_limits<double>::quiet_NaN();  ///< as in the options
-    Needs needs = Needs::scatter;                              ///< as in the options
+    std::optional<double> cutoff{};  ///< of all points, as in the options
+    Needs needs = Needs::scatter;    ///< as in the options
     /// Memory that fetch() and similar functions keep for the next call. Copies of the plan share
     /// it. Reset it to free it.
     mutable std::shared_ptr<detail::KeptExchange> kept{};
 };
 
+/// Distance within which points are needed, in the unit of the coordinates: one for all points, or
+/// one for each.
+class Cutoff {
+  public:
+    /// No distance, which no call accepts. Not collective, as all of these.
+    Cutoff() = default;
+    /// One distance for all points.
+    Cutoff(double distance) : of_all_(distance) {}
+    /// One distance for each point of this rank, borrowed: a vector or an array of doubles.
+    template <class Distances>
+    requires std::is_convertible_v<const Distances&, std::span<const double>> Cutoff(
+        const Distances& distances)
+        : of_each_(std::span<const double>(distances)) {}
+
+  private:
+    friend struct detail::CutoffAccess;
+    std::optional<double> of_all_{};
+    std::optional<std::span<const double>> of_each_{};
+};
+
 /// Distances within which points are needed, and the ranks of the parts. All options must be the
-/// same on every rank, except `radii`: either every rank with points gives them, or none does.
+/// same on every rank, except a cutoff for each point: either every rank with points gives one, or
+/// none does.
 struct GhostOptions {
-    /// Cut-off radius of all points, in the unit of the coordinates; NaN: not given.
-    double radius = std::numeric_limits<double>::quiet_NaN();
-    /// One radius for each point instead; for contacts of spheres, give the diameters. By default
-    /// the radii of the points sent count (see `needs`): if two points on different ranks are
-    /// nearer than the larger of their radii, the point with the larger radius is a ghost on the
-    /// other point's rank; the other point need not be a ghost. To meet each pair once, use ghost g
-    /// of point p only if radius(g) > radius(p), or if the radii are equal and id(g) > id(p). An id
-    /// is any number of a point that is the same on all ranks.
-    std::optional<std::span<const double>> radii{};
+    /// One distance for all points, or one for each; for contacts of spheres, give the diameters.
+    /// By default the distances of the points sent count (see `needs`): if two points on different
+    /// ranks are nearer than the larger of their distances, the point with the larger one is a
+    /// ghost on the other point's rank; the other point need not be a ghost. To meet each pair
+    /// once, use ghost g of point p only if cutoff(g) > cutoff(p), or if they are equal and id(g) >
+    /// id(p). An id is any number of a point that is the same on all ranks.
+    Cutoff cutoff{};
     /// Periodic box that contains all points: [lower, upper) along each axis with finite ends.
     /// Along axes with infinite ends it is not periodic. Wrap positions first; a point on an upper
     /// face, where rounding may put it, is treated as if it were just below the face. A rank may
@@ -84,7 +104,7 @@ struct GhostOptions {
 
 /// Finds from the cuts the points that other ranks need. Collective.
 ///
-///     const rrcb::GhostPlan near = rrcb::ghost_plan(balance.cuts, points, comm, {.radius = 0.1});
+///     const rrcb::GhostPlan near = rrcb::ghost_plan(balance.cuts, points, comm, {.cutoff = 0.1});
 ///
 /// A rank needs the points of others whose distance from the closed region of one of its parts is
 /// at most the radius, plus round-off. If points are outside the regions of their rank, as members

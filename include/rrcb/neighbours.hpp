@@ -21,9 +21,9 @@ namespace rrcb {
 /// Distances within which ranks are neighbours, and the ranks of the parts. They must be the same
 /// on every rank.
 struct NeighbourOptions {
-    /// Cut-off radius of ghosts, in the unit of the coordinates; if points have different radii,
-    /// the largest.
-    double radius = 0;
+    /// Cutoff of ghosts, in the unit of the coordinates; if points have different ones, the
+    /// largest.
+    double cutoff = 0;
     /// Distance that a point may move between two calls of migrate(), in the same unit.
     double travel = 0;
     /// Periodic box that contains all points, as GhostOptions::periodic. Wrap positions before each
@@ -136,7 +136,7 @@ ByteColumn resizable_column(Array&& array) {
 /// The ranks near this one, for the exchanges in each step of a simulation. A call sends one
 /// message to each neighbour; only the constructor is collective.
 ///
-///     rrcb::Neighbours neighbours(balance.cuts, comm, {.radius = r, .travel = t});
+///     rrcb::Neighbours neighbours(balance.cuts, comm, {.cutoff = r, .travel = t});
 ///     ...                                                // in each step:
 ///     neighbours.migrate(column(x, 3), column(v, 3), ids);
 ///     neighbours.find_ghosts(column(x, 3));
@@ -205,7 +205,7 @@ class Neighbours {
     /// give radii with a skin, and call neither migrate() nor find_ghosts() until the skin is used
     /// up.
     /// @param positions a column with an entry for each axis, or Points
-    /// @param radii     one for each point, at most NeighbourOptions::radius; by default all have
+    /// @param radii     one for each point, at most NeighbourOptions::cutoff; by default all have
     /// that radius
     /// Throws Error on this rank, and on the neighbours in their next exchange: for a point that is
     /// so far outside the parts of this rank that ranks other than neighbours need it, and as

@@ -2,7 +2,7 @@
 
     balance = rrcb.balance(x, comm=comm)
     data = balance.transfer({"x": x, "mass": mass})
-    ghosts = balance.ghosts(data["x"], radius=0.1)
+    ghosts = balance.ghosts(data["x"], cutoff=0.1)
     x_of_ghosts = ghosts.fetch_positions(data["x"])
 
 The calls are collective over the communicator. An error raises the same rrcb.Error on every rank.

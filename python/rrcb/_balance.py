@@ -137,17 +137,17 @@ class Distribution(Plan):
     def _weighed(self, weights: Any) -> Points:
         return Points(np.zeros((len(self.parts), self.cuts.dimension)), weights)
 
-    def ghosts(self, x: Any, radius: Any, period: Any = None, needs: str = "scatter") -> Ghosts:
-        """Finds the points that other ranks need within a radius. Collective.
+    def ghosts(self, x: Any, cutoff: Any, period: Any = None, needs: str = "scatter") -> Ghosts:
+        """Finds the points that other ranks need, within a cutoff distance. Collective.
 
         `x` are the positions on this rank after transfer(); positions before it are refused.
-        `radius` is a number, or an array with a radius for each point, within which other ranks
-        need the point. With `needs` "gather" it is the radius within which the point needs
+        `cutoff` is a number, or an array with a cutoff for each point, within which other ranks
+        need the point. With `needs` "gather" it is the cutoff within which the point needs
         others, with "symmetric" it is both (docs/loop.md). `period` is the length of a periodic box
         that begins at 0, as one number or one for each axis (infinity: not periodic), or the
         corners (lower, upper) of the box.
         """
-        return Ghosts(self.comm, self._own, x, radius, period, needs, self.numbers)
+        return Ghosts(self.comm, self._own, x, cutoff, period, needs, self.numbers)
 
 
 class Balance(Distribution):

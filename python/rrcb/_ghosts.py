@@ -32,26 +32,26 @@ class Ghosts:
         comm: MPI.Intracomm,
         balancer: c.Handle,
         x: Any,
-        radius: Any,
+        cutoff: Any,
         period: Any,
         needs: str = "scatter",
         numbers: Array | None = None,
     ) -> None:
         def local() -> tuple[Points, c.GhostOptions, Array, Array | None]:
             points = Points(x)
-            radii, box = radius_of(radius, points.count), box_of(period, points.dimension)
-            options = options_of(radii, box, needs)
+            cutoffs, box = cutoff_of(cutoff, points.count), box_of(period, points.dimension)
+            options = options_of(cutoffs, box, needs)
             if numbers is not None:
                 self._ranges = ranges_of(numbers, self.comm.Get_size())
                 options.ranks_of_parts = ctypes.addressof(self._ranges)
                 options.num_parts = len(numbers)
-            return points, options, radii, box
+            return points, options, cutoffs, box
 
         def collective(
-            points: Any = None, options: Any = None, radii: Any = None, box: Any = None
+            points: Any = None, options: Any = None, cutoffs: Any = None, box: Any = None
         ) -> None:
             self._own = c.OwnedHandle("ghosts_create", "ghosts_destroy", balancer, points, options)
-            self._box, self._radii = box, radii
+            self._box, self._cutoffs = box, cutoffs
             self._read(points.dimension)
 
         self.comm = communicator(comm)
@@ -152,13 +152,13 @@ def numbers_of(data: Any, rows: int, rows_after: int) -> Columns:
     return columns
 
 
-def radius_of(radius: Any, count: int) -> Array:
-    """Returns one radius, or one for each point."""
-    radii = numbers_in(radius, "radius")
-    if radii.ndim > 1 or (radii.ndim == 1 and len(radii) != count):
-        raise c.Error(f"radius must be a number or have the shape ({count},), not {radii.shape}")
-    # For the library a single radius of 0 means that none is given.
-    return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii.copy()
+def cutoff_of(cutoff: Any, count: int) -> Array:
+    """Returns one cutoff, or one for each point."""
+    cutoffs = numbers_in(cutoff, "cutoff")
+    if cutoffs.ndim > 1 or (cutoffs.ndim == 1 and len(cutoffs) != count):
+        raise c.Error(f"cutoff must be a number or have the shape ({count},), not {cutoffs.shape}")
+    # For the library a single cutoff of 0 means that none is given.
+    return np.zeros(count) if cutoffs.ndim == 0 and cutoffs == 0 else cutoffs.copy()
 
 
 def ranges_of(numbers: Array, num_ranks: int) -> ctypes.Array[c.RankRange]:
@@ -169,16 +169,16 @@ def ranges_of(numbers: Array, num_ranks: int) -> ctypes.Array[c.RankRange]:
     return ranges
 
 
-def options_of(radii: Array, box: Array | None, needs: str) -> c.GhostOptions:
+def options_of(cutoffs: Array, box: Array | None, needs: str) -> c.GhostOptions:
     """Returns the library's options, which borrow the arrays."""
     if needs not in NEEDS:
         raise c.Error(f"needs must be one of {', '.join(NEEDS)}, not {needs!r}")
     options = c.GhostOptions()
     options.needs = NEEDS.index(needs)
-    if radii.ndim == 0:
-        options.radius = float(radii)
+    if cutoffs.ndim == 0:
+        options.cutoff = float(cutoffs)
     else:
-        options.radii = pointer(radii)
+        options.cutoffs = pointer(cutoffs)
     if box is not None:
         options.lower, options.upper = box[0].ctypes.data, box[1].ctypes.data
     return options

@@ -81,7 +81,7 @@ class GhostOptions(Sized):
     """rrcb_ghost_options."""
 
     _fields_ = members(
-        radius=c_double, radii=c_void_p, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
+        cutoff=c_double, cutoffs=c_void_p, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
         num_parts=c_size_t, needs=c_int64
     )
 
@@ -90,7 +90,7 @@ class NeighbourOptions(Sized):
     """rrcb_neighbour_options."""
 
     _fields_ = members(
-        radius=c_double, travel=c_double, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
+        cutoff=c_double, travel=c_double, lower=c_void_p, upper=c_void_p, ranks_of_parts=c_void_p,
         num_parts=c_size_t, needs=c_int64
     )
 
@@ -141,7 +141,7 @@ class VerifyOptions(Structure):
     """rrcb_verify_options."""
 
     _fields_ = members(
-        sample=c_size_t, radius=c_double, radii=c_void_p, num_ids=c_size_t, ids=c_void_p,
+        sample=c_size_t, cutoff=c_double, cutoffs=c_void_p, num_ids=c_size_t, ids=c_void_p,
         num_ids_before=c_size_t, ids_before=c_void_p
     )
 

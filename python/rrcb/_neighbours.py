@@ -14,19 +14,19 @@ from ._agreement import communicator, prepare
 from ._arrays import Array, Columns, Points, as_array, copied, numbers_in, split
 from ._balance import Distribution, cuts_from
 from ._cuts import Cuts
-from ._ghosts import NEEDS, box_of, numbers_of, radius_of, ranges_of, sent_of, shifted
+from ._ghosts import NEEDS, box_of, cutoff_of, numbers_of, ranges_of, sent_of, shifted
 
 
 class Neighbours:
     """The ranks near this one, found from the cuts of a balance. Make it once for each balance.
 
-        neighbours = rrcb.Neighbours(balance, radius=0.1, travel=0.02)
+        neighbours = rrcb.Neighbours(balance, cutoff=0.1, travel=0.02)
         here = neighbours.migrate(here["x"], here)  # in each step
         neighbours.find_ghosts(here["x"])
         near = neighbours.fetch_positions(here["x"])
         force += neighbours.accumulate(force_of_ghosts)
 
-    `radius` is the cut-off radius of ghosts, the largest one if points have different radii.
+    `cutoff` is the cutoff of ghosts, the largest one if points have different cutoffs.
     `travel` is the distance that a point may move between two calls of migrate(). `period` and
     `needs` are as for Distribution.ghosts(). The constructor is collective over `comm`, which is
     the communicator of the balance by default. All other calls wait only for neighbours; every rank
@@ -39,7 +39,7 @@ class Neighbours:
     def __init__(
         self,
         cuts: Distribution | Cuts,
-        radius: float = 0.0,
+        cutoff: float = 0.0,
         travel: float = 0.0,
         period: Any = None,
         needs: str = "scatter",
@@ -55,7 +55,7 @@ class Neighbours:
             if needs not in NEEDS:
                 raise c.Error(f"needs must be one of {', '.join(NEEDS)}, not {needs!r}")
             options = c.NeighbourOptions(
-                float(numbers_in(radius, "radius")), float(numbers_in(travel, "travel"))
+                float(numbers_in(cutoff, "cutoff")), float(numbers_in(travel, "travel"))
             )
             options.needs = NEEDS.index(needs)
             self._box = box_of(period, given.dimension)
@@ -105,18 +105,18 @@ class Neighbours:
 
         return self._exchange("migrate", local, (None, 0, None))
 
-    def find_ghosts(self, x: Any, radius: Any = None) -> None:
+    def find_ghosts(self, x: Any, cutoff: Any = None) -> None:
         """Finds the points that other ranks need. Call it on every rank after migrate(), before fetch().
 
-        `radius` has a number for each point, at most the radius of these neighbours, which is the
+        `cutoff` has a number for each point, at most the cutoff of these neighbours, which is the
         default. Sends no messages, except with `needs` "gather" or "symmetric".
         """
 
         def local() -> tuple[None, tuple[Any, ...]]:
             points = Points(x)
-            if radius is None:
+            if cutoff is None:
                 return None, (points, None)
-            each = np.broadcast_to(radius_of(radius, points.count), (points.count,))
+            each = np.broadcast_to(cutoff_of(cutoff, points.count), (points.count,))
             return None, (points, np.ascontiguousarray(each))
 
         self._exchange("find_ghosts", local, (None, None))

@@ -17,7 +17,7 @@ from . import _library as c
 from ._agreement import communicator, prepare, together
 from ._arrays import Array, Points, as_array, copied, numbers_in, pointer
 from ._controller import Controller, Owner, number
-from ._ghosts import Ghosts, radius_of
+from ._ghosts import Ghosts, cutoff_of
 from ._groups import keys_of
 
 __all__ = ["CostModel", "Verification", "join_keys", "verify"]
@@ -174,14 +174,14 @@ def verify(
     ghosts: Ghosts,
     x: Any,
     sample: int = 1000,
-    radius: Any = None,
+    cutoff: Any = None,
     ids: Any = None,
     ids_before: Any = None,
 ) -> Verification:
     """Compares ghosts with all pairs of a random sample of the points. Collective.
 
     `x` are the positions on this rank. `sample` is the maximum number of points, over all ranks,
-    whose neighbours are searched. `radius` is the true radius, if the ghosts have a skin. `ids` are
+    whose neighbours are searched. `cutoff` is the true cutoff, if the ghosts have a skin. `ids` are
     numbers of the points, and `ids_before` those of this rank's points before transfer().
     """
     seen, kept = c.Verification(), []
@@ -194,9 +194,9 @@ def verify(
 
     def local() -> tuple[Points, c.VerifyOptions]:
         points = Points(x)
-        radii = ghosts._radii if radius is None else radius_of(radius, points.count)
-        each = pointer(radii) if radii.ndim else None
-        once = 0.0 if radii.ndim or radius is None else float(radii)
+        cutoffs = ghosts._cutoffs if cutoff is None else cutoff_of(cutoff, points.count)
+        each = pointer(cutoffs) if cutoffs.ndim else None
+        once = 0.0 if cutoffs.ndim or cutoff is None else float(cutoffs)
         return points, c.VerifyOptions(sample, once, each, *numbers(ids), *numbers(ids_before))
 
     together(

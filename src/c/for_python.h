@@ -13,8 +13,8 @@ extern "C" {
 /** Scope of rrcb_ghosts_verify, as rrcb::experimental::VerifyOptions. */
 typedef struct rrcb_verify_options {
     size_t sample; /**< most points, over all ranks, whose neighbours are looked for; 0: only ids */
-    double radius; /**< true cut-off, if the ghosts have a skin; 0: that of these */
-    const double* radii;        /**< one for each point, if the ghosts have some, or null */
+    double cutoff; /**< true cut-off, if the ghosts have a skin; 0: that of these */
+    const double* cutoffs;      /**< one for each point, if the ghosts have some, or null */
     size_t num_ids;             /**< number of points, or 0 without ids */
     const uint64_t* ids;        /**< of the points */
     size_t num_ids_before;      /**< number of points of this rank before a transfer, or 0 */

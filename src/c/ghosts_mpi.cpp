@@ -28,10 +28,12 @@ constexpr int wrong_radii = -1;
 
 void check_radii(const rrcb_ghost_options& from, LocalIndex num_points) {
     if (from.needs == wrong_radii)
-        reject("radii has " + std::to_string(from.num_parts) + " entries for " +
-               std::to_string(num_points) + " points; give one for each, or one radius for all");
-    if (from.radius == 0 && from.radii == nullptr && num_points > 0)
-        reject("radius is 0, and radii is null; give one of them");
+        reject("cutoffs has " + std::to_string(from.num_parts) + " entries for " +
+               std::to_string(num_points) + " points; give one for each, or one cutoff for all");
+    if (from.cutoff == 0 && from.cutoffs == nullptr && num_points > 0)
+        reject("cutoff is 0, and cutoffs is null; give one of them");
+    if (from.cutoff != 0 && from.cutoffs != nullptr)
+        reject("cutoff and cutoffs are both given; give one of them");
 }
 
 /// Options of a call, and the memory that they borrow.
@@ -42,9 +44,9 @@ struct KeptOptions {
     void read(const rrcb_ghost_options* from, LocalIndex num_points, const rrcb_balancer& own) {
         const rrcb_ghost_options given = copy_in(from, "options");
         check_radii(given, num_points);
-        options.radius = given.radius;
+        options.cutoff = given.cutoff;
         options.needs = static_cast<Needs>(given.needs);
-        if (given.radii != nullptr) options.radii = view(given.radii, num_points);
+        if (given.cutoffs != nullptr) options.cutoff = view(given.cutoffs, num_points);
         read_domain(given, options, ranks, own);
     }
 };
@@ -70,8 +72,8 @@ experimental::VerifyOptions options_of(const rrcb_verify_options* from, LocalInd
     if (from->sample == 0 && from->num_ids == 0 && num_points > 0)
         reject("sample is 0, and there are no ids; give one of them, or no options");
     options.sample = from->sample;
-    if (from->radius != 0) options.radius = from->radius;
-    if (from->radii != nullptr) options.radii = view(from->radii, num_points);
+    if (from->cutoff != 0) options.cutoff = from->cutoff;
+    if (from->cutoffs != nullptr) options.cutoff = view(from->cutoffs, num_points);
     require_array(from->num_ids, from->ids, "ids");
     require_array(from->num_ids_before, from->ids_before, "ids_before");
     if (from->num_ids > 0) options.ids = view(from->ids, from->num_ids);

@@ -29,9 +29,9 @@ struct KeptNeighbourOptions {
 
     void read(const rrcb_neighbour_options* from, const rrcb_balancer& own) {
         const rrcb_neighbour_options given = copy_in(from, "options");
-        if (given.radius == 0 && given.travel == 0)
-            reject("radius and travel are both 0; give one of them");
-        options.radius = given.radius;
+        if (given.cutoff == 0 && given.travel == 0)
+            reject("cutoff and travel are both 0; give one of them");
+        options.cutoff = given.cutoff;
         options.travel = given.travel;
         options.needs = static_cast<Needs>(given.needs);
         read_domain(given, options, ranks, own);

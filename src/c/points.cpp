@@ -32,7 +32,7 @@ void check_fortran(const rrcb_points& from) {
         case wrong_axis:
             reject("x, y and z must have one length, not " + count + " and " + extent);
         case wrong_radii:
-            reject("radii has " + extent + " entries for " + count +
+            reject("cutoffs has " + extent + " entries for " + count +
                    " points; give one for each, or none");
         case wrong_shape:
             reject("coordinates has the shape (" + extent + ", " + count +

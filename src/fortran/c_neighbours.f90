@@ -21,10 +21,10 @@ module rrcb_c_neighbours
       integer(c_size_t), value :: num_columns
       type(c_array), intent(inout) :: columns(*)
     end function
-    integer(c_int) function c_neighbours_find_ghosts(handle, points, radii) &
+    integer(c_int) function c_neighbours_find_ghosts(handle, points, cutoffs) &
       bind(c, name="rrcb_neighbours_find_ghosts")
       import
-      type(c_ptr), value :: handle, radii
+      type(c_ptr), value :: handle, cutoffs
       type(rrcb_points), intent(in) :: points
     end function
     integer(c_int) function c_neighbours_fetch(handle, num_columns, columns, ghosts) &

@@ -26,8 +26,8 @@ module rrcb_c_types
 
   type, bind(c) :: c_ghost_options
     integer(c_size_t) :: size = 64
-    real(c_double) :: radius = -1                           !< not given
-    type(c_ptr) :: radii = c_null_ptr
+    real(c_double) :: cutoff = -1                           !< not given
+    type(c_ptr) :: cutoffs = c_null_ptr
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
     integer(c_size_t) :: num_parts = 0
     integer(c_int64_t) :: needs = 0
@@ -45,7 +45,7 @@ module rrcb_c_types
 
   type, bind(c) :: c_neighbour_options
     integer(c_size_t) :: size = 64
-    real(c_double) :: radius = 0, travel = 0
+    real(c_double) :: cutoff = 0, travel = 0
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
     integer(c_size_t) :: num_parts = 0
     integer(c_int64_t) :: needs = 0

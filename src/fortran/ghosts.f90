@@ -33,37 +33,37 @@ contains
   !> @param balancer       to whose ranks the points were transferred
   !> @param points         of this rank, after transfer. The points of the balance or of assign_all are
   !> refused if one of them has yet to leave its rank
-  !> @param radius         cut-off radius of all points
-  !> @param radii          one for each point instead
+  !> @param cutoff         cut-off cutoff of all points
+  !> @param cutoffs          one for each point instead
   !> @param lower          lower end of a periodic box
   !> @param upper          upper end of the box
   !> @param ranks_of_parts the ranks of part p at p + 1; by default those of rrcb_ranks_of_part
   !> @param needs          whose radii count: rrcb_needs_scatter by default, _gather or _symmetric
-  subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts, needs)
+  subroutine create(self, balancer, points, error, cutoff, cutoffs, lower, upper, ranks_of_parts, needs)
     class(rrcb_ghosts), intent(inout), target :: self
     class(rrcb_balancer), intent(in) :: balancer
     type(rrcb_points), intent(in) :: points
     integer, intent(out), optional :: error
-    real(c_double), intent(in), optional :: radius
-    real(c_double), intent(in), target, contiguous, optional :: radii(:)
+    real(c_double), intent(in), optional :: cutoff
+    real(c_double), intent(in), target, contiguous, optional :: cutoffs(:)
     real(c_double), intent(in), target, optional :: lower(3), upper(3)
     type(rrcb_rank_range), intent(in), target, contiguous, optional :: ranks_of_parts(:)
     integer(c_int), intent(in), optional :: needs
     type(c_ghost_options) :: options
     if (present(needs)) options%needs = needs
-    if (present(radius)) options%radius = radius
+    if (present(cutoff)) options%cutoff = cutoff
     if (present(lower)) options%lower = c_loc(lower)
     if (present(upper)) options%upper = c_loc(upper)
     if (present(ranks_of_parts)) then
       options%ranks_of_parts = c_loc(ranks_of_parts)
       options%num_parts = size(ranks_of_parts, kind=c_size_t)
     end if
-    if (present(radii)) then
-      if (.not. present(radius)) options%radius = 0
-      if (size(radii) > 0) options%radii = c_loc(radii)
-      if (size(radii, kind=c_size_t) /= points%count) then
+    if (present(cutoffs)) then
+      if (.not. present(cutoff)) options%cutoff = 0
+      if (size(cutoffs) > 0) options%cutoffs = c_loc(cutoffs)
+      if (size(cutoffs, kind=c_size_t) /= points%count) then
         options%needs = wrong_radii
-        options%num_parts = size(radii, kind=c_size_t)
+        options%num_parts = size(cutoffs, kind=c_size_t)
       end if
     end if
     call settle(c_ghosts_create(balancer%handle, points, options, room_for(self%handle)), error)

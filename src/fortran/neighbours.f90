@@ -36,22 +36,22 @@ contains
 
   !> Finds the neighbours from the cuts. Collective.
   !> @param balancer       with all cuts
-  !> @param radius         cut-off radius of ghosts, the largest of all radii
+  !> @param cutoff         cut-off cutoff of ghosts, the largest of all cutoffs
   !> @param travel         distance that a point may move between two calls of migrate
   !> @param lower          lower end of a periodic box
   !> @param upper          upper end of the box
   !> @param ranks_of_parts the ranks of part p at p + 1; by default those of rrcb_ranks_of_part
   !> @param needs          whose radii count: rrcb_needs_scatter by default, _gather or _symmetric
-  subroutine create(self, balancer, error, radius, travel, lower, upper, ranks_of_parts, needs)
+  subroutine create(self, balancer, error, cutoff, travel, lower, upper, ranks_of_parts, needs)
     class(rrcb_neighbours), intent(inout), target :: self
     class(rrcb_balancer), intent(in) :: balancer
     integer, intent(out), optional :: error
-    real(c_double), intent(in), optional :: radius, travel
+    real(c_double), intent(in), optional :: cutoff, travel
     real(c_double), intent(in), target, optional :: lower(3), upper(3)
     type(rrcb_rank_range), intent(in), target, contiguous, optional :: ranks_of_parts(:)
     integer(c_int), intent(in), optional :: needs
     type(c_neighbour_options) :: options
-    if (present(radius)) options%radius = radius
+    if (present(cutoff)) options%cutoff = cutoff
     if (present(travel)) options%travel = travel
     if (present(needs)) options%needs = needs
     if (present(lower)) options%lower = c_loc(lower)
@@ -87,16 +87,16 @@ contains
 
   !> Finds the points that other ranks need. Sends messages only with the radii of receivers.
   !> @param points of this rank
-  !> @param radii  one for each point, at most `radius` of create
-  subroutine find_ghosts(self, points, error, radii)
+  !> @param cutoffs  one for each point, at most `cutoff` of create
+  subroutine find_ghosts(self, points, error, cutoffs)
     class(rrcb_neighbours), intent(in) :: self
     type(rrcb_points), intent(in) :: points
     integer, intent(out), optional :: error
-    real(c_double), intent(in), pointer, contiguous, optional :: radii(:)
+    real(c_double), intent(in), pointer, contiguous, optional :: cutoffs(:)
     type(rrcb_points) :: checked
     checked = points
-    if (present(radii)) call check_number(size(radii, kind=c_size_t), checked)
-    call settle(c_neighbours_find_ghosts(self%handle, checked, address_of(radii)), error)
+    if (present(cutoffs)) call check_number(size(cutoffs, kind=c_size_t), checked)
+    call settle(c_neighbours_find_ghosts(self%handle, checked, address_of(cutoffs)), error)
   end subroutine
 
   !> Fetches columns of the ghosts.

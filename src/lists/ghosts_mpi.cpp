@@ -259,15 +259,14 @@ GhostPlan ghost_plan(const Cuts& cuts, const Points& points, const GhostOptions&
                      Participant& self) {
     GhostRequest request{
         points,
-        {options.radius, options.radii, options.needs},
+        Radii::of_cutoff(options.cutoff, options.needs, points.count),
         {options.ranks_of_parts, cuts, mpi::rank_of(self.comm), mpi::size_of(self.comm)},
         {}};
-    if (points.count == 0 && std::isnan(options.radius)) request.radii.each.emplace();
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);
     detail::StampAccess::ranks(plan.stamp) = self.group();
     detail::StampAccess::points(plan.stamp) = next_stamp();
-    plan.radius = options.radius;
+    plan.cutoff = detail::CutoffAccess::of_all(options.cutoff);
     plan.needs = options.needs;
     if (options.periodic) plan.periodic = *options.periodic;
     return plan;

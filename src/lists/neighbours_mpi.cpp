@@ -65,7 +65,7 @@ Neighbours::Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& 
         detail::StampAccess::ranks(state_->ghosts.stamp) = self.group();
     });
     agree(self, {{"the tree of cuts", bits_of_cuts},
-                 shared("the radius", options.radius),
+                 shared("the cutoff", options.cutoff),
                  shared("travel", options.travel),
                  {"needs", static_cast<std::uint64_t>(options.needs)},
                  {"ranks_of_parts", bits_of_ranks},

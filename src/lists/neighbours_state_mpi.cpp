@@ -45,7 +45,7 @@ void Neighbours::State::check_positions(const Points& points) const {
 
 void Neighbours::State::check_radii(const Points& points, const Radii& radii) const {
     if (!radii.each) return;
-    require(radii.each->size() == points.count, "radii must have one entry for each point");
+    require(radii.each->size() == points.count, "cutoffs must have one entry for each point");
     require(std::ranges::all_of(*radii.each, [&](double r) { return r >= 0 && r <= radius; }),
             "each radius must be 0 or more, and at most that of NeighbourOptions");
 }

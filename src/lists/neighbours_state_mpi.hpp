@@ -54,9 +54,9 @@ struct Neighbours::State {
     enum class Stage : std::uint8_t { none, moved, found, fetched };
 
     State(const Cuts& cuts, const NeighbourOptions& options, int rank, int num_ranks)
-        : territory(cuts, options, rank, num_ranks), radius(options.radius), needs(options.needs) {
+        : territory(cuts, options, rank, num_ranks), radius(options.cutoff), needs(options.needs) {
         if (options.periodic) ghosts.periodic = *options.periodic;
-        ghosts.radius = radius;
+        ghosts.cutoff = radius;
         ghosts.needs = needs;
     }
 

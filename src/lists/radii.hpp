@@ -2,6 +2,7 @@
 
 #include "arithmetic/infinity.hpp"
 #include "collective/agreement_mpi.hpp"
+#include "lists/cutoff_access.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/ghosts.hpp>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -16,9 +18,18 @@ namespace rrcb {
 
 /// Distances within which points are needed: the same for all, or one for each point.
 struct Radii {
-    double same = 0;
+    double same = 0;  ///< NaN if not given
     std::optional<std::span<const double>> each{};
     Needs needs = Needs::scatter;
+
+    /// Returns the distances of a cutoff. A rank without points need not give any.
+    static Radii of_cutoff(const Cutoff& cutoff, Needs needs, LocalIndex num_points) {
+        const std::optional<double>& of_all = detail::CutoffAccess::of_all(cutoff);
+        Radii radii{of_all.value_or(std::numeric_limits<double>::quiet_NaN()),
+                    detail::CutoffAccess::of_each(cutoff), needs};
+        if (num_points == 0 && !of_all) radii.each.emplace();
+        return radii;
+    }
 
     double of(LocalIndex point) const { return each ? (*each)[point] : same; }
 
@@ -42,18 +53,17 @@ struct Radii {
         if (!each)
             return require(
                 is_usable(same),
-                "the radius must be finite, 0 or more; give it or radii, one for each point");
-        require(std::isnan(same) || same == 0, "give one radius or radii, not both");
-        require(each->size() == num_points, "radii must have one entry for each point");
-        require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");
+                "the cutoff must be finite, 0 or more; give one for all points, or one for each");
+        require(each->size() == num_points, "cutoffs must have one entry for each point");
+        require(std::ranges::all_of(*each, is_usable), "each cutoff must be finite, 0 or more");
     }
 
     /// Returns the common radius, as an argument for agree().
     Shared shared() const {
-        return {"the radius", std::bit_cast<std::uint64_t>(same + 0.0), !each};
+        return {"the cutoff", std::bit_cast<std::uint64_t>(same + 0.0), !each};
     }
     Shared each_given(LocalIndex num_points) const {
-        return {"whether radii are given", each ? 1u : 0u, num_points > 0,
+        return {"whether each point has a cutoff", each ? 1u : 0u, num_points > 0,
                 "give one for each point on every rank that has points, or on none"};
     }
 };

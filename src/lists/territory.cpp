@@ -31,9 +31,9 @@ Territory::Territory(const Cuts& cuts, const NeighbourOptions& options, int rank
     : has_ranks_(options.ranks_of_parts.has_value()),
       rank_(rank),
       num_ranks_(num_ranks),
-      reach_(std::max(options.radius, options.travel)) {
+      reach_(std::max(options.cutoff, options.travel)) {
     check_tree(cuts);
-    require(is_distance(options.radius) && is_distance(options.travel),
+    require(is_distance(options.cutoff) && is_distance(options.travel),
             "radius and travel must be finite, 0 or more");
     require(options.needs >= Needs::scatter && options.needs <= Needs::symmetric,
             "needs must be scatter, gather or symmetric");

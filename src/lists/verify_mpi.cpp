@@ -265,14 +265,12 @@ void compare_ids(const VerifyOptions& options, bool has_before, Verification& se
 
 Verification verify(const GhostPlan& plan, const Points& points, const VerifyOptions& options,
                     Participant& self) {
-    const double radius =
-        std::isnan(options.radius) && !options.radii ? plan.radius : options.radius;
-    VerifyRequest request{plan,
-                          points,
-                          options,
-                          {radius, options.radii, plan.needs},
+    const bool is_given = detail::CutoffAccess::of_all(options.cutoff) ||
+                          detail::CutoffAccess::of_each(options.cutoff);
+    const Cutoff of_plan = plan.cutoff ? Cutoff(*plan.cutoff) : Cutoff();
+    const Cutoff& cutoff = is_given ? options.cutoff : of_plan;
+    VerifyRequest request{plan, points, options, Radii::of_cutoff(cutoff, plan.needs, points.count),
                           PeriodicImages(plan.periodic, points.dimension)};
-    if (points.count == 0 && std::isnan(radius)) request.radii.each.emplace();
     self.attempt([&] { request.check(); });
     std::array shared{
         Shared{"whether ids are given", options.ids ? 1u : 0u, options.ids || points.count > 0},

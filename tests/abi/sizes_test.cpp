@@ -141,7 +141,7 @@ TEST_F(Sizes, of_results_are_kept) {
 TEST_F(Sizes, of_lists_and_views_are_kept) {
     ASSERT_EQ(rrcb_transfer(balancer_, 0, nullptr, nullptr), RRCB_OK);
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-    options.radius = 0.1;
+    options.cutoff = 0.1;
     const rrcb_points none = rrcb_interleaved_points(RRCB_DOUBLE, 2, 0, nullptr, nullptr);
     rrcb_ghosts* ghosts = nullptr;
     ASSERT_EQ(rrcb_ghosts_create(balancer_, &none, &options, &ghosts), RRCB_OK);
@@ -201,7 +201,7 @@ TEST_F(Sizes, of_options_leave_members_at_their_defaults) {
     ASSERT_EQ(rrcb_transfer(balancer_, 0, nullptr, nullptr), RRCB_OK);
     const rrcb_points none = rrcb_interleaved_points(RRCB_DOUBLE, 2, 0, nullptr, nullptr);
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-    options.radius = 0.1;
+    options.cutoff = 0.1;
     const auto find = [&](const rrcb_ghost_options* given) {
         rrcb_ghosts* ghosts = nullptr;
         const int code = rrcb_ghosts_create(balancer_, &none, given, &ghosts);
@@ -214,7 +214,7 @@ TEST_F(Sizes, of_options_leave_members_at_their_defaults) {
     expect_checked(options, find, "RRCB_GHOST_OPTIONS_INIT");
 
     rrcb_neighbour_options distances = RRCB_NEIGHBOUR_OPTIONS_INIT;
-    distances.radius = 0.1;
+    distances.cutoff = 0.1;
     const auto meet = [&](const rrcb_neighbour_options* given) {
         rrcb_neighbours* neighbours = nullptr;
         const int code = rrcb_neighbours_create(balancer_, given, &neighbours);
@@ -250,7 +250,7 @@ TEST_F(Sizes, of_elements_are_their_distances) {
         "RRCB_COLUMN_INIT");
 
     rrcb_neighbour_options options = RRCB_NEIGHBOUR_OPTIONS_INIT;
-    options.radius = options.travel = 0.1;
+    options.cutoff = options.travel = 0.1;
     rrcb_neighbours* neighbours = nullptr;
     ASSERT_EQ(rrcb_neighbours_create(balancer_, &options, &neighbours), RRCB_OK);
     const rrcb_points points =

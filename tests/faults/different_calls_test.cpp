@@ -41,7 +41,7 @@ struct Input {
         balanced = balance(points, world);
         balanced.cuts = unstamped(balanced.cuts);  // the points stay where they are
         lists = plan(balanced, world);
-        near = ghost_plan(balanced.cuts, points, world, {.radius = 0.1});
+        near = ghost_plan(balanced.cuts, points, world, {.cutoff = 0.1});
         clusters = groups(points, keys, world);
         of_ghosts.resize(total_of(near.receive));
     }
@@ -75,7 +75,7 @@ std::vector<NamedCall> all_calls() {
         {"remap", [](Input& in) { remap(in.balanced.parts, in.ranks, world); }},
         {"transfer", [](Input& in) { transfer(in.lists, column(in.coordinates, 2), world); }},
         {"ghost_plan",
-         [](Input& in) { ghost_plan(in.balanced.cuts, in.points, world, {.radius = 0.1}); }},
+         [](Input& in) { ghost_plan(in.balanced.cuts, in.points, world, {.cutoff = 0.1}); }},
         {"fetch", [](Input& in) { fetch(in.near, column(in.coordinates, 2), world); }},
         {"accumulate",
          [](Input& in) {

@@ -124,7 +124,7 @@ TEST(FailingMemory, in_cuts_made_by_many_ranks) {
     fail_in([&] { return assign(cuts, points, MPI_COMM_WORLD); },
             [&](const std::vector<Part>& parts) { EXPECT_EQ(parts, expected); });
     const auto ghosts_here = [&] {
-        return ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = 0.2});
+        return ghost_plan(cuts, points, MPI_COMM_WORLD, {.cutoff = 0.2});
     };
     const GhostPlan near = ghosts_here();
     fail_in(ghosts_here,
@@ -242,7 +242,7 @@ TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
     Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
     cuts = unstamped(cuts);  // the points stay where they are
     const auto call = [&] {
-        const GhostPlan lists = ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = 0.1});
+        const GhostPlan lists = ghost_plan(cuts, points, MPI_COMM_WORLD, {.cutoff = 0.1});
         const std::vector<double> near = fetch(lists, column(coordinates, 2), MPI_COMM_WORLD);
         return accumulate(lists, column(near, 2), column(coordinates, 2), MPI_COMM_WORLD);
     };

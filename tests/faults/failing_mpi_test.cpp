@@ -131,8 +131,8 @@ TEST(FailingMpi, reaches_the_caller_of_what_moves_columns) {
     expect_errors([&] { transfer(lists, values, MPI_COMM_WORLD); });
     Cuts cuts = balance(cloud.points(), MPI_COMM_WORLD).cuts;
     cuts = unstamped(cuts);  // the points stay where they are
-    expect_errors([&] { ghost_plan(cuts, cloud.points(), MPI_COMM_WORLD, {.radius = 0.1}); });
-    const GhostPlan near = ghost_plan(cuts, cloud.points(), MPI_COMM_WORLD, {.radius = 0.1});
+    expect_errors([&] { ghost_plan(cuts, cloud.points(), MPI_COMM_WORLD, {.cutoff = 0.1}); });
+    const GhostPlan near = ghost_plan(cuts, cloud.points(), MPI_COMM_WORLD, {.cutoff = 0.1});
     const std::vector<int> colours(near.num_points);
     expect_errors([&] {
         near.kept.reset();

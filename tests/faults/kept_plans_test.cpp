@@ -23,7 +23,7 @@ class KeptPlans : public testing::Test {
             ids_.push_back(static_cast<int>(i));
         }
         plan_ = ghost_plan(whole.cuts, Points(x_, 2), world,
-                           {.radius = 0.1, .periodic = Box{{0, 0, 0}, {1, 1, 1}}});
+                           {.cutoff = 0.1, .periodic = Box{{0, 0, 0}, {1, 1, 1}}});
     }
 
     static long collectives_of(const std::function<void()>& call) {

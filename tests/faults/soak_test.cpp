@@ -155,7 +155,7 @@ void fetches_ghosts(const Round& round, MPI_Comm comm, Answer& answer) {
     Cuts cuts = balance(points, comm, options_of(round)).cuts;
     cuts = unstamped(cuts);  // the points stay where they are
     const double radius = std::ldexp(static_cast<double>(round.drawn() % 8), -4);
-    const GhostPlan lists = ghost_plan(cuts, points, comm, {.radius = radius});
+    const GhostPlan lists = ghost_plan(cuts, points, comm, {.cutoff = radius});
     answer << lists.send << lists.send_indices
            << fetch(lists, numbers_here(round), comm, transfer_options_of(round));
 }

@@ -216,7 +216,7 @@ program module_test
   call balancer%remap(parts, new_numbers(:2), error)
   call expect(error == rrcb_invalid_argument, "remap to too few numbers")
 
-  call ghosts%create(balancer, rrcb_interleaved_points(x), error, radius=2.0_c_double)
+  call ghosts%create(balancer, rrcb_interleaved_points(x), error, cutoff=2.0_c_double)
   call expect(error == rrcb_invalid_argument, "ghosts before transfer")
   call balancer%plan(parts, error)
   call expect(error == rrcb_ok, "plan")
@@ -247,9 +247,9 @@ program module_test
   ! Points within 2 of the next part, and of the box that repeats after 300.
   do kind_of_box = 1, 2
     if (kind_of_box == 1) then
-      call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radius=2.0_c_double)
+      call ghosts%create(balancer, rrcb_interleaved_points(moved), error, cutoff=2.0_c_double)
     else
-      call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radius=2.0_c_double, &
+      call ghosts%create(balancer, rrcb_interleaved_points(moved), error, cutoff=2.0_c_double, &
         lower=[0.5_c_double, 0.0_c_double, 0.0_c_double], &
         upper=[300.5_c_double, 1.0_c_double, 1.0_c_double])
     end if
@@ -288,23 +288,23 @@ program module_test
     deallocate (images)
     call ghosts%destroy()
   end do
-  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=0*moved_weights)
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, cutoffs=0*moved_weights)
   call expect(error == rrcb_ok, "ghosts by radii")
   call ghosts%destroy()
   ! Rank 0 needs two points of the next part, which needs none.
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, &
-    radii=moved_weights*merge(1, 0, rank == 0), needs=rrcb_needs_gather)
+    cutoffs=moved_weights*merge(1, 0, rank == 0), needs=rrcb_needs_gather)
   call expect(error == rrcb_ok, "ghosts within radii of receivers")
   call ghosts%get_plan(ghost_plan, error)
   call expect(ghost_plan%num_ghosts == merge(2, 0, rank == 0), "number of ghosts within radii of receivers")
-  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radius=2.0_c_double)
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, cutoff=2.0_c_double)
   call expect_text("ghosts is null; give the address of a pointer (in Fortran: destroy what was")
   call ghosts%destroy()
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error)
   call expect(error == rrcb_invalid_argument, "ghosts without a radius")
-  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=moved_weights(2:))
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, cutoffs=moved_weights(2:))
   call expect(error == rrcb_invalid_argument, "ghosts by too few radii")
-  call expect_text("give one for each, or one radius for all")
+  call expect_text("give one for each, or one cutoff for all")
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, 1.0_c_double, moved_weights(2:))
   call expect(error == rrcb_invalid_argument, "ghosts by a radius and too few radii")
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, 1.0_c_double, ranks_of_parts=no_ranks)

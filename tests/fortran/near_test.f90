@@ -23,7 +23,7 @@ program near_test
   call balancer%get_plan(plan)
   allocate (here(1, plan%num_points_after), ids_here(plan%num_points_after))
   call balancer%transfer([rrcb_column(x, here), rrcb_column(ids, ids_here)])
-  call ghosts%create(balancer, rrcb_interleaved_points(here), radius=0.1_c_double)
+  call ghosts%create(balancer, rrcb_interleaved_points(here), cutoff=0.1_c_double)
   ! Points that went on to the next rank.
   deallocate (parts)
   allocate (parts(size(ids_here)))

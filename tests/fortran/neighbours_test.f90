@@ -24,7 +24,7 @@ program neighbours_test
   call balance_points()
   call neighbours%create(balancer, error)
   call expect(error == rrcb_invalid_argument, "no radius")
-  call expect(index(rrcb_last_error(), "radius and travel are both 0") > 0, "text of no radius")
+  call expect(index(rrcb_last_error(), "cutoff and travel are both 0") > 0, "text of no radius")
   call neighbours%create(balancer, error, radius, travel, lower, upper)
   call expect(error == rrcb_ok, "neighbours")
   call neighbours%ranks(ranks)
@@ -105,7 +105,7 @@ contains
     real(c_double), allocatable, target :: near(:, :)
     allocate (parts(size(ids)))
     call balancer%assign_all(rrcb_interleaved_points(x), parts)
-    call ghosts%create(balancer, rrcb_interleaved_points(x), radius=radius, lower=lower, upper=upper)
+    call ghosts%create(balancer, rrcb_interleaved_points(x), cutoff=radius, lower=lower, upper=upper)
     call ghosts%get_plan(plan)
     allocate (near(2, plan%num_ghosts))
     call ghosts%fetch([rrcb_column(x, near)])
@@ -170,12 +170,12 @@ contains
   subroutine check_errors()
     real(c_double), target :: radii(1) = radius
     ! A point outside of the box reaches all ranks, and no point is lost.
-    call neighbours%create(balancer, radius=radius, travel=travel, lower=lower, upper=upper)
+    call neighbours%create(balancer, cutoff=radius, travel=travel, lower=lower, upper=upper)
     call neighbours%find_ghosts(rrcb_interleaved_points(x), error, radii)
     call expect(error == merge(rrcb_ok, rrcb_invalid_argument, size(x, 2) == 1), "one radius")
-    call expect(index(rrcb_last_error(), "radii has 1 entries for") > 0, "text of one radius")
+    call expect(index(rrcb_last_error(), "cutoffs has 1 entries for") > 0, "text of one cutoff")
     call neighbours%destroy()
-    call neighbours%create(balancer, radius=radius, travel=travel, lower=lower, upper=upper)
+    call neighbours%create(balancer, cutoff=radius, travel=travel, lower=lower, upper=upper)
     if (rank == 0) x(1, 1) = 1.7_c_double
     call columns(1)%take(x)
     call columns(2)%take(ids)
@@ -190,7 +190,7 @@ contains
     if (rank == 0) x(1, 1) = 0
     call neighbours%destroy()
     ! An array of another type on one rank, and none.
-    call neighbours%create(balancer, radius=radius, travel=travel)
+    call neighbours%create(balancer, cutoff=radius, travel=travel)
     all_ids = ids
     if (rank == 0) then
       ghost_x = reshape(real(ids, c_double), [1, size(ids)])
@@ -206,7 +206,7 @@ contains
     call expect(error /= rrcb_ok .or. num_ranks == 1, "another type")
     call columns(1)%give(x)
     call neighbours%destroy()
-    call neighbours%create(balancer, radius=radius, travel=travel)
+    call neighbours%create(balancer, cutoff=radius, travel=travel)
     call neighbours%migrate(columns, error)
     call expect(error == rrcb_invalid_argument, "an array that was given back")
     call expect(index(rrcb_last_error(), "let it take an array before") > 0, "text of no array")

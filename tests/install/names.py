@@ -37,6 +37,7 @@ ONLY_CPP = {
     "RankRange": "a shorthand for members of a struct",
     "AxisOrder": "axes.order is for C++ only",
     "GhostArrays": "made by ghosts_of",
+    "Cutoff": "a number or an array",
     "Cuts": "rrcb_get_cuts fails without cuts",
     "unstamped": "a balancer has one communicator",
     "Error": "rrcb_code and rrcb_last_error",

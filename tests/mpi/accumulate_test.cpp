@@ -25,7 +25,7 @@ Scene make_scene() {
     const Cuts cuts = test::divide_on_each_rank(all, num_ranks()).cuts;
     const test::Share here(all);
     scene.mine.assign(here.indices.begin(), here.indices.end());
-    scene.plan = ghost_plan(cuts, here.points(), MPI_COMM_WORLD, {.radius = radius});
+    scene.plan = ghost_plan(cuts, here.points(), MPI_COMM_WORLD, {.cutoff = radius});
     scene.near = fetch(scene.plan, scene.mine, MPI_COMM_WORLD);
     return scene;
 }

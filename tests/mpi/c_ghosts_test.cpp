@@ -122,7 +122,7 @@ class CGhosts : public testing::Test {
 TEST_F(CGhosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-    options.radius = 0.1;
+    options.cutoff = 0.1;
     const auto refused = [&] {
         expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts),
                        "the points of the balance");
@@ -135,13 +135,13 @@ TEST_F(CGhosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
 
 TEST_F(CGhosts, are_those_of_a_call_in_cpp) {
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-    options.radius = 0.1;
+    options.cutoff = 0.1;
     find(options);
-    expect_same({.radius = 0.1});
+    expect_same({.cutoff = 0.1});
     options.lower = unit.lower.data();
     options.upper = unit.upper.data();
     find(options);
-    expect_same({.radius = 0.1, .periodic = unit});
+    expect_same({.cutoff = 0.1, .periodic = unit});
 }
 
 TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
@@ -154,12 +154,12 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
         ranks_in_c.push_back({num_ranks() - 1 - part, 1});
     }
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-    options.radii = radii.data();
+    options.cutoffs = radii.data();
     options.ranks_of_parts = ranks_in_c.data();
     options.num_parts = ranks_in_c.size();
     find(options);
     GhostOptions expected;
-    expected.radii = radii;
+    expected.cutoff = radii;
     expected.ranks_of_parts = ranks;
     expect_same(expected);
     for (const auto& [name, needs] : {std::pair(RRCB_NEEDS_GATHER, Needs::gather),
@@ -174,7 +174,7 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
 TEST_F(CGhosts, from_before_a_transfer_are_refused) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-    options.radius = 0.1;
+    options.cutoff = 0.1;
     find(options);
     const std::vector<std::int32_t> to_next(weights.size(), (rank() + 1) % num_ranks());
     ASSERT_EQ(rrcb_plan(balancer, to_next.size(), to_next.data()), RRCB_OK);
@@ -185,7 +185,7 @@ TEST_F(CGhosts, from_before_a_transfer_are_refused) {
 
 TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-    options.radius = 0.1;
+    options.cutoff = 0.1;
     const rrcb_ghost_options* none_there = is_last_rank() ? nullptr : &options;
     expect_refused(rrcb_ghosts_create(balancer, &in_c, none_there, &ghosts), "options is null");
     EXPECT_EQ(ghosts, nullptr);
@@ -196,9 +196,10 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     if (is_last_rank()) options.lower = unit.lower.data();
     expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "upper is null");
     options.lower = nullptr;
-    options.radius = -1;
-    expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "give it or radii");
-    options.radius = 0.1;
+    options.cutoff = -1;
+    expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts),
+                   "the cutoff must be finite");
+    options.cutoff = 0.1;
     const rrcb_rank_range to_first{0, 1};
     options.ranks_of_parts = is_last_rank() ? &to_first : nullptr;
     expect_refused(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "parts, not 0");

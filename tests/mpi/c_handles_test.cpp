@@ -23,7 +23,7 @@ class CHandles : public testing::Test {
         ASSERT_EQ(rrcb_groups_create(balancer, &points, keys.data(), RRCB_CENTRE, &groups),
                   RRCB_OK);
         rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-        options.radius = 0.1;
+        options.cutoff = 0.1;
         ASSERT_EQ(rrcb_ghosts_create(balancer, &points, &options, &ghosts), RRCB_OK)
             << rrcb_last_error();
     }
@@ -74,7 +74,7 @@ TEST_F(CHandles, in_use_are_refused_as_room_for_new_ones) {
     EXPECT_EQ(fresh, nullptr);
     EXPECT_EQ(balancer, before);
     rrcb_ghost_options options = RRCB_GHOST_OPTIONS_INIT;
-    options.radius = 0.1;
+    options.cutoff = 0.1;
     expect_refused(rrcb_controller_create(MPI_COMM_WORLD, &controller), "controller" + in_use);
     expect_refused(rrcb_cost_model_create(MPI_COMM_WORLD, nullptr, 1, &model), "model" + in_use);
     expect_refused(rrcb_groups_create(balancer, &points, keys.data(), RRCB_CENTRE, &groups),
@@ -86,14 +86,14 @@ TEST_F(CHandles, take_no_zeroed_options) {
     rrcb_ghosts* more = nullptr;
     const rrcb_ghost_options no_radius = RRCB_GHOST_OPTIONS_INIT;
     expect_refused(rrcb_ghosts_create(balancer, &points, &no_radius, &more),
-                   "radius is 0, and radii is null; give one of them");
+                   "cutoff is 0, and cutoffs is null; give one of them");
     const std::array<double, 2> none{};
     rrcb_ghost_options radii_of_0 = RRCB_GHOST_OPTIONS_INIT;
-    radii_of_0.radii = none.data();
+    radii_of_0.cutoffs = none.data();
     EXPECT_EQ(rrcb_ghosts_create(balancer, &points, &radii_of_0, &more), RRCB_OK);
     rrcb_ghosts_destroy(&more);
     rrcb_ghost_options no_ranks = RRCB_GHOST_OPTIONS_INIT;
-    no_ranks.radius = 0.1;
+    no_ranks.cutoff = 0.1;
     no_ranks.num_parts = static_cast<std::size_t>(num_ranks());
     expect_refused(rrcb_ghosts_create(balancer, &points, &no_ranks, &more),
                    "ranks_of_parts is null");

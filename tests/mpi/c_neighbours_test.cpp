@@ -35,7 +35,7 @@ class CNeighbours : public testing::Test {
         const double lower[3]{0, 0, 0};
         const double upper[3]{1, 1, 1};
         rrcb_neighbour_options options = RRCB_NEIGHBOUR_OPTIONS_INIT;
-        options.radius = radius;
+        options.cutoff = radius;
         options.travel = travel;
         options.lower = lower;
         options.upper = upper;
@@ -43,7 +43,7 @@ class CNeighbours : public testing::Test {
             << rrcb_last_error();
         own_.emplace(
             cuts_, MPI_COMM_WORLD,
-            NeighbourOptions{.radius = radius, .travel = travel, .periodic = Box{{}, {1, 1, 1}}});
+            NeighbourOptions{.cutoff = radius, .travel = travel, .periodic = Box{{}, {1, 1, 1}}});
         // Memory of malloc(), without room for more points, and a vector.
         columns_[0].values = std::malloc(x_.size() * sizeof(double) + 1);
         columns_[0].count = columns_[0].capacity = ids_.size();

@@ -67,7 +67,7 @@ struct Plans {
     std::vector<double> of_ghosts = fetch(near, here, MPI_COMM_WORLD);
 
     GhostPlan near_on(MPI_Comm comm) const {
-        return ghost_plan(made.cuts, Points(here, 1), comm, {.radius = 0.1});
+        return ghost_plan(made.cuts, Points(here, 1), comm, {.cutoff = 0.1});
     }
 
     std::vector<std::function<void()>> calls(MPI_Comm comm) const {

@@ -122,7 +122,7 @@ TEST(EmptyRanks, take_part_in_all_that_follows_a_balance) {
         const std::vector<double> mine =
             transfer(plan(result, MPI_COMM_WORLD), column(few.coordinates, 2), MPI_COMM_WORLD);
         const Points points(mine, 2);
-        const GhostPlan near = ghost_plan(result.cuts, points, MPI_COMM_WORLD, {.radius = 0.3});
+        const GhostPlan near = ghost_plan(result.cuts, points, MPI_COMM_WORLD, {.cutoff = 0.3});
         const std::vector<double> others = fetch(near, column(mine, 2), MPI_COMM_WORLD);
         int pairs = 0;
         for (std::size_t i = 0; i < mine.size(); i += 2)

@@ -18,21 +18,21 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 void expect_refusal(const std::string& text, const std::function<void()>& call) {
     test::expect_same_error([&] { call(); }, text);
     const std::vector<double> none;
-    EXPECT_EQ(ghost_plan(slabs(), Points(none, 2), MPI_COMM_WORLD, {.radius = 1}).num_points, 0u);
+    EXPECT_EQ(ghost_plan(slabs(), Points(none, 2), MPI_COMM_WORLD, {.cutoff = 1}).num_points, 0u);
 }
 
 TEST(Ghosts, within_no_radius_are_refused_on_all_ranks) {
     const std::vector<double> x(2);
     const Points points(x, 2);
-    expect_refusal("give it or radii, one for each point",
+    expect_refusal("give one for all points, or one for each",
                    [&] { ghost_plan(slabs(), points, MPI_COMM_WORLD, {}); });
     for (const double radius : {-1.0, std::nan(""), infinity, -infinity}) {
-        expect_refusal("the radius must be finite",
-                       [&] { ghost_plan(slabs(), points, MPI_COMM_WORLD, {.radius = radius}); });
-        expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": the radius must be finite",
+        expect_refusal("the cutoff must be finite",
+                       [&] { ghost_plan(slabs(), points, MPI_COMM_WORLD, {.cutoff = radius}); });
+        expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": the cutoff must be finite",
                        [&] {
                            ghost_plan(slabs(), points, MPI_COMM_WORLD,
-                                      {.radius = is_last_rank() ? radius : 1.0});
+                                      {.cutoff = is_last_rank() ? radius : 1.0});
                        });
     }
 }
@@ -46,7 +46,7 @@ TEST(Ghosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     const Points moved(here, 2);
     // A radius that reaches all parts hides nothing.
     for (const double radius : {0.01, 2.0}) {
-        const GhostOptions options{.radius = radius};
+        const GhostOptions options{.cutoff = radius};
         expect_refusal("these are the points of the balance, some ",
                        [&] { ghost_plan(made.cuts, points, MPI_COMM_WORLD, options); });
         const Points of_last = is_last_rank() ? points : moved;
@@ -57,10 +57,10 @@ TEST(Ghosts, of_points_that_have_yet_to_leave_are_refused_on_all_ranks) {
     // Points that have moved since, or that are kept where they are, are none of these.
     std::vector<double> drifted = here;
     for (double& value : drifted) value *= 0.99;
-    EXPECT_NO_THROW(ghost_plan(made.cuts, Points(drifted, 2), MPI_COMM_WORLD, {.radius = 0.1}));
+    EXPECT_NO_THROW(ghost_plan(made.cuts, Points(drifted, 2), MPI_COMM_WORLD, {.cutoff = 0.1}));
     const Balance again = balance(moved, MPI_COMM_WORLD);
     const auto kept = transfer(plan(again, MPI_COMM_WORLD), column(here, 2), MPI_COMM_WORLD);
-    EXPECT_NO_THROW(ghost_plan(again.cuts, Points(kept, 2), MPI_COMM_WORLD, {.radius = 0.1}));
+    EXPECT_NO_THROW(ghost_plan(again.cuts, Points(kept, 2), MPI_COMM_WORLD, {.cutoff = 0.1}));
 }
 
 /// Balances, transfers and finds ghosts several times, each time of the right points.
@@ -69,7 +69,7 @@ void expect_loop(std::vector<double> x, const Options& options) {
         const Points points(x, 2);
         const Balance made = balance(points, MPI_COMM_WORLD, options);
         x = transfer(plan(made, MPI_COMM_WORLD), column(x, 2), MPI_COMM_WORLD);
-        EXPECT_NO_THROW(ghost_plan(made.cuts, Points(x, 2), MPI_COMM_WORLD, {.radius = 0.1}));
+        EXPECT_NO_THROW(ghost_plan(made.cuts, Points(x, 2), MPI_COMM_WORLD, {.cutoff = 0.1}));
     }
 }
 
@@ -98,27 +98,27 @@ TEST(Ghosts, of_points_that_look_like_those_before_the_transfer_are_found) {
 TEST(Ghosts, of_unusable_points_cuts_or_ranks_are_refused_on_all_ranks) {
     const std::vector<double> x{0, is_last_rank() ? std::nan("") : 0};
     expect_refusal("is NaN or infinite",
-                   [&] { ghost_plan(slabs(), Points(x, 2), MPI_COMM_WORLD, {.radius = 1}); });
+                   [&] { ghost_plan(slabs(), Points(x, 2), MPI_COMM_WORLD, {.cutoff = 1}); });
     const std::vector<double> right(2);
     const Points points(right, 2);
     expect_refusal("cuts must have the dimension of the points", [&] {
         Cuts cuts = slabs();
         cuts.dimension = is_last_rank() ? 3 : 2;
-        ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = 1});
+        ghost_plan(cuts, points, MPI_COMM_WORLD, {.cutoff = 1});
     });
     expect_refusal("the tree must hold one cut less than there are parts", [&] {
         Cuts cuts = slabs();
         if (is_last_rank()) cuts.tree.push_back({});
-        ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = 1});
+        ghost_plan(cuts, points, MPI_COMM_WORLD, {.cutoff = 1});
     });
     expect_refusal("must name ranks of this communicator", [&] {
         std::vector<RankRange> ranks(static_cast<std::size_t>(num_ranks()));
         if (is_last_rank()) ranks[0].first_rank = num_ranks();
-        ghost_plan(slabs(), points, MPI_COMM_WORLD, {.radius = 1, .ranks_of_parts = ranks});
+        ghost_plan(slabs(), points, MPI_COMM_WORLD, {.cutoff = 1, .ranks_of_parts = ranks});
     });
     expect_refusal("one entry for each part", [&] {
         const std::vector<RankRange> ranks(static_cast<std::size_t>(num_ranks() + 1));
-        ghost_plan(slabs(), points, MPI_COMM_WORLD, {.radius = 1, .ranks_of_parts = ranks});
+        ghost_plan(slabs(), points, MPI_COMM_WORLD, {.cutoff = 1, .ranks_of_parts = ranks});
     });
 }
 
@@ -127,23 +127,23 @@ TEST(Ghosts, of_arguments_that_differ_are_refused_on_all_ranks) {
     const std::vector<double> x(2);
     const Points points(x, 2);
     const int other = is_last_rank() ? 1 : 0;
-    expect_refusal("the radius differs between rank 0 and rank",
-                   [&] { ghost_plan(slabs(), points, MPI_COMM_WORLD, {.radius = 1.0 + other}); });
+    expect_refusal("the cutoff differs between rank 0 and rank",
+                   [&] { ghost_plan(slabs(), points, MPI_COMM_WORLD, {.cutoff = 1.0 + other}); });
     expect_refusal("the tree of cuts differs between rank 0 and rank", [&] {
         Cuts cuts = slabs();
         cuts.tree[0].at[0] += other;
-        ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = 1});
+        ghost_plan(cuts, points, MPI_COMM_WORLD, {.cutoff = 1});
     });
     expect_refusal("ranks_of_parts differs between rank 0 and rank", [&] {
         const std::vector<RankRange> ranks(static_cast<std::size_t>(num_ranks()), {other, 1});
-        ghost_plan(slabs(), points, MPI_COMM_WORLD, {.radius = 1, .ranks_of_parts = ranks});
+        ghost_plan(slabs(), points, MPI_COMM_WORLD, {.cutoff = 1, .ranks_of_parts = ranks});
     });
 }
 
 TEST(Fetch, by_a_plan_that_does_not_hold_together_is_refused_on_all_ranks) {
     const std::vector<double> coordinates{rank() + 0.5, 0};
     const GhostPlan right =
-        ghost_plan(slabs(), Points(coordinates, 2), MPI_COMM_WORLD, {.radius = 10});
+        ghost_plan(slabs(), Points(coordinates, 2), MPI_COMM_WORLD, {.cutoff = 10});
     const std::vector<int> values(1);
     const auto expect = [&](const std::string& text, const std::function<void(GhostPlan&)>& spoil) {
         GhostPlan wrong = right;
@@ -175,7 +175,7 @@ TEST(Fetch, of_a_column_of_another_type_is_refused_on_all_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> coordinates{rank() + 0.5, 0};
     const GhostPlan plan =
-        ghost_plan(slabs(), Points(coordinates, 2), MPI_COMM_WORLD, {.radius = 10});
+        ghost_plan(slabs(), Points(coordinates, 2), MPI_COMM_WORLD, {.cutoff = 10});
     const std::vector<float> numbers(1);
     const std::vector<int> whole(1);
     expect_refusal("column 0 (the first is 0) has 1 per point, whole numbers of 4 bytes, but", [&] {

@@ -99,11 +99,11 @@ double radius_of_pair(const Scene& scene, int receiver, int sender, Needs needs)
 /// Expects a point or image that a pair needs once, others once at most and never beyond the
 /// greatest radius of a part.
 void expect_ghosts(const Scene& scene, Needs needs, bool is_periodic) {
-    GhostOptions options{.radii = scene.radii_here, .needs = needs};
+    GhostOptions options{.cutoff = scene.radii_here, .needs = needs};
     if (is_periodic) options.periodic = unit;
     const GhostPlan plan = ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD, options);
     const std::vector<int> numbers = fetch(plan, scene.mine, MPI_COMM_WORLD);
-    const experimental::VerifyOptions sample{.radii = scene.radii_here};
+    const experimental::VerifyOptions sample{.cutoff = scene.radii_here};
     EXPECT_EQ(experimental::verify(plan, scene.points(), MPI_COMM_WORLD, sample).num_faults, 0);
     std::map<std::pair<int, Shift>, int> found;
     for (std::size_t k = 0; k < numbers.size(); ++k)
@@ -150,7 +150,7 @@ TEST(GhostsThatNeed, the_radius_of_the_receiver_come_to_one_side_only) {
     scene.cuts.tree[0].at[0] = 0.5;
     const auto count = [&](Needs needs) {
         const GhostPlan plan = ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD,
-                                          {.radii = scene.radii_here, .needs = needs});
+                                          {.cutoff = scene.radii_here, .needs = needs});
         return fetch(plan, scene.mine, MPI_COMM_WORLD).size();
     };
     EXPECT_EQ(count(Needs::gather), rank() == 0 ? 1u : 0u);
@@ -177,7 +177,7 @@ TEST(GhostsThatNeed, ten_times_the_radius_in_a_corner_are_few) {
         for (const Needs needs : {Needs::gather, Needs::symmetric}) {
             const Scene scene = make_scene(dimension, num_ranks(), cloud, radii);
             const GhostPlan plan = ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD,
-                                              {.radii = scene.radii_here, .needs = needs});
+                                              {.cutoff = scene.radii_here, .needs = needs});
             std::array<int, 2> totals{};
             for (int j = 0; j < scene.count(); ++j) {
                 if (scene.has(j)) continue;
@@ -197,7 +197,7 @@ TEST(GhostsThatNeed, something_else_on_another_rank_are_refused) {
     const Scene scene = random_scene(2, num_ranks());
     const auto find = [&](Needs needs) {
         ghost_plan(scene.cuts, scene.points(), MPI_COMM_WORLD,
-                   {.radii = scene.radii_here, .needs = needs});
+                   {.cutoff = scene.radii_here, .needs = needs});
     };
     test::expect_same_error([&] { find(static_cast<Needs>(3)); },
                             "needs must be scatter, gather or symmetric");

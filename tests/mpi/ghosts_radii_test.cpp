@@ -94,7 +94,7 @@ std::vector<int> neighbours_by_pairs(const Scene& scene, const GhostPlan& plan) 
 TEST(GhostsOfRadii, meet_every_pair_once_on_the_rank_of_the_smaller_radius) {
     const Scene scene = make_scene(2);
     const Points points(scene.here, 2);
-    GhostOptions options{.radii = scene.radii_here};
+    GhostOptions options{.cutoff = scene.radii_here};
     EXPECT_EQ(neighbours_by_pairs(scene, ghost_plan(scene.cuts, points, MPI_COMM_WORLD, options)),
               neighbours_by_brute_force(scene, 0));
     options.periodic = Box{{0, 0}, {1, 1}};
@@ -106,8 +106,8 @@ TEST(GhostsOfRadii, are_those_of_one_radius_if_all_are_equal) {
     const Scene scene = make_scene(2);
     const Points points(scene.here, 2);
     const std::vector<double> equal(scene.mine.size(), 0.1);
-    EXPECT_EQ(ghost_plan(scene.cuts, points, MPI_COMM_WORLD, {.radii = equal}).send_indices,
-              ghost_plan(scene.cuts, points, MPI_COMM_WORLD, {.radius = 0.1}).send_indices);
+    EXPECT_EQ(ghost_plan(scene.cuts, points, MPI_COMM_WORLD, {.cutoff = equal}).send_indices,
+              ghost_plan(scene.cuts, points, MPI_COMM_WORLD, {.cutoff = 0.1}).send_indices);
 }
 
 TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
@@ -115,17 +115,13 @@ TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
     const auto refused = [&](const std::string& text, const std::vector<double>& wrong) {
         const std::vector<double> radii = is_last_rank() ? wrong : std::vector{1.0, 0.0};
         test::expect_same_error(
-            [&] { ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.radii = radii}); },
+            [&] { ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.cutoff = radii}); },
             "rank " + std::to_string(num_ranks() - 1) + ": " + text);
     };
-    refused("radii must have one entry for each point", {1.0});
-    refused("radii must have one entry for each point", {});
+    refused("cutoffs must have one entry for each point", {1.0});
+    refused("cutoffs must have one entry for each point", {});
     for (const double radius : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
-        refused("each radius must be finite, 0 or more", {1.0, radius});
-    const std::vector<double> right(2);
-    EXPECT_THROW(
-        ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.radius = 1, .radii = right}),
-        Error);
+        refused("each cutoff must be finite, 0 or more", {1.0, radius});
 }
 
 TEST(GhostsOfRadii, on_some_ranks_alone_are_refused_unless_the_others_have_no_points) {
@@ -135,17 +131,17 @@ TEST(GhostsOfRadii, on_some_ranks_alone_are_refused_unless_the_others_have_no_po
     const auto find = [&](const Points& of_last) {
         return is_last_rank()
                    ? ghost_plan(test::slabs(), of_last, MPI_COMM_WORLD, {})
-                   : ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.radii = radii});
+                   : ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.cutoff = radii});
     };
     EXPECT_NO_THROW(find(Points({}, 2)));
     EXPECT_THROW(find(Points(x, 2)), Error);
     test::expect_same_error(
         [&] {
             const Points points(x, 2);
-            is_last_rank() ? ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.radius = 1})
-                           : ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.radii = radii});
+            is_last_rank() ? ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.cutoff = 1})
+                           : ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.cutoff = radii});
         },
-        "whether radii are given differs between rank 0 and rank " +
+        "whether each point has a cutoff differs between rank 0 and rank " +
             std::to_string(num_ranks() - 1) + "; give one for each point");
 }
 

@@ -136,7 +136,7 @@ TEST(Ghosts, miss_none_of_a_million_pairs) {
             for (const double radius : {0.0, 0.03, 0.2, 1.0, std::sqrt(2.0), 5.0, 100.0})
                 num_pairs += expect_ghosts(division, radius,
                                            ghost_plan(division.cuts, division.points(),
-                                                      MPI_COMM_WORLD, {.radius = radius}));
+                                                      MPI_COMM_WORLD, {.cutoff = radius}));
         }
     }
     if (num_ranks() == 1) return;
@@ -148,13 +148,13 @@ TEST(Ghosts, follow_parts_to_the_ranks_that_have_them) {
     for (const double radius : {0.0, 1.0, 2.5})
         expect_ghosts(division, radius,
                       ghost_plan(division.cuts, division.points(), MPI_COMM_WORLD,
-                                 {.radius = radius, .ranks_of_parts = division.ranks_of_parts}));
+                                 {.cutoff = radius, .ranks_of_parts = division.ranks_of_parts}));
 }
 
 TEST(Ghosts, come_from_neighbours_alone_in_one_message_each) {
     const std::vector<double> coordinates{rank() + 0.1, 0, rank() + 0.5, 0, rank() + 0.9, 0};
     const Points points(coordinates, 2);
-    const GhostPlan lists = ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.radius = 0.2});
+    const GhostPlan lists = ghost_plan(test::slabs(), points, MPI_COMM_WORLD, {.cutoff = 0.2});
     std::vector<std::pair<int, LocalIndex>> expected;
     if (rank() > 0) expected.emplace_back(rank() - 1, 0);
     if (!is_last_rank()) expected.emplace_back(rank() + 1, 2);
@@ -186,7 +186,7 @@ TEST(Ghosts, at_exactly_the_radius_count) {
     // 0.25 from the cut, and the next number beyond what rounding may lose.
     const std::vector<double> coordinates{rank() + 0.75, 0, rank() + 0.75 - 0x1p-40, 0};
     const GhostPlan lists =
-        ghost_plan(test::slabs(), Points(coordinates, 2), MPI_COMM_WORLD, {.radius = 0.25});
+        ghost_plan(test::slabs(), Points(coordinates, 2), MPI_COMM_WORLD, {.cutoff = 0.25});
     EXPECT_EQ(lists.send_indices,
               is_last_rank() ? std::vector<LocalIndex>{} : std::vector<LocalIndex>{0});
 }
@@ -199,7 +199,7 @@ TEST(Ghosts, go_to_no_rank_whose_part_is_empty) {
     const Part empty = num_ranks() == 2 ? 0 : num_ranks() - 2;
     const std::vector<double> coordinates{num_ranks() - 2.0, 0, 0.25, 0, num_ranks() - 0.5, 0};
     const GhostPlan lists =
-        ghost_plan(cuts, Points(coordinates, 2), MPI_COMM_WORLD, {.radius = 100});
+        ghost_plan(cuts, Points(coordinates, 2), MPI_COMM_WORLD, {.cutoff = 100});
     for (const RankCount& share : lists.send) EXPECT_NE(share.rank, empty);
     EXPECT_EQ(lists.send.size(), static_cast<std::size_t>(num_ranks() - (rank() == empty ? 1 : 2)));
     EXPECT_EQ(lists.receive.empty(), rank() == empty);

@@ -254,7 +254,7 @@ TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
             std::max(farthest, static_cast<double>(test::distance(scene.position(i), region, 2)));
     MPI_Allreduce(MPI_IN_PLACE, &farthest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     const auto missing = [&](double greater) {
-        const GhostPlan near = ghost_plan(balance.cuts, mine.points(), comm, {.radius = greater});
+        const GhostPlan near = ghost_plan(balance.cuts, mine.points(), comm, {.cutoff = greater});
         return missing_pairs(scene, owners, near, mine.indices, 0.03);
     };
     EXPECT_EQ(missing(0.03 + farthest), 0u);

@@ -71,7 +71,7 @@ void expect_same_bits(std::size_t count) {
             Balance expected = balance(reference, MPI_COMM_WORLD, options);
             expected.cuts = unstamped(expected.cuts);  // the points stay where they are
             const GhostPlan near =
-                ghost_plan(expected.cuts, reference, MPI_COMM_WORLD, {.radius = 0.05});
+                ghost_plan(expected.cuts, reference, MPI_COMM_WORLD, {.cutoff = 0.05});
             for (Points points : cloud.arrangements()) {
                 points.weights = weights;
                 Balance found = balance(points, MPI_COMM_WORLD, options);
@@ -83,7 +83,7 @@ void expect_same_bits(std::size_t count) {
                 EXPECT_EQ(balance(points, MPI_COMM_WORLD, options, found.cuts).parts,
                           balance(reference, MPI_COMM_WORLD, options, found.cuts).parts);
                 EXPECT_EQ(
-                    ghost_plan(found.cuts, points, MPI_COMM_WORLD, {.radius = 0.05}).send_indices,
+                    ghost_plan(found.cuts, points, MPI_COMM_WORLD, {.cutoff = 0.05}).send_indices,
                     near.send_indices);
             }
         }

@@ -65,7 +65,7 @@ void call_all(const std::vector<double>& cloud, const Options& options) {
     const Plan moves = plan(made, MPI_COMM_WORLD);
     const std::vector<double> mine = transfer(moves, column(cloud, 2), MPI_COMM_WORLD);
     const Points moved(mine, 2);
-    const GhostPlan near = ghost_plan(made.cuts, moved, MPI_COMM_WORLD, {.radius = 0.1});
+    const GhostPlan near = ghost_plan(made.cuts, moved, MPI_COMM_WORLD, {.cutoff = 0.1});
     const std::vector<double> others = fetch(near, column(mine, 2), MPI_COMM_WORLD);
     EXPECT_EQ(others.size() % 2, 0U);
     const std::vector<std::uint64_t> keys(2 * moved.count, 7);

@@ -152,7 +152,7 @@ std::pair<GlobalCount, GlobalCount> ghosts_of(const Balance& balance, const Clou
     const int dimension = cloud.points.dimension;
     const auto mine = transfer(plan(balance, comm), column(cloud.coordinates, dimension), comm);
     const GhostPlan near =
-        ghost_plan(balance.cuts, Points(mine, dimension), comm, {.radius = 0.02});
+        ghost_plan(balance.cuts, Points(mine, dimension), comm, {.cutoff = 0.02});
     GlobalCount counts[2] = {};
     for (const RankCount& from : near.receive) {
         if (machine_of(from.rank, num_ranks()) != machine_of(rank(), num_ranks()))

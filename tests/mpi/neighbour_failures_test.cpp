@@ -26,7 +26,7 @@ class Row : public testing::Test {
             ids_.push_back(rank() * per_rank + i);
         }
         load_.resize(per_rank * words_, 1.0);
-        neighbours_.emplace(cuts_, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
+        neighbours_.emplace(cuts_, world, NeighbourOptions{.cutoff = 0.3, .travel = 0.3});
     }
 
     void step() {
@@ -85,7 +85,7 @@ TEST_F(Row, a_far_jump_reaches_all_ranks_one_after_the_other) {
     const Plan moves = plan(next, world);
     std::tie(x_, ids_, load_) =
         transfer(moves, columns(column(x_), ids_, column(load_, words_)), world);
-    neighbours_.emplace(next.cuts, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
+    neighbours_.emplace(next.cuts, world, NeighbourOptions{.cutoff = 0.3, .travel = 0.3});
     for (int k = 0; k < 3; ++k) step();
     expect_all_points();
 }
@@ -101,7 +101,7 @@ TEST_F(Row, the_same_cuts_serve_again) {
             EXPECT_EQ(x_[0], away);
             x_[0] = home;
         }
-        neighbours_.emplace(cuts_, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
+        neighbours_.emplace(cuts_, world, NeighbourOptions{.cutoff = 0.3, .travel = 0.3});
         step();
         expect_all_points();
     }
@@ -131,7 +131,7 @@ TEST_F(Row, an_array_given_twice_is_named) {
         EXPECT_NE(text.find("columns 0 and 1 (the first is 0) are the same array"),
                   std::string::npos)
             << text;
-        neighbours_.emplace(cuts_, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
+        neighbours_.emplace(cuts_, world, NeighbourOptions{.cutoff = 0.3, .travel = 0.3});
     };
     expect_named([&] { neighbours_->migrate(column(x_), x_); });
     EXPECT_EQ(x_, before);
@@ -171,7 +171,7 @@ TEST_F(Row, a_balance_among_neighbour_calls_is_named) {
     EXPECT_NE(text.find("rank 0 calls balance, rank 1 calls Neighbours::migrate"),
               std::string::npos)
         << text;
-    neighbours_.emplace(cuts_, world, NeighbourOptions{.radius = 0.3, .travel = 0.3});
+    neighbours_.emplace(cuts_, world, NeighbourOptions{.cutoff = 0.3, .travel = 0.3});
     step();
     expect_all_points();
 }

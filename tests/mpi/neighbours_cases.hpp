@@ -63,7 +63,7 @@ class NeighbourRun {
     }
 
     NeighbourOptions options() const {
-        NeighbourOptions options{.radius = input_.radius, .travel = input_.travel};
+        NeighbourOptions options{.cutoff = input_.radius, .travel = input_.travel};
         if (input_.is_periodic) options.periodic = box();
         if (input_.turns_parts) options.ranks_of_parts = ranks_;
         options.needs = input_.needs;
@@ -132,9 +132,9 @@ class NeighbourRun {
         const std::vector<double> radii = this->radii();
         GhostOptions same;
         if (input_.has_radii)
-            same.radii = radii;
+            same.cutoff = radii;
         else
-            same.radius = input_.radius;
+            same.cutoff = input_.radius;
         if (input_.is_periodic) same.periodic = box();
         if (input_.turns_parts) same.ranks_of_parts = ranks_;
         same.needs = input_.needs;

@@ -97,7 +97,7 @@ long double distance_to_mine(const Scene& scene, const Vector& x) {
 /// Compares ghosts with the regions and with all pairs of points and images; counts neighbours on
 /// their ghosts and adds them up.
 void expect_ghosts(const Scene& scene, double radius) {
-    const GhostOptions options{radius, {}, scene.box, {}};
+    const GhostOptions options{.cutoff = radius, .periodic = scene.box};
     const GhostPlan plan =
         ghost_plan(scene.cuts, Points(scene.here, scene.dimension), MPI_COMM_WORLD, options);
     auto [numbers, positions] = fetch(
@@ -168,7 +168,7 @@ TEST(PeriodicGhosts, of_floats_are_moved_to_images) {
     const Box box{{0}, {end}};
     const Balance all = balance(Points(x, 1), MPI_COMM_WORLD);
     const GhostPlan plan =
-        ghost_plan(all.cuts, Points(x, 1), MPI_COMM_WORLD, {.radius = end, .periodic = box});
+        ghost_plan(all.cuts, Points(x, 1), MPI_COMM_WORLD, {.cutoff = end, .periodic = box});
     const std::vector<float> fetched = fetch(plan, x, MPI_COMM_WORLD);
     std::vector<float> positions = fetched;
     apply_shifts(plan, positions);
@@ -209,7 +209,7 @@ TEST(PeriodicGhosts, move_as_members_of_structs) {
     const std::vector<double> here =
         transfer(plan(made, MPI_COMM_WORLD), column(cloud, 2), MPI_COMM_WORLD);
     const GhostPlan near =
-        ghost_plan(made.cuts, Points(here, 2), MPI_COMM_WORLD, {.radius = 0.1, .periodic = box});
+        ghost_plan(made.cuts, Points(here, 2), MPI_COMM_WORLD, {.cutoff = 0.1, .periodic = box});
     std::vector<Particle> particles;
     std::vector<float> floats(here.begin(), here.end());
     for (std::size_t i = 0; i < floats.size(); i += 2)
@@ -236,7 +236,7 @@ void expect_images_outside(const Box& box) {
     const Balance made = balance(Points(scattered, 1), MPI_COMM_WORLD);
     const std::vector<T> x = transfer(plan(made, MPI_COMM_WORLD), scattered, MPI_COMM_WORLD);
     const GhostPlan near =
-        ghost_plan(made.cuts, Points(x, 1), MPI_COMM_WORLD, {.radius = 0.03, .periodic = box});
+        ghost_plan(made.cuts, Points(x, 1), MPI_COMM_WORLD, {.cutoff = 0.03, .periodic = box});
     EXPECT_EQ(experimental::verify(near, Points(x, 1), MPI_COMM_WORLD).num_faults, 0);
     std::vector<T> images = fetch(near, x, MPI_COMM_WORLD);
     apply_shifts(near, images);
@@ -289,7 +289,7 @@ TEST(PeriodicGhosts, in_no_usable_box_are_refused_on_all_ranks) {
     const std::vector<double> x{0.25, 0};
     const Scene scene = make_scene(2, 1, 1);
     const auto refused = [&](const std::string& text, double radius, double lower, double upper) {
-        GhostOptions options{radius, {}, scene.box, {}};
+        GhostOptions options{.cutoff = radius, .periodic = scene.box};
         if (is_last_rank()) {
             options.periodic->lower[0] = lower;
             options.periodic->upper[0] = upper;

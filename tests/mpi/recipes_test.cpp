@@ -56,7 +56,7 @@ TEST(TiltedBox, gives_all_pairs_in_3d_with_the_norm_of_its_inverse) {
     const std::vector<double> here =
         transfer(plan(made, MPI_COMM_WORLD), column(scattered, 3), MPI_COMM_WORLD);
     const GhostPlan near = ghost_plan(made.cuts, Points(here, 3), MPI_COMM_WORLD,
-                                      {.radius = reach * box.norm_of_inverse(), .periodic = unit});
+                                      {.cutoff = reach * box.norm_of_inverse(), .periodic = unit});
     std::vector<double> images = fetch(near, column(here, 3), MPI_COMM_WORLD);
     apply_shifts(near, images);
     images.insert(images.end(), here.begin(), here.end());

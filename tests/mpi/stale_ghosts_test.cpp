@@ -21,7 +21,7 @@ Plan shift_by(int ranks, std::size_t count) {
 /// Points in the slab of this rank, near its faces, and their ghosts.
 struct Slab {
     std::vector<double> x{rank() + 0.1, 0, rank() + 0.9, 0};
-    GhostPlan near = ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.radius = 0.2});
+    GhostPlan near = ghost_plan(test::slabs(), Points(x, 2), MPI_COMM_WORLD, {.cutoff = 0.2});
 
     std::vector<double> fetched() const { return fetch(near, column(x, 2), MPI_COMM_WORLD); }
 };

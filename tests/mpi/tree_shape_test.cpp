@@ -190,7 +190,7 @@ TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
         const Points points(coordinates, 2);
         Cuts cuts = balance(points, MPI_COMM_WORLD, options).cuts;
         cuts = unstamped(cuts);  // the points stay where they are
-        const GhostPlan found = ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = radius});
+        const GhostPlan found = ghost_plan(cuts, points, MPI_COMM_WORLD, {.cutoff = radius});
         std::vector<std::size_t> expected;
         for (int to = 0; to < num_ranks(); ++to) {
             for (LocalIndex i = 0; i < points.count && to != rank(); ++i) {

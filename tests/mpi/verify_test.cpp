@@ -78,7 +78,7 @@ TEST(Verify, finds_all_pairs_and_no_faults_in_sound_plans) {
     const Scene scene(2);
     for (const double radius : {0.0, 0.1, 0.7}) {
         for (const bool is_periodic : {false, true}) {
-            GhostOptions options{.radius = radius};
+            GhostOptions options{.cutoff = radius};
             if (is_periodic) options.periodic = unit;
             const experimental::Verification seen = scene.seen(scene.near(options));
             expect_sound(seen);
@@ -89,7 +89,7 @@ TEST(Verify, finds_all_pairs_and_no_faults_in_sound_plans) {
 
 TEST(Verify, looks_at_no_more_than_a_sample) {
     const Scene scene(2);
-    const GhostPlan near = scene.near({.radius = 0.5, .periodic = unit});
+    const GhostPlan near = scene.near({.cutoff = 0.5, .periodic = unit});
     const GlobalCount all = scene.seen(near).num_pairs;
     const GlobalCount some =
         scene.seen(near, {10 * static_cast<std::size_t>(num_ranks())}).num_pairs;
@@ -102,10 +102,10 @@ TEST(Verify, names_the_pairs_whose_ghosts_are_missing) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const Scene scene(2);
     const experimental::Verification less =
-        scene.seen(scene.near({.radius = 0.05}), {.sample = everything, .radius = 0.1});
+        scene.seen(scene.near({.cutoff = 0.05}), {.sample = everything, .cutoff = 0.1});
     EXPECT_GT(less.num_faults, 0);
     const std::vector<std::uint64_t> wide =
-        fetch(scene.near({.radius = 0.1}), scene.ids, MPI_COMM_WORLD);
+        fetch(scene.near({.cutoff = 0.1}), scene.ids, MPI_COMM_WORLD);
     for (const experimental::Fault& fault : less.missing) {
         EXPECT_EQ(std::ranges::count(wide, fault.id), 1);
         EXPECT_EQ(std::ranges::count(scene.ids, fault.needed_by), 1);
@@ -113,14 +113,14 @@ TEST(Verify, names_the_pairs_whose_ghosts_are_missing) {
     }
     EXPECT_TRUE(less.duplicates.empty() && less.not_mine.empty());
     // With more than the ghosts' radius where points have moved apart, all is well.
-    expect_sound(scene.seen(scene.near({.radius = 0.1}), {.sample = everything, .radius = 0.05}));
+    expect_sound(scene.seen(scene.near({.cutoff = 0.1}), {.sample = everything, .cutoff = 0.05}));
 }
 
 TEST(Verify, names_ghosts_that_came_twice_and_own_points) {
     const Scene scene(2);
     GhostPlan plan;
     plan.num_points = scene.ids.size();
-    plan.radius = 0;
+    plan.cutoff = 0;
     const int next = (rank() + 1) % num_ranks();
     plan.send = {{next, 3}};
     plan.send_indices = {5, 7, 7};
@@ -134,7 +134,7 @@ TEST(Verify, names_ghosts_that_came_twice_and_own_points) {
 
 TEST(Verify, names_ids_that_are_lost_or_new_or_on_two_ranks) {
     Scene scene(2);
-    const GhostPlan near = scene.near({.radius = 0.1});
+    const GhostPlan near = scene.near({.cutoff = 0.1});
     experimental::VerifyOptions options{.sample = 0, .ids_before = scene.before};
     expect_sound(scene.seen(near, options));
     const std::uint64_t lost = scene.ids[3];
@@ -163,7 +163,7 @@ TEST(Verify, names_ids_that_are_lost_or_new_or_on_two_ranks) {
 
 TEST(Verify, refuses_what_does_not_fit_on_one_rank_on_all) {
     const Scene scene(2);
-    const GhostPlan near = scene.near({.radii = scene.radii, .needs = Needs::gather});
+    const GhostPlan near = scene.near({.cutoff = scene.radii, .needs = Needs::gather});
     const auto refused = [&](const std::string& text, const experimental::VerifyOptions& options,
                              const Points& points) {
         test::expect_same_error(
@@ -172,8 +172,8 @@ TEST(Verify, refuses_what_does_not_fit_on_one_rank_on_all) {
     const std::vector<double> few(2);
     const std::vector<std::uint64_t> ids(1);
     const bool is_last = is_last_rank();
-    refused("give it or radii", {}, scene.points());
-    experimental::VerifyOptions options{.radius = 0.1};
+    refused("give one for all points", {}, scene.points());
+    experimental::VerifyOptions options{.cutoff = 0.1};
     refused("points must be as many as the plan", options,
             is_last ? Points(few, 2) : scene.points());
     options.ids_before = ids;
@@ -181,7 +181,7 @@ TEST(Verify, refuses_what_does_not_fit_on_one_rank_on_all) {
     options.ids = is_last ? ids : std::span<const std::uint64_t>(scene.ids);
     refused("ids must have one entry for each point", options, scene.points());
     if (num_ranks() == 1) return;
-    refused("the sample differs", {.sample = is_last ? 1u : 2u, .radius = 0.1}, scene.points());
+    refused("the sample differs", {.sample = is_last ? 1u : 2u, .cutoff = 0.1}, scene.points());
 }
 
 }  // namespace

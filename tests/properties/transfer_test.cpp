@@ -112,7 +112,7 @@ TEST(Ghosts, are_all_points_near_the_regions_of_a_rank_and_no_others) {
             Cuts cuts = balance(points, MPI_COMM_WORLD, input.options()).cuts;
             cuts = unstamped(cuts);  // the points stay where they are
             const double radius = radius_of(input, cloud);
-            const GhostPlan lists = ghost_plan(cuts, points, MPI_COMM_WORLD, {.radius = radius});
+            const GhostPlan lists = ghost_plan(cuts, points, MPI_COMM_WORLD, {.cutoff = radius});
             const auto [owners, indices] =
                 fetch(lists, columns(held.owners, held.indices), MPI_COMM_WORLD, options_of(input));
             std::size_t next = 0;

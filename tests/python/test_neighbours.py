@@ -134,11 +134,11 @@ def test_names_a_far_jump():
 
 def test_refuses_bad_options():
     balance, _ = balanced()
-    runner.same_error(lambda: rrcb.Neighbours(balance), "radius and travel are both 0")
+    runner.same_error(lambda: rrcb.Neighbours(balance), "cutoff and travel are both 0")
     runner.same_error(lambda: rrcb.Neighbours(balance, on_rank(0, "near", 0.1)), "must be numbers")
     runner.same_error(lambda: rrcb.Neighbours(balance, 0.1, needs="all"), "needs must be one of")
     if RANKS > 1:
-        runner.same_error(lambda: rrcb.Neighbours(balance, on_rank(0, 0.2, 0.1)), "the radius")
+        runner.same_error(lambda: rrcb.Neighbours(balance, on_rank(0, 0.2, 0.1)), "the cutoff")
 
 
 if __name__ == "__main__":

@@ -404,7 +404,7 @@ def test_verifies_ghosts():
     seen = rrcb.experimental.verify(ghosts, here["x"], 10**6, ids=here["id"], ids_before=ids(len(x)))
     assert seen.num_faults == 0 and len(seen.missing) == 0 and seen.num_pairs > 0
     narrow = balance.ghosts(here["x"], 0.05)
-    seen = rrcb.experimental.verify(narrow, here["x"], 10**6, radius=0.1, ids=here["id"])
+    seen = rrcb.experimental.verify(narrow, here["x"], 10**6, cutoff=0.1, ids=here["id"])
     assert comm.allreduce(len(seen.missing)) == seen.num_faults
     assert np.isin(seen.missing["needed_by"], here["id"]).all()
     wide = balance.ghosts(here["x"], 0.1).fetch(here["id"])

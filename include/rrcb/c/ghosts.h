@@ -10,7 +10,7 @@ extern "C" {
 /** Points that ranks send and receive as ghosts, with their communicator. */
 typedef struct rrcb_ghosts rrcb_ghosts;
 
-/** Determines whose radius counts if points have different radii; as rrcb::Needs. */
+/** Determines whose cutoff counts if points have different ones; as rrcb::Needs. */
 typedef enum rrcb_needs {
     RRCB_NEEDS_SCATTER = 0,  /**< a rank gets the points whose radii reach one of its parts */
     RRCB_NEEDS_GATHER = 1,   /**< it gets the points within the radius of one of its points */
@@ -19,19 +19,19 @@ typedef enum rrcb_needs {
 
 /** Distances within which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
-    size_t size;         /**< of this struct, set by RRCB_GHOST_OPTIONS_INIT */
-    double radius;       /**< cut-off of all points, in the unit of the coordinates; 0: not given */
-    const double* radii; /**< one for each point instead, 0 or more; null on all ranks
+    size_t size;   /**< of this struct, set by RRCB_GHOST_OPTIONS_INIT */
+    double cutoff; /**< cut-off of all points, in the unit of the coordinates; 0: not given */
+    const double* cutoffs; /**< one for each point instead, 0 or more; null on all ranks
                               with points: not given */
-    const double* lower; /**< lower end of the periodic box, of length 3; null: no box */
-    const double* upper; /**< upper end of the same box */
+    const double* lower;   /**< lower end of the periodic box, of length 3; null: no box */
+    const double* upper;   /**< upper end of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
                                               those of rrcb_ranks_of_part */
     size_t num_parts;                      /**< length of `ranks_of_parts`, 0 if that is null */
     int64_t needs;                         /**< an rrcb_needs */
 } rrcb_ghost_options;
 
-/** Options without a radius and without a periodic box, with the needs of senders. */
+/** Options without a cutoff and without a periodic box, with the needs of senders. */
 #define RRCB_GHOST_OPTIONS_INIT \
     { sizeof(rrcb_ghost_options), 0, NULL, NULL, NULL, NULL, 0, RRCB_NEEDS_SCATTER }
 
@@ -59,7 +59,7 @@ typedef struct rrcb_ghost_plan {
  * @param balancer with the cuts whose parts the points are in; not needed afterwards
  * @param points   of this rank, after rrcb_transfer. The points of the balance or of
  * rrcb_assign_all are refused if one of them has yet to leave its rank
- * @param options  radius, periodic box, ranks of the parts
+ * @param options  cutoff, periodic box, ranks of the parts
  * @param ghosts   as for rrcb_balancer_create */
 RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const rrcb_ghost_options* options, rrcb_ghosts** ghosts);

@@ -20,11 +20,11 @@ typedef struct rrcb_neighbours rrcb_neighbours;
  * rrcb::NeighbourOptions. At least one distance must be above 0. The options must be the same on
  * every rank. */
 typedef struct rrcb_neighbour_options {
-    size_t size;   /**< of this struct, set by RRCB_NEIGHBOUR_OPTIONS_INIT */
-    double radius; /**< cut-off of ghosts, in the unit of the coordinates; the largest radius */
-    double travel; /**< distance that a point may move between two calls of migrate */
-    const double* lower;                   /**< lower end of the periodic box; null: no box */
-    const double* upper;                   /**< upper end of the same box */
+    size_t size;         /**< of this struct, set by RRCB_NEIGHBOUR_OPTIONS_INIT */
+    double cutoff;       /**< cut-off of ghosts, in the unit of the coordinates; the largest one */
+    double travel;       /**< distance that a point may move between two calls of migrate */
+    const double* lower; /**< lower end of the periodic box; null: no box */
+    const double* upper; /**< upper end of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< as in rrcb_ghost_options */
     size_t num_parts;                      /**< length of `ranks_of_parts`, 0 if that is null */
     int64_t needs;                         /**< an rrcb_needs */
@@ -97,9 +97,10 @@ RRCB_API int rrcb_neighbours_migrate(rrcb_neighbours* neighbours, const rrcb_poi
  *
  * @param neighbours get the lists
  * @param points     of this rank
- * @param radii      one for each point, at most `radius` of the options; null: `radius` for all */
+ * @param cutoffs      one for each point, at most `cutoff` of the options; null: `cutoff` for all
+ */
 RRCB_API int rrcb_neighbours_find_ghosts(rrcb_neighbours* neighbours, const rrcb_points* points,
-                                         const double* radii);
+                                         const double* cutoffs);
 
 /** Fetches columns of the ghosts, as rrcb::Neighbours::fetch. Exchanges messages with all
  * neighbours.

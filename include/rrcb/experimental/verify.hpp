@@ -18,10 +18,9 @@ namespace rrcb::experimental {
 struct VerifyOptions {
     /// Maximum number of points, over all ranks, whose neighbours are searched.
     std::size_t sample = 1000;
-    /// True cut-off radius, if the ghosts were found with a skin; NaN: the radius given to
-    /// ghost_plan().
-    double radius = std::numeric_limits<double>::quiet_NaN();
-    std::optional<std::span<const double>> radii{};       ///< needed if ghost_plan() got some
+    /// True cutoff, if the ghosts were found with a skin. By default it is that of the ghosts; give
+    /// it if ghosts have one for each point.
+    Cutoff cutoff{};
     std::optional<std::span<const std::uint64_t>> ids{};  ///< of the points; else their indices
     /// Ids of this rank's points before a transfer. Each of them must still exist.
     std::optional<std::span<const std::uint64_t>> ids_before{};

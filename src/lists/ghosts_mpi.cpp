@@ -268,7 +268,7 @@ GhostPlan ghost_plan(const Cuts& cuts, const Points& points, const GhostOptions&
     detail::StampAccess::points(plan.stamp) = next_stamp();
     plan.cutoff = detail::CutoffAccess::of_all(options.cutoff);
     plan.needs = options.needs;
-    if (options.periodic) plan.periodic = *options.periodic;
+    plan.periodic = options.periodic;
     return plan;
 }
 

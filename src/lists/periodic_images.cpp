@@ -106,20 +106,21 @@ void apply_shifts_to(std::span<T> positions, const GhostPlan& plan) {
     require(dimension >= 1 && dimension <= max_dimension &&
                 positions.size() == dimension * plan.shifts.size(),
             "positions must have an entry for each axis of each ghost");
+    const Box box = plan.periodic.value_or(Box());
     for (std::size_t k = 0; k < positions.size(); ++k) {
         const int axis = static_cast<int>(k % dimension);
-        positions[k] =
-            image_outside(positions[k], plan.periodic, axis, plan.shifts[k / dimension][axis]);
+        positions[k] = image_outside(positions[k], box, axis, plan.shifts[k / dimension][axis]);
     }
 }
 
 /// Moves the positions in a view along one axis.
 template <class T>
 void apply_shifts_along(const Points& positions, int axis, const GhostPlan& plan) {
+    const Box box = plan.periodic.value_or(Box());
     // A view of points is const, but the caller's arrays are not.
     auto* x = static_cast<T*>(const_cast<void*>(positions.axes[axis]));
     for (const Shift& shift : plan.shifts) {
-        *x = image_outside(*x, plan.periodic, axis, shift[axis]);
+        *x = image_outside(*x, box, axis, shift[axis]);
         x += &shift == &plan.shifts.back() ? 0 : positions.stride / sizeof(T);
     }
 }

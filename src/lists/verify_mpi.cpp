@@ -270,7 +270,7 @@ Verification verify(const GhostPlan& plan, const Points& points, const VerifyOpt
     const Cutoff of_plan = plan.cutoff ? Cutoff(*plan.cutoff) : Cutoff();
     const Cutoff& cutoff = is_given ? options.cutoff : of_plan;
     VerifyRequest request{plan, points, options, Radii::of_cutoff(cutoff, plan.needs, points.count),
-                          PeriodicImages(plan.periodic, points.dimension)};
+                          PeriodicImages(plan.periodic.value_or(Box{}), points.dimension)};
     self.attempt([&] { request.check(); });
     std::array shared{
         Shared{"whether ids are given", options.ids ? 1u : 0u, options.ids || points.count > 0},

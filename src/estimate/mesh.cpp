@@ -81,7 +81,8 @@ int whole_cells(double cells) {
 /// Returns a mesh each of whose cells covers one or more cells of the grid that limits the cuts.
 /// The weight between grid lines is then known, which saves 7 % of the rounds. Returns nullopt if
 /// the sizes of the grid do not allow it.
-std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Options& options) {
+std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, int most,
+                                         const Options& options) {
     SupportMesh mesh = make_support_mesh(box, dimension, 1);
     const auto limits = axis_limits(options);
     for (int a = 0; a < dimension; ++a) {
@@ -89,7 +90,8 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
             return {};
         const double first = limits[a].line_below(box.lower[a]);
         const double num_lines = limits[a].line_below(box.upper[a]) + 1 - first;
-        const double together = std::ceil(num_lines / fine_cells(dimension));
+        const double together =
+            std::ceil(num_lines / std::min<double>(fine_cells(dimension), most));
         const double cells = std::ceil(num_lines / together);
         mesh.box.lower[a] = limits[a].line(first);
         mesh.box.upper[a] = limits[a].line(first + cells * together);
@@ -134,13 +136,14 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
 
 SupportMesh mesh_by_options(PointPasses& points, const Box& box, const Options& options) {
     const int dimension = points.dimension();
-    const bool is_automatic = options.expert.cells_per_axis == 0;
-    if (is_automatic && !options.expert.axes.grid.empty())
-        if (const auto mesh = mesh_on_lines(box, dimension, options)) return *mesh;
-    if (!is_automatic) return framed_mesh(points, box, options.expert.cells_per_axis);
-    const double most = std::pow(static_cast<double>(points.most_cells()), 1.0 / dimension);
+    if (options.expert.cells_per_axis != 0)
+        return framed_mesh(points, box, options.expert.cells_per_axis);
+    const double fast = std::pow(static_cast<double>(points.most_cells()), 1.0 / dimension);
+    const int most = whole_cells(std::min(fast, 1e6));
+    if (!options.expert.axes.grid.empty())
+        if (const auto mesh = mesh_on_lines(box, dimension, most, options)) return *mesh;
     const int cells = automatic_cells_per_axis(dimension, points.count(), options);
-    return framed_mesh(points, box, most < cells ? whole_cells(most) : cells);
+    return framed_mesh(points, box, std::min(most, cells));
 }
 
 }  // namespace rrcb

@@ -48,6 +48,10 @@ TEST(AutomaticMesh, has_no_more_cells_than_passes_add_up_fast) {
     EXPECT_EQ(mesh_by_options(points, box, options).cells, (std::array<int, 3>{5, 5, 5}));
     test::BrutePasses others(x, 3);
     EXPECT_EQ(mesh_by_options(others, box, options).cells, (std::array<int, 3>{10, 10, 10}));
+    Options on_lines;
+    on_lines.expert.axes.grid.assign(3, {.origin = 0, .spacing = 0.01});
+    EXPECT_EQ(mesh_by_options(points, box, on_lines).cells, (std::array<int, 3>{5, 5, 5}));
+    EXPECT_EQ(mesh_by_options(others, box, on_lines).cells, (std::array<int, 3>{10, 10, 10}));
     Options given{.expert = {.cells_per_axis = 9}};
     EXPECT_EQ(mesh_by_options(points, box, given).cells, (std::array<int, 3>{9, 9, 9}));
 }

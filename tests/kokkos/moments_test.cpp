@@ -157,6 +157,7 @@ TEST(Meetings, are_few_in_any_order_of_the_points) {
     const auto random = bins_of(1000, [&](double) { return uniform(engine); });
     const auto sorted = bins_of(1000, [](double x) { return x; });
     const auto parts = bins_of(8, [](double x) { return x; });
+    const auto few = bins_of(8, [&](double) { return uniform(engine); });
     // Rows of a lattice, each through 10 cells.
     const auto rows = bins_of(10, [](double x) { return std::fmod(x * 2500, 1); });
     const auto clustered = bins_of(1000, [&](double) { return std::pow(uniform(engine), 30); });
@@ -168,6 +169,8 @@ TEST(Meetings, are_few_in_any_order_of_the_points) {
     EXPECT_NEAR(cost(sorted, false), 29, 1);
     EXPECT_LT(cost(random, true), 1.04);
     EXPECT_LT(cost(sorted, true), 0.2 * cost(sorted, false));
+    EXPECT_NEAR(cost(few, false), 1 + 31.0 / 8, 0.01);
+    EXPECT_LT(cost(few, true), 0.8 * cost(few, false));
     EXPECT_LT(cost(parts, true), 0.01 * cost(parts, false));
     EXPECT_LT(cost(rows, true), 0.25 * cost(rows, false));
     EXPECT_LT(cost(clustered, true), 0.5 * cost(clustered, false));

@@ -89,10 +89,8 @@ auto balance(const Execution& exec, const Views& x, const Weights& weights, MPI_
 template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 auto balance(const Execution& exec, const Views& x, MPI_Comm comm, const Options& options = {},
              const Cuts& previous = {}) {
-    KokkosBalance<detail::MemoryOf<Views>> result;
-    const detail::UnitWeights<detail::MemoryOf<Views>> weights;
-    balance_into(result, exec, x, weights, comm, options, previous);
-    return result;
+    const Kokkos::View<double*, detail::MemoryOf<Views>> no_weights;
+    return balance(exec, x, no_weights, comm, options, previous);
 }
 
 /// Writes the part of every point in a view. Not collective.
@@ -108,7 +106,7 @@ void assign(const Execution& exec, const Cuts& cuts, const Views& x,
             const Kokkos::View<Part*, detail::MemoryOf<Views>>& parts) {
     assign(cuts, Points({}, cuts.dimension), std::span<Part>());  // checks the cuts
     using Memory = detail::MemoryOf<Views>;
-    KokkosPasses<Execution, Views, detail::UnitWeights<Memory>> passes(exec, x, {}, {parts, {}});
+    KokkosPasses<Execution, Views, Kokkos::View<double*, Memory>> passes(exec, x, {}, {parts, {}});
     detail::require_on_device(passes.dimension() == cuts.dimension,
                               "positions must have the dimension of the cuts");
     detail::require_on_device(parts.extent(0) == passes.count(),

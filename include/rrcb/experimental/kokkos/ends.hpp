@@ -1,24 +1,20 @@
 #pragma once
 
 #include <rrcb/experimental/kokkos/points.hpp>
+#include <rrcb/experimental/kokkos/sums.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <string>
-#include <vector>
 
 namespace rrcb::detail {
 
-/// Bounds of the coordinates and weights, and which points are at the bounds.
+/// Bounds of the coordinates and weights, and which points are at the bounds of coordinates. Of
+/// several such points it is the first or the last in the order of the other axes.
 template <int Dimension>
 struct Ends {
-    static constexpr std::int64_t tied = -1;
-
-    double bounds[2 * Dimension];  ///< least coordinate along each axis, then the greatest along
-                                   ///< each
-    std::int64_t points[2 * Dimension];  ///< point at each bound; `tied` if there are several
+    double bounds[2 * Dimension];        ///< least on each axis, then greatest on each axis
+    std::int64_t points[2 * Dimension];  ///< at each bound
     double lightest;
     double heaviest;
     std::int64_t faults;
@@ -49,13 +45,11 @@ struct FindEnds {
         }
     }
     KOKKOS_INLINE_FUNCTION void init(value_type& ends) const {
-        for (int k = 0; k < 2 * dimension; ++k) {
-            ends.bounds[k] = k < dimension ? HUGE_VAL : -HUGE_VAL;
-            ends.points[k] = value_type::tied;
+        ends = {{}, {}, HUGE_VAL, 0, 0};
+        for (int a = 0; a < dimension; ++a) {
+            ends.bounds[a] = HUGE_VAL;
+            ends.bounds[dimension + a] = -HUGE_VAL;
         }
-        ends.lightest = Weighs ? HUGE_VAL : 1;
-        ends.heaviest = Weighs ? 0 : 1;
-        ends.faults = 0;
     }
     KOKKOS_INLINE_FUNCTION void join(value_type& ends, const value_type& others) const {
         widen(others.lightest, others.heaviest, ends);
@@ -73,178 +67,77 @@ struct FindEnds {
         if (lightest < ends.lightest) ends.lightest = lightest;
         if (heaviest > ends.heaviest) ends.heaviest = heaviest;
     }
-    KOKKOS_INLINE_FUNCTION static void widen(int k, double value, std::int64_t i,
-                                             value_type& ends) {
-        const bool is_beyond = k < dimension ? value < ends.bounds[k] : value > ends.bounds[k];
-        if (value == ends.bounds[k]) ends.points[k] = value_type::tied;
+    KOKKOS_INLINE_FUNCTION void widen(int k, double value, std::int64_t i, value_type& ends) const {
+        bool is_beyond = k < dimension ? value < ends.bounds[k] : value > ends.bounds[k];
+        if (value == ends.bounds[k])
+            is_beyond = k < dimension ? is_before(i, ends.points[k]) : is_before(ends.points[k], i);
         if (is_beyond) ends.bounds[k] = value;
         if (is_beyond) ends.points[k] = i;
     }
-};
-
-/// Positions of the points at the bounds.
-template <int Dimension>
-struct Corners {
-    Position<Dimension> positions[2 * Dimension];
-};
-
-/// Finds, among all points at each bound, the first or the last in the order of the other axes.
-template <class Positions>
-struct FindCorners {
-    static constexpr int dimension = Positions::static_dimension;
-    using value_type = Corners<dimension>;
-
-    Positions x;
-    Ends<dimension> ends;
-
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, value_type& corners) const {
-        const Position<dimension> p = x.position(i);
-        for (int k = 0; k < 2 * dimension; ++k)
-            if (p.x[k % dimension] == ends.bounds[k]) widen(k, p, corners);
-    }
-    KOKKOS_INLINE_FUNCTION void init(value_type& corners) const {
-        for (int k = 0; k < 2 * dimension; ++k)
-            for (double& bound : corners.positions[k].x)
-                bound = k < dimension ? HUGE_VAL : -HUGE_VAL;
-    }
-    KOKKOS_INLINE_FUNCTION void join(value_type& corners, const value_type& others) const {
-        for (int k = 0; k < 2 * dimension; ++k) widen(k, others.positions[k], corners);
-    }
-    KOKKOS_INLINE_FUNCTION void join(volatile value_type& corners,
-                                     const volatile value_type& others) const {
-        join(const_cast<value_type&>(corners), const_cast<const value_type&>(others));
-    }
-
-  private:
-    KOKKOS_INLINE_FUNCTION static void widen(int k, const Position<dimension>& p,
-                                             value_type& corners) {
-        Position<dimension>& end = corners.positions[k];
-        bool is_before = false;
-        for (int a = dimension; a-- > 0;)
-            if (p.x[a] != end.x[a]) is_before = p.x[a] < end.x[a];
-        if (is_before == (k < dimension)) end = p;
+    /// Compares two points along the axes in ascending order.
+    KOKKOS_INLINE_FUNCTION bool is_before(std::int64_t i, std::int64_t j) const {
+        for (int a = 0; a < dimension; ++a)
+            if (x(i, a) != x(j, a)) return x(i, a) < x(j, a);
+        return false;
     }
 };
 
-/// Reduces all points by a functor to a value in the memory of the device.
-template <class Device, class Functor>
-void reduce(const Device& device, std::int64_t count, const Functor& functor,
-            typename Functor::value_type* value) {
-    const auto lock = lock_scratch<typename Device::Execution>();
-    Kokkos::parallel_reduce(
-        "rrcb::reduce", device.range(count), functor,
-        Kokkos::View<typename Functor::value_type, typename Device::Memory>(value));
-}
-
-/// Bounds of coordinates and weights, positions at the bounds, and illegal coordinates.
-template <int Dimension>
-struct Found {
-    Ends<Dimension> ends;
-    Corners<Dimension> corners;
-    Faults coordinates;
-};
-
-/// Finds illegal values.
-template <class Positions, class W>
-struct FindFaults {
-    struct value_type {
-        Faults coordinates;
-        Faults weights;
-    };
-    Positions x;
-    Weights<W> weights;
-
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t i, value_type& faults) const {
-        const double weight = weights(i);
-        if (!(weight >= 0 && is_finite(weight))) faults.weights.add({1, 4 * i});
-        for (int a = 0; a < Positions::static_dimension; ++a)
-            if (!is_finite(x(i, a))) faults.coordinates.add({1, 4 * i + a});
-    }
-    KOKKOS_INLINE_FUNCTION void init(value_type& faults) const {
-        faults.coordinates = faults.weights = {0, INT64_MAX};
-    }
-    KOKKOS_INLINE_FUNCTION void join(value_type& faults, const value_type& others) const {
-        faults.coordinates.add(others.coordinates);
-        faults.weights.add(others.weights);
-    }
-    KOKKOS_INLINE_FUNCTION void join(volatile value_type& faults,
-                                     const volatile value_type& others) const {
-        join(const_cast<value_type&>(faults), const_cast<const value_type&>(others));
-    }
-};
-
-/// Returns the coordinates that are not finite. Throws Error for an illegal weight. Ends with a
+/// Throws Error if a weight is illegal or, unless `are_weights`, if a coordinate is. Ends with a
 /// fence.
 template <class Device, class Positions, class W>
-Faults find_faults(Device& device, const Positions& x, const Weights<W>& weights) {
-    using Functor = FindFaults<Positions, W>;
-    const auto view = device.template lend<typename Functor::value_type>(1);
-    reduce(device, x.count, Functor{x, weights}, view.data());
-    const auto faults = device.copy_out(view)[0];
-    require_on_device(faults.weights.count == 0, "weight of point " + faults.weights.point() +
-                                                     " is negative, NaN or infinite" +
-                                                     faults.weights.tally() + "; give 0 or more");
-    return faults.coordinates;
+void check_values(const Device& device, const Positions& x, const Weights<W>& weights,
+                  bool are_weights) {
+    constexpr int dimension = Positions::static_dimension;
+    std::int64_t number = 0;
+    std::int64_t first = 0;
+    const auto lock = lock_scratch<typename Device::Execution>();
+    Kokkos::parallel_reduce(
+        "rrcb::check_values", device.range(x.count * (are_weights ? 1 : dimension)),
+        KOKKOS_LAMBDA(const std::int64_t k, std::int64_t& faults, std::int64_t& least) {
+            const double value =
+                are_weights ? weights(k) : x(k / dimension, static_cast<int>(k % dimension));
+            if (is_finite(value) && (value >= 0 || !are_weights)) return;
+            ++faults;
+            if (k < least) least = k;
+        },
+        number, Kokkos::Min<std::int64_t>(first));
+    const std::string tally = " (" + std::to_string(number) +
+                              (number == 1 ? " such value" : " such values") + " on this rank)";
+    require_on_device(number == 0 || !are_weights, "weight of point " + std::to_string(first) +
+                                                       " is negative, NaN or infinite" + tally +
+                                                       "; give 0 or more");
+    require_on_device(number == 0, "coordinate of point " + std::to_string(first / dimension) +
+                                       " on axis " + std::to_string(first % dimension) +
+                                       " is NaN or infinite" + tally);
 }
 
-/// Throws Error if a coordinate is not finite.
-inline void check_coordinates(const Faults& faults) {
-    require_on_device(faults.count == 0, "coordinate of point " + faults.point() + " on axis " +
-                                             std::to_string(faults.first % 4) +
-                                             " is NaN or infinite" + faults.tally());
-}
-
-/// Returns the ends of the weights and, if `reads_positions`, of the positions. Throws Error for an
-/// illegal weight. Ends with a fence; if several points share a bound, with two.
+/// Returns the ends of the weights and, if `reads_positions`, of the positions. Ends with a fence.
 template <bool Weighs, class Device, class Positions, class W>
-Found<Positions::static_dimension> find_ends(Device& device, const Positions& x,
-                                             const Weights<W>& weights, bool reads_positions) {
-    constexpr int num_bounds = 2 * Positions::static_dimension;
-    using Result = Found<Positions::static_dimension>;
-    auto view = device.template lend<Result>(1);
-    Result* const result = view.data();
-    reduce(device, x.count, FindEnds<Positions, W, Weighs>{x, weights, reads_positions},
-           &result->ends);
-    if (reads_positions)
-        Kokkos::parallel_for(
-            "rrcb::corners", device.range(num_bounds), KOKKOS_LAMBDA(const std::int64_t k) {
-                const std::int64_t i = result->ends.points[k];
-                if (i >= 0) result->corners.positions[k] = x.position(i);
-            });
-    Result found = device.copy_out(view)[0];
-    found.coordinates = {0, 0};
-    if (found.ends.faults > 0)
-        found.coordinates = find_faults(device, x, Weighs ? weights : Weights<W>{});
-    const auto* const points = found.ends.points;
-    if (!reads_positions || std::all_of(points, points + num_bounds, [](auto i) { return i >= 0; }))
-        return found;
-    view = device.template lend<Result>(1);
-    reduce(device, x.count, FindCorners<Positions>{x, found.ends}, &view.data()->corners);
-    found.corners = device.copy_out(view)[0].corners;
-    return found;
+Ends<Positions::static_dimension> find_ends(const Device& device, const Positions& x,
+                                            const Weights<W>& weights, bool reads_positions) {
+    Ends<Positions::static_dimension> ends;
+    const auto lock = lock_scratch<typename Device::Execution>();
+    Kokkos::parallel_reduce("rrcb::find_ends", device.range(x.count),
+                            FindEnds<Positions, W, Weighs>{x, weights, reads_positions}, ends);
+    return ends;
 }
-
-/// Adds up the weights of points.
-template <class W>
-struct AddWeights {
-    static constexpr int fields = 1;
-    static constexpr std::int64_t num_bins = 64;  // enough to keep threads from waiting for each
-                                                  // other
-
-    Weights<W> weights;
-
-    KOKKOS_INLINE_FUNCTION Row<1> operator()(std::int64_t i) const {
-        return {i / run_length % num_bins, {weights.units(i)}};
-    }
-};
 
 /// Returns the sum of weights whose heaviest has been set. Throws Error if the sum overflows. Ends
 /// with a fence.
 template <class Device, class W>
-double total_weight(Device& device, std::int64_t count, const Weights<W>& weights) {
-    const std::vector<double> sums =
-        sum_in_bins(device, count, AddWeights<W>::num_bins, std::vector{AddWeights<W>{weights}});
-    const double total = weights.from_units(std::accumulate(sums.begin(), sums.end(), 0.0));
+double total_weight(const Device& device, std::int64_t count, const Weights<W>& weights) {
+    Word high = 0;
+    Word low = 0;
+    const auto lock = lock_scratch<typename Device::Execution>();
+    Kokkos::parallel_reduce(
+        "rrcb::total_weight", device.range(count),
+        KOKKOS_LAMBDA(const std::int64_t i, Word& highs, Word& lows) {
+            const auto units = static_cast<Word>(weights.units(i));
+            highs += units >> low_bits;
+            lows += units & low_mask;
+        },
+        high, low);
+    const double total = weights.from_units(total_of(high, low));
     require_on_device(std::isfinite(total), "the sum of the weights overflows; scale them down");
     return total;
 }

@@ -3,6 +3,7 @@
 #include <rrcb/cuts.hpp>
 #include <rrcb/detail/passes.hpp>
 #include <rrcb/experimental/kokkos/points.hpp>
+#include <rrcb/experimental/kokkos/sums.hpp>
 #include <rrcb/plan.hpp>
 
 #include <bit>
@@ -188,73 +189,49 @@ typename Device::template Lent<LocalIndex> list_marked(Device& device, std::size
 }
 
 /// Converts a double's bits to an integer in the same order, and back. Devices have atomic minima
-/// and maxima only of integers.
-KOKKOS_INLINE_FUNCTION std::int64_t flipped(std::int64_t bits) {
+/// only of integers.
+KOKKOS_INLINE_FUNCTION std::int64_t in_order(std::int64_t bits) {
     return bits < 0 ? bits ^ INT64_MAX : bits;
-}
-KOKKOS_INLINE_FUNCTION std::int64_t to_ordered(double value) {
-    std::int64_t bits = 0;
-    memcpy(&bits, &value, sizeof bits);
-    return flipped(bits);
 }
 
 /// Returns the box of the points of each part. Ends with a fence.
 template <class Device, class Positions>
 std::vector<Box> boxes_of_parts(Device& device, const Positions& x, const Part* parts,
                                 int num_parts) {
-    constexpr int dimension = Positions::static_dimension;
-    using Bounds = std::array<std::int64_t, 2 * dimension>;
+    constexpr std::size_t dimension = Positions::static_dimension;
+    using Bounds = std::array<std::int64_t, 2 * dimension>;  // of coordinates, then of negated ones
     Bounds none;
-    for (int a = 0; a < 2 * dimension; ++a)
-        none[static_cast<std::size_t>(a)] = to_ordered(a < dimension ? HUGE_VAL : -HUGE_VAL);
+    none.fill(std::bit_cast<std::int64_t>(HUGE_VAL));
     const std::vector<Bounds> empty(static_cast<std::size_t>(num_parts), none);
     const auto bounds = device.copy_in(empty);
     Kokkos::parallel_for(
         "rrcb::boxes", device.range(x.count), KOKKOS_LAMBDA(const std::int64_t i) {
             if (parts[i] < 0) return;
-            auto* const lower = reinterpret_cast<std::int64_t*>(bounds.data() + parts[i]);
-            volatile const std::int64_t* const before = lower;
-            for (int a = 0; a < dimension; ++a) {
+            auto* const least = reinterpret_cast<std::int64_t*>(bounds.data() + parts[i]);
+            volatile const std::int64_t* const before = least;
+            for (std::size_t k = 0; k < 2 * dimension; ++k) {
+                const double value = x(i, static_cast<int>(k % dimension));
+                const double bound = k < dimension ? value : -value;
+                std::int64_t place = 0;
+                memcpy(&place, &bound, sizeof place);
                 // For most points these tests save the atomic operation.
-                const std::int64_t place = to_ordered(x(i, a));
-                if (place < before[a]) Kokkos::atomic_fetch_min(lower + a, place);
-                if (place > before[dimension + a])
-                    Kokkos::atomic_fetch_max(lower + dimension + a, place);
+                if (in_order(place) < before[k])
+                    Kokkos::atomic_fetch_min(least + k, in_order(place));
             }
         });
-    std::vector<Box> boxes;
-    for (const Bounds& of_part : device.copy_out(bounds)) {
-        Box box;
+    std::vector<Box> boxes(static_cast<std::size_t>(num_parts));
+    const std::vector<Bounds> found = device.copy_out(bounds);
+    for (std::size_t p = 0; p < found.size(); ++p)
         for (std::size_t a = 0; a < dimension; ++a) {
-            box.lower[a] = std::bit_cast<double>(flipped(of_part[a]));
-            box.upper[a] = std::bit_cast<double>(flipped(of_part[dimension + a]));
+            boxes[p].lower[a] = std::bit_cast<double>(in_order(found[p][a]));
+            boxes[p].upper[a] = -std::bit_cast<double>(in_order(found[p][dimension + a]));
         }
-        boxes.push_back(box);
-    }
     return boxes;
 }
 
-/// Lists points by rank, each list in ascending order. A thread for each block of points counts
-/// them first, and lists them in a second run. Places are ordered by block, then by rank.
-struct ListBlock {
-    const int* ranks;
-    std::int64_t count;
-    std::int64_t length;
-    int num_ranks;
-    std::int64_t* places;
-    LocalIndex* order;  ///< null in the first run, which counts
-
-    KOKKOS_INLINE_FUNCTION void operator()(std::int64_t block) const {
-        const std::int64_t end = (block + 1) * length < count ? (block + 1) * length : count;
-        for (std::int64_t i = block * length; i < end; ++i) {
-            const std::int64_t place = places[block * num_ranks + ranks[i]]++;
-            if (order != nullptr) order[place] = static_cast<LocalIndex>(i);
-        }
-    }
-};
-
 /// Fills `order` with the points sorted by rank, each list in ascending order. Returns the lengths
-/// of the lists. Ends with a fence.
+/// of the lists. A thread for each block of points counts them first, and lists them in a second
+/// run. Ends with a fence.
 template <class Device, class Ranks, class Order>
 std::vector<RankCount> list_by_rank(Device& device, int num_ranks, const Ranks& ranks,
                                     const Order& order) {
@@ -264,30 +241,36 @@ std::vector<RankCount> list_by_rank(Device& device, int num_ranks, const Ranks& 
         std::max<std::int64_t>({256, num_ranks, device.block_length(count, 1)});
     const std::int64_t num_blocks = count / length + 1;
     const auto num_places = static_cast<std::size_t>(num_blocks * num_ranks);
-    const auto places = device.template lend<std::int64_t>(num_places);
+    const auto places = device.template lend<std::int64_t>(num_places);  // [block][rank]
     Kokkos::deep_copy(device.exec(), places, 0);
-    ListBlock list{ranks.data(), count, length, num_ranks, places.data(), nullptr};
-    Kokkos::parallel_for("rrcb::count_by_rank", device.range(num_blocks), list);
     const auto lock = lock_scratch<typename Device::Execution>();
-    Kokkos::parallel_scan(
-        "rrcb::places", device.range(num_places),
-        KOKKOS_LAMBDA(const std::int64_t k, std::int64_t& before, const bool is_final) {
-            std::int64_t& place = places(k % num_blocks * num_ranks + k / num_blocks);
-            const std::int64_t number = place;
-            if (is_final) place = before;
-            before += number;
-        });
-    list.order = order.data();
-    Kokkos::parallel_for("rrcb::list_by_rank", device.range(num_blocks), list);
+    for (const bool lists : {false, true}) {
+        Kokkos::parallel_for(
+            "rrcb::list_by_rank", device.range(num_blocks),
+            KOKKOS_LAMBDA(const std::int64_t block) {
+                for (std::int64_t i = block * length; i < (block + 1) * length && i < count; ++i) {
+                    const std::int64_t place = places(block * num_ranks + ranks(i))++;
+                    if (lists) order(place) = static_cast<LocalIndex>(i);
+                }
+            });
+        if (lists) break;
+        Kokkos::parallel_scan(
+            "rrcb::places", device.range(num_places),
+            KOKKOS_LAMBDA(const std::int64_t k, std::int64_t& before, const bool is_final) {
+                std::int64_t& place = places(k % num_blocks * num_ranks + k / num_blocks);
+                const std::int64_t number = place;
+                if (is_final) place = before;
+                before += number;
+            });
+    }
     // Now each place in the last block is the end of a list.
     const auto first = num_places - static_cast<std::size_t>(num_ranks);
     std::vector<RankCount> lengths;
     std::int64_t before = 0;
     for (const std::int64_t end :
          device.copy_out(Kokkos::subview(places, std::pair(first, num_places)))) {
-        lengths.push_back(
-            {static_cast<int>(lengths.size()), static_cast<LocalIndex>(end - before)});
-        before = end;
+        const int rank = static_cast<int>(lengths.size());
+        lengths.push_back({rank, static_cast<LocalIndex>(end - std::exchange(before, end))});
     }
     std::erase_if(lengths, [](const RankCount& to) { return to.count == 0; });
     return lengths;

@@ -11,20 +11,6 @@
 #include <utility>
 #include <vector>
 
-namespace rrcb::detail {
-
-/// Stands for weights if all points weigh 1.
-template <class MemorySpace>
-struct UnitWeights {
-    using memory_space = MemorySpace;
-    using non_const_value_type = double;
-    static std::size_t extent(int) { return 0; }
-    static std::int64_t stride(int) { return 0; }
-    static const double* data() { return nullptr; }
-};
-
-}  // namespace rrcb::detail
-
 namespace rrcb::experimental {
 
 /// Memory of calls with views, which the next call reuses.
@@ -68,20 +54,20 @@ class KokkosPasses final : public PointPasses {
         : device_(exec, memory.scratch),
           views_(x),
           weight_view_(weights),
-          x_(detail::positions_of(x)),
+          axes_(detail::axes_of(x)),
           parts_(memory.parts) {
         if (weights.extent(0) == 0) return;
         given_.values = weights.data();
         given_.stride = static_cast<std::int64_t>(weights.stride(0));
     }
 
-    int dimension() const override { return x_.dimension; }
-    LocalIndex count() const override { return static_cast<LocalIndex>(x_.count); }
+    int dimension() const override { return axes_.dimension; }
+    LocalIndex count() const override { return static_cast<LocalIndex>(axes_.count); }
     bool has_weights() const override { return given_.values != nullptr; }
     void use_weights(bool are_used) override { uses_weights_ = are_used; }
-
     std::int64_t most_cells() const override {
-        return detail::cells_in_scratch(device_.exec(), x_.dimension, weighs());
+        return detail::bins_in_scratch(device_.exec()) /
+               detail::fields_of_cell(dimension(), weighs());
     }
 
     /// Returns the parts of the points, in the memory of the device.
@@ -95,29 +81,32 @@ class KokkosPasses final : public PointPasses {
         check();
         PointSummary summary;
         summary.count = count();
-        summary.weight = static_cast<double>(x_.count);
-        if (x_.count == 0) return summary;
+        summary.weight = static_cast<double>(axes_.count);
+        if (axes_.count == 0) return summary;
         summary.lightest = summary.heaviest = 1;
         if (!reads_positions && !weighs()) return summary;
+        std::vector<LocalIndex> points;
         on_points([&](const auto& x, auto weighs) {
-            constexpr int dimension = detail::dimension_of<decltype(x)>;
-            const auto found = detail::find_ends<weighs.value>(device_, x, given_, reads_positions);
+            const auto ends = detail::find_ends<weighs.value>(device_, x, given_, reads_positions);
             if (weighs) {
-                summary.lightest = found.ends.lightest;
-                given_.set_heaviest(summary.heaviest = heaviest_ = found.ends.heaviest);
-                summary.weight = detail::total_weight(device_, x_.count, given_);
+                if (ends.faults > 0) detail::check_values(device_, x, given_, true);
+                summary.lightest = ends.lightest;
+                given_.set_heaviest(summary.heaviest = ends.heaviest);
+                summary.weight = detail::total_weight(device_, x.count, given_);
             }
-            detail::check_coordinates(found.coordinates);
-            for (std::size_t a = 0; a < dimension && reads_positions; ++a) {
-                const auto* const first = found.corners.positions + a;
-                std::copy_n(first->x, dimension, summary.first[a].begin());
-                std::copy_n(first[dimension].x, dimension, summary.last[a].begin());
-                std::fill(summary.first[a].begin() + dimension, summary.first[a].end(), 0.0);
-                std::fill(summary.last[a].begin() + dimension, summary.last[a].end(), 0.0);
-                summary.box.lower[a] = summary.first[a][a];
-                summary.box.upper[a] = summary.last[a][a];
-            }
+            if (ends.faults > 0) detail::check_values(device_, x, given_, false);
+            points.assign(std::begin(ends.points), std::end(ends.points));
         });
+        if (!reads_positions) return summary;
+        Collected ends;
+        copy(device_.copy_in(points), nullptr, ends);
+        for (int axis = 0; axis < dimension(); ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            summary.first[a] = ends.position(a);
+            summary.last[a] = ends.position(a + points.size() / 2);
+            summary.box.lower[a] = summary.first[a][a];
+            summary.box.upper[a] = summary.last[a][a];
+        }
         return summary;
     }
 
@@ -136,7 +125,7 @@ class KokkosPasses final : public PointPasses {
 
     std::vector<CellMoments> moments(const SupportMesh& mesh) override {
         learn_heaviest();
-        const bool is_light = weighs() && !(heaviest_ > 0);
+        const bool is_light = weighs() && !(given_.heaviest > 0);
         auto cells = on_points(
             [&](const auto& x, auto weighs) {
                 return detail::moments_on<weighs.value>(device_, x, given_, mesh);
@@ -184,8 +173,9 @@ class KokkosPasses final : public PointPasses {
 
     std::vector<Box> boxes(int num_parts) override {
         Part* const all = known_parts();
-        return detail::with_dimension(
-            x_, [&](const auto& x) { return detail::boxes_of_parts(device_, x, all, num_parts); });
+        return on_points(
+            [&](const auto& x, auto) { return detail::boxes_of_parts(device_, x, all, num_parts); },
+            false);
     }
 
     void settle(const Collected& collected, std::span<const Part> parts) override {
@@ -224,13 +214,12 @@ class KokkosPasses final : public PointPasses {
 
     void check() const {
         detail::require_kokkos();
+        detail::require_on_device(dimension() >= 1 && dimension() <= max_dimension,
+                                  "positions have 1 to 3 axes, not " + std::to_string(dimension()));
+        detail::require_on_device(axes_.are_even,
+                                  "coordinate arrays must all have the same length");
         detail::require_on_device(
-            x_.dimension >= 1 && x_.dimension <= max_dimension,
-            "positions have 1 to 3 axes, not " + std::to_string(x_.dimension));
-        detail::require_on_device(x_.are_even, "coordinate arrays must all have the same length");
-        const std::size_t num_weights = weight_view_.extent(0);
-        detail::require_on_device(
-            num_weights == 0 || num_weights == count(),
+            !has_weights() || weight_view_.extent(0) == count(),
             "weights must hold one entry per point, or none for unit weights");
     }
 
@@ -240,20 +229,19 @@ class KokkosPasses final : public PointPasses {
     /// and whether weights count.
     template <class Call>
     auto on_points(const Call& call, bool may_weigh = true) const {
-        return detail::with_dimension(x_, [&](const auto& x) {
-            if constexpr (!std::is_same_v<WeightView, detail::UnitWeights<Memory>>)
-                if (weighs() && may_weigh) return call(x, std::true_type{});
-            return call(x, std::false_type{});
+        return detail::with_positions<Views>(axes_, [&](const auto& x) {
+            return weighs() && may_weigh ? call(x, std::true_type{}) : call(x, std::false_type{});
         });
     }
 
     /// Reads the weights if the heaviest is not known yet. Ends with a fence if it reads them.
     void learn_heaviest() {
-        if (!weighs() || heaviest_ >= 0) return;
+        if (!weighs() || given_.heaviest >= 0) return;
         on_points([&](const auto& x, auto weighs) {
-            heaviest_ = detail::find_ends<weighs.value>(device_, x, given_, false).ends.heaviest;
+            const auto ends = detail::find_ends<weighs.value>(device_, x, given_, false);
+            if (ends.faults > 0) detail::check_values(device_, x, given_, true);
+            given_.set_heaviest(ends.heaviest);
         });
-        given_.set_heaviest(heaviest_);
     }
 
     Part* known_parts() {
@@ -277,10 +265,8 @@ class KokkosPasses final : public PointPasses {
             using Assign = detail::Assign<std::remove_cvref_t<decltype(x)>, W, weighs.value>;
             const Assign assign{x,         given_, nodes.data(), regions.data(), parts,
                                 num_parts, finds,  opens,        counts};
-            const std::vector<double> bins =
-                detail::sum_in_bins(device_, x.count, assign.num_bins(), std::vector{assign});
-            if (bins[assign.bad] > 0)
-                detail::check_coordinates(detail::find_faults(device_, x, detail::Weights<W>{}));
+            const auto bins = detail::sum_in_bins(device_, x.count, assign.num_bins(), assign);
+            if (bins[assign.bad] > 0) detail::check_values(device_, x, given_, false);
             Assigned found{static_cast<std::size_t>(bins[assign.fields * assign.open]), {}};
             for (Part part = 0; part < num_parts && counts; ++part) {
                 const auto bin = static_cast<std::size_t>(assign.fields * (assign.first + part));
@@ -302,7 +288,7 @@ class KokkosPasses final : public PointPasses {
     /// Appends the open points to those on the host. Returns the parts that they had. Ends with a
     /// fence.
     std::vector<Part> take(Assigned&& found, Collected& collected) {
-        collected.dimension = x_.dimension;
+        collected.dimension = dimension();
         collected.settled = std::move(found.settled);
         if (found.num_open == 0) return {};
         const auto indices = detail::list_marked(device_, count(), found.num_open, parts_.data());
@@ -312,10 +298,9 @@ class KokkosPasses final : public PointPasses {
     mutable Device device_;
     Views views_;
     WeightView weight_view_;
-    decltype(detail::positions_of(std::declval<Views>())) x_;
+    detail::Axes<T> axes_;
     detail::Weights<W> given_{};
     bool uses_weights_ = true;
-    double heaviest_ = -1;  ///< heaviest weight; -1 if it is not known
     PartsView parts_;
 };
 

@@ -19,21 +19,24 @@ struct Position {
     double x[Dimension];
 };
 
-/// Coordinates in the memory of a device. Their stride is 1 if `IsUnit`, otherwise any. A dimension
-/// of 0 means that it is known only at run time; see with_dimension().
-template <class T, int Dimension, bool IsUnit>
-struct Positions {
-    static constexpr int static_dimension = Dimension;
-
-    const T* axes[max_dimension] = {};
+/// Coordinates in the memory of a device, at any stride.
+template <class T>
+struct Axes {
+    const T* values[max_dimension] = {};
     std::int64_t strides[max_dimension] = {};
     std::int64_t count = 0;
-    int dimension = Dimension;
+    int dimension = 0;
     bool are_even = true;  ///< whether all axes have `count` coordinates
+};
+
+/// Coordinates with a dimension that is a compile-time constant. Their stride is 1 if `IsUnit`.
+template <class T, int Dimension, bool IsUnit>
+struct Positions : Axes<T> {
+    static constexpr int static_dimension = Dimension;
 
     /// Returns a coordinate. Converts -0 to 0, so that minima do not depend on the order.
     KOKKOS_INLINE_FUNCTION double operator()(std::int64_t i, int axis) const {
-        return static_cast<double>(axes[axis][IsUnit ? i : i * strides[axis]]) + 0.0;
+        return static_cast<double>(this->values[axis][IsUnit ? i : i * this->strides[axis]]) + 0.0;
     }
     KOKKOS_INLINE_FUNCTION Position<Dimension> position(std::int64_t i) const {
         Position<Dimension> p;
@@ -42,33 +45,13 @@ struct Positions {
     }
 };
 
-template <class Positions>
-inline constexpr int dimension_of = std::remove_cvref_t<Positions>::static_dimension;
-
-/// Calls call(x) with positions whose dimension is a compile-time constant.
-template <class T, bool IsUnit, int Dimension, class Call>
-auto with_dimension(const Positions<T, Dimension, IsUnit>& x, const Call& call) {
-    if constexpr (Dimension > 0) {
-        return call(x);
-    } else {
-        const auto fixed = [&]<int D>() {
-            Positions<T, D, IsUnit> same{.count = x.count};
-            std::copy_n(x.axes, D, same.axes);
-            std::copy_n(x.strides, D, same.strides);
-            return same;
-        };
-        if (x.dimension == 1) return call(fixed.template operator()<1>());
-        if (x.dimension == 2) return call(fixed.template operator()<2>());
-        return call(fixed.template operator()<3>());
-    }
-}
-
 /// Type of the views of positions: one view of points by axes, or an array with a view for each
 /// axis.
 template <class Views>
 struct ViewOf {
     using Type = Views;
-    static constexpr auto dimension = static_cast<int>(Views::static_extent(1));
+    static constexpr auto dimension =
+        static_cast<int>(Views::static_extent(1));  // 0 if it is known at run time
     static_assert(dimension <= max_dimension, "positions have 1 to 3 axes");
     static constexpr bool is_unit =
         std::is_same_v<typename Views::array_layout, Kokkos::LayoutLeft>;
@@ -87,22 +70,40 @@ template <class Views>
 using ScalarOf = typename ViewOf<Views>::Type::non_const_value_type;
 
 template <class Views>
-auto positions_of(const Views& views) {
-    Positions<ScalarOf<Views>, ViewOf<Views>::dimension, ViewOf<Views>::is_unit> x;
-    const auto add = [&x](int a, const auto& axis) {
-        const auto length = static_cast<std::int64_t>(axis.extent(0));
-        if (a == 0) x.count = length;
-        x.are_even = x.are_even && length == x.count;
-        x.axes[a] = axis.data();
-        x.strides[a] = static_cast<std::int64_t>(axis.stride(0));
+Axes<ScalarOf<Views>> axes_of(const Views& views) {
+    Axes<ScalarOf<Views>> axes;
+    const auto add = [&axes](const auto* values, std::size_t stride) {
+        if (axes.dimension < max_dimension) {
+            axes.values[axes.dimension] = values;
+            axes.strides[axes.dimension] = static_cast<std::int64_t>(stride);
+        }
+        ++axes.dimension;
     };
-    if constexpr (Kokkos::is_view<Views>::value) x.dimension = static_cast<int>(views.extent(1));
-    for (int a = 0; a < std::min(x.dimension, max_dimension); ++a)
-        if constexpr (Kokkos::is_view<Views>::value)
-            add(a, Kokkos::subview(views, Kokkos::ALL, a));
-        else
-            add(a, views[static_cast<std::size_t>(a)]);
-    return x;
+    if constexpr (Kokkos::is_view<Views>::value) {
+        axes.count = static_cast<std::int64_t>(views.extent(0));
+        for (std::size_t a = 0; a < views.extent(1); ++a)
+            add(views.data() + a * views.stride(1), views.stride(0));
+    } else {
+        axes.count = static_cast<std::int64_t>(views[0].extent(0));
+        for (const auto& axis : views) {
+            axes.are_even = axes.are_even && axis.extent(0) == views[0].extent(0);
+            add(axis.data(), axis.stride(0));
+        }
+    }
+    return axes;
+}
+
+/// Calls call(x) with positions whose dimension is a compile-time constant.
+template <class Views, int Dimension = ViewOf<Views>::dimension, class Call>
+auto with_positions(const Axes<ScalarOf<Views>>& axes, const Call& call) {
+    if constexpr (Dimension > 0)
+        return call(Positions<ScalarOf<Views>, Dimension, ViewOf<Views>::is_unit>{axes});
+    else if (axes.dimension == 1)
+        return with_positions<Views, 1>(axes, call);
+    else if (axes.dimension == 2)
+        return with_positions<Views, 2>(axes, call);
+    else
+        return with_positions<Views, 3>(axes, call);
 }
 
 /// Number of binary digits after the point: in sums of weights and first moments, and in second
@@ -123,10 +124,12 @@ template <class W>
 struct Weights {
     const W* values = nullptr;  ///< null if every point weighs 1
     std::int64_t stride = 0;
-    int exponent = 0;  ///< exponent of the power of two
+    double heaviest = -1;  ///< heaviest weight; -1 if it is not known
+    int exponent = 0;      ///< exponent of the power of two
     double scales[2] = {1, 1};
 
-    void set_heaviest(double heaviest) {
+    void set_heaviest(double weight) {
+        heaviest = weight;
         exponent = heaviest > 0 ? std::ilogb(heaviest) + 1 : 0;
         // The scale has two factors, because the reciprocal of a tiny weight may overflow.
         scales[0] = std::ldexp(1.0, -(exponent / 2));
@@ -143,22 +146,6 @@ struct Weights {
     }
     KOKKOS_INLINE_FUNCTION std::int64_t units(std::int64_t i) const {
         return to_units(relative(i), weight_bits);
-    }
-};
-
-/// Number of illegal values, and the first of them.
-struct Faults {
-    std::int64_t count;
-    std::int64_t first;  ///< least value of 4 i + axis, for point i
-
-    KOKKOS_INLINE_FUNCTION void add(const Faults& others) {
-        count += others.count;
-        if (others.first < first) first = others.first;
-    }
-    std::string point() const { return std::to_string(first / 4); }
-    std::string tally() const {
-        return " (" + std::to_string(count) + (count == 1 ? " such value" : " such values") +
-               " on this rank)";
     }
 };
 

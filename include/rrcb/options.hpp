@@ -102,18 +102,21 @@ struct Axes {
 /// Options that few programs set. In C, Fortran and Python their names are those of these members,
 /// such as `axes.min_width` and `cells_per_axis`.
 struct ExpertOptions {
-    /// Treatment of coincident points. No effect with Refine::none and with plain cuts.
+    /// Treatment of coincident points. No effect with Refine::none and with plain cuts. They stay
+    /// together by default: the part that a look-up finds for a position is then that of all points
+    /// there. The Zoltan plug-in divides them by default, as Zoltan's RCB.
     Coincident coincident = Coincident::together;
 
     Axes axes{};  ///< axes and positions of the cuts
 
-    /// Shape of the tree of cuts. With a group_size of 0, the first cuts separate machines, so that
-    /// less is sent between machines. For this, all machines must have the same number of ranks
-    /// (the last may have fewer), and all ranks the same number of parts. The ranks of a machine
-    /// must be consecutive; if rank 0 makes all parts, they may also be dealt to the machines in
-    /// turn. In other cases, and on 1, 2, 4, ... full machines with consecutive ranks, the parts
-    /// are halved. A call from earlier cuts keeps their shape.
-    TreeShape tree{0};
+    /// Shape of the tree of cuts. By default each cut halves the number of parts, so that the cuts
+    /// do not depend on the machines of the job. With a group_size of 0, the first cuts separate
+    /// machines, so that less is sent between machines. For this, all machines must have the same
+    /// number of ranks (the last may have fewer), and all ranks the same number of parts. The ranks
+    /// of a machine must be consecutive; if rank 0 makes all parts, they may also be dealt to the
+    /// machines in turn. In other cases, and on 1, 2, 4, ... full machines with consecutive ranks,
+    /// the parts are halved. A call from earlier cuts then keeps their shape.
+    TreeShape tree{};
 
     int cells_per_axis = 0;  ///< cells per axis of each rank's support mesh, at most 4096 (256 in
                              ///< 3-D); 0: chosen from the number of points

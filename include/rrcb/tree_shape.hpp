@@ -11,7 +11,8 @@ namespace rrcb {
 /// The ends of the tree are numbered from the lowest: first the ends of the first group, then those
 /// of the second, and so on. End k has part k, unless parts are dealt.
 struct TreeShape {
-    int group_size = 1;         ///< number of parts in a group, >= 1; the last group may have fewer
+    int group_size = 1;         ///< number of parts in a group, >= 1; the last group may have
+                                ///< fewer; in Options also 0: the parts of each machine
     bool larger_below = false;  ///< whether the larger half of an odd number is below the cut
     int round_robin_block = 0;  ///< number of consecutive parts dealt to a group before the next
                                 ///< group gets its turn; 0: all parts of a group are consecutive

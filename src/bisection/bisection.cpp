@@ -248,7 +248,6 @@ Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double
     return locally([&] {
         Options options;
         options.num_parts = num_parts;
-        options.expert.tree = TreeShape{};
         options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
         if (part_sizes.empty()) options.part_sizes.assign(num_parts, 1.0);
         check_part_sizes(options, domain.dimension);

@@ -113,8 +113,8 @@ inline constexpr Word coincident_words[] = {
 
 inline constexpr Word switch_words[] = {{"OFF", 0, "no"}, {"ON", 1, "yes"}};
 
-inline constexpr Word machine_words[] = {{"ON", 1, "yes"},
-                                         {"OFF", 0, "no, the number of parts is halved"}};
+inline constexpr Word machine_words[] = {{"OFF", 0, "no, the number of parts is halved"},
+                                         {"ON", 1, "yes"}};
 
 inline constexpr Word axis_rule_words[] = {
     {"FEWEST", 0, "the axis with the least weight near the cut, as estimated"},

@@ -111,7 +111,7 @@ Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
         require(
             previous || options.expert.tree.group_size == 1 || !is_given(options.expert.axes.order),
             "axes.order gives the axis of each cut; set tree to the shape of the tree that "
-            "they are for, as the machines ask for another one by default");
+            "they are for, as the machines ask for another one");
     }
     if (!options.expert.axes.grid.empty()) options.expert.axes.plain = true;
     return options;

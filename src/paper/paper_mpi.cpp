@@ -140,7 +140,6 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
         plain.part_sizes = options.part_sizes;
         normalize(plain.part_sizes, options.num_parts);
         plain.refine = Refine::none;
-        plain.expert.tree = TreeShape{};
         make_buffers(decision, plain, points.dimension, false);
         result.parts.resize(points.count);
     });

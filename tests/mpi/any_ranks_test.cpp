@@ -94,8 +94,7 @@ void expect_same_division(const Cloud& cloud, const Options& options) {
 
 /// Options whose axes do not depend on estimates.
 std::vector<Options> options_for(int dimension, int num_parts) {
-    Options options{
-        .num_parts = num_parts, .refine = Refine::exact, .expert = {.tree = TreeShape{}}};
+    Options options{.num_parts = num_parts, .refine = Refine::exact};
     std::vector<int> axes;
     for (int k = 0; k + 1 < num_parts; ++k) axes.push_back(k % dimension);
     if (dimension > 1) options.expert.axes.order = AxisOrder::given(axes);

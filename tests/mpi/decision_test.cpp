@@ -14,7 +14,6 @@ Decision made_on_rank_0(const Cuts& earlier, Answer answer) {
     Options options;
     options.num_parts = num_ranks();
     options.part_sizes.assign(static_cast<std::size_t>(num_ranks()), 1.0);
-    options.expert.tree = TreeShape{};
     Decision decision;
     decision.earlier = &earlier;
     make_buffers(decision, options, 2, true);

@@ -35,7 +35,10 @@ struct Cloud {
           points(Points(coordinates, dimension)) {}
 };
 
-int group_size(std::function<int(int, int)> machine, const Options& options = {}) {
+/// Options by which the machines give the shape of the tree.
+const Options by_machines{.expert = {.tree = {.group_size = 0}}};
+
+int group_size(std::function<int(int, int)> machine, const Options& options = by_machines) {
     const Cloud cloud(2);
     int size = 0;
     with_machines(std::move(machine), [&](MPI_Comm comm) {
@@ -56,7 +59,7 @@ TEST(Machines, are_the_groups_of_the_tree_where_halving_would_divide_them) {
 }
 
 TEST(Machines, count_several_parts_on_a_rank) {
-    Options options{.num_parts = 3 * num_ranks()};
+    Options options{.num_parts = 3 * num_ranks(), .expert = {.tree = {.group_size = 0}}};
     for (const int size : {2, 3, 4})
         EXPECT_EQ(group_size(blocks_of(size), options), matters(size) ? 3 * size : 1) << size;
     options.num_parts = 3 * num_ranks() + 1;
@@ -81,7 +84,8 @@ TEST(Machines, to_which_ranks_are_dealt_in_turn_have_the_parts_of_these_ranks) {
         }
         for (const int parts_each : {1, 3}) {
             SCOPED_TRACE(testing::Message() << machines << " machines, " << parts_each << " parts");
-            Options options{.num_parts = parts_each * num_ranks()};
+            Options options{.num_parts = parts_each * num_ranks(),
+                            .expert = {.tree = {.group_size = 0}}};
             with_machines(dealt_to(machines), [&](MPI_Comm comm) {
                 const Balance made = balance(cloud.points, comm, options);
                 const int size = (num_ranks() - 1) / machines + 1;
@@ -115,8 +119,8 @@ TEST(Machines, that_are_not_alike_are_not_looked_at) {
     EXPECT_EQ(group_size([](int rank, int n) { return rank < n - 2 ? 2 - rank % 2 : 0; }), 1);
 }
 
-TEST(Machines, leave_a_tree_that_was_asked_for) {
-    Options options{.expert = {.tree = TreeShape{}}};
+TEST(Machines, leave_the_default_tree_and_one_that_was_asked_for) {
+    Options options;
     EXPECT_EQ(group_size(blocks_of(2), options), 1);
     options.expert.tree.group_size = 4;
     EXPECT_EQ(group_size(blocks_of(2), options), 4);
@@ -125,8 +129,9 @@ TEST(Machines, leave_a_tree_that_was_asked_for) {
 TEST(Machines, ask_for_the_shape_of_the_tree_that_given_axes_are_for) {
     if (!matters(2)) return;
     const Cloud cloud(2);
-    Options options{.expert = {.axes = {.order = AxisOrder::given(std::vector<int>(
-                                            static_cast<std::size_t>(num_ranks()) - 1, 0))}}};
+    Options options = by_machines;
+    options.expert.axes.order =
+        AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 0));
     with_machines(blocks_of(2), [&](MPI_Comm comm) {
         EXPECT_THROW(balance(cloud.points, comm, options), Error);
         options.expert.tree.group_size = 2;
@@ -138,11 +143,12 @@ TEST(Machines, of_earlier_cuts_stay) {
     const Cloud cloud(2);
     Balance first;
     with_machines(blocks_of(2), [&](MPI_Comm comm) {
-        first = balance(cloud.points, comm);
-        EXPECT_EQ(balance(cloud.points, comm, {}, first.cuts).parts, first.parts);
+        first = balance(cloud.points, comm, by_machines);
+        EXPECT_EQ(balance(cloud.points, comm, by_machines, first.cuts).parts, first.parts);
     });
     with_machines(blocks_of(3), [&](MPI_Comm comm) {
-        EXPECT_EQ(balance(cloud.points, comm, {}, first.cuts).cuts.shape, first.cuts.shape);
+        EXPECT_EQ(balance(cloud.points, comm, by_machines, first.cuts).cuts.shape,
+                  first.cuts.shape);
     });
 }
 
@@ -168,9 +174,8 @@ void expect_fewer_ghosts(std::function<int(int, int)> machine) {
         SCOPED_TRACE(dimension);
         const Cloud cloud(dimension, 24000);
         with_machines(machine, [&](MPI_Comm comm) {
-            Options halving{.expert = {.tree = TreeShape{}}};
-            const Balance halved = balance(cloud.points, comm, halving);
-            const Balance grouped = balance(cloud.points, comm);
+            const Balance halved = balance(cloud.points, comm);
+            const Balance grouped = balance(cloud.points, comm, by_machines);
             const auto [off, all] = ghosts_of(grouped, cloud, comm);
             const auto [off_halved, all_halved] = ghosts_of(halved, cloud, comm);
             EXPECT_LT(static_cast<double>(off), 0.9 * static_cast<double>(off_halved));
@@ -187,10 +192,10 @@ TEST(Machines, make_the_same_parts_however_their_ranks_are_numbered) {
         const Cloud cloud(3, 24000);
         std::array<std::pair<GlobalCount, GlobalCount>, 2> ghosts;
         with_machines(blocks_of(size), [&](MPI_Comm comm) {
-            ghosts[0] = ghosts_of(balance(cloud.points, comm), cloud, comm);
+            ghosts[0] = ghosts_of(balance(cloud.points, comm, by_machines), cloud, comm);
         });
         with_machines(dealt_to(num_ranks() / size), [&](MPI_Comm comm) {
-            ghosts[1] = ghosts_of(balance(cloud.points, comm), cloud, comm);
+            ghosts[1] = ghosts_of(balance(cloud.points, comm, by_machines), cloud, comm);
         });
         EXPECT_EQ(ghosts[0], ghosts[1]);
     }

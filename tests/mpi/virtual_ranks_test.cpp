@@ -25,7 +25,6 @@ struct VirtualRanks {
 
     explicit VirtualRanks(int ranks_per_side) : side(ranks_per_side) {
         options.num_parts = num_ranks();
-        options.expert.tree = TreeShape{};
         options.part_sizes.assign(static_cast<std::size_t>(num_ranks()), 1.0);
         options.refine = Refine::tolerance;
         coordinates =

@@ -84,7 +84,7 @@ StatisticalDomain layer_with_strays() {
 
 Cuts cuts_by(const AxisOrder& order, StatisticalDomain domain, int num_parts,
              GlobalCount num_points = 0, const std::vector<int>& preferred = {}) {
-    Options options{.num_parts = num_parts, .expert = {.tree = TreeShape{}}};
+    Options options{.num_parts = num_parts};
     options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1);
     options.expert.axes.order = order;
     return bisect(std::move(domain), options, false, num_points, preferred).cuts;

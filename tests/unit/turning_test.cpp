@@ -157,7 +157,6 @@ struct Layer {
         all.summary.num_points = 6400;
         options.num_parts = 2;
         options.part_sizes = {0.5, 0.5};
-        options.expert.tree = TreeShape{};
     }
 };
 

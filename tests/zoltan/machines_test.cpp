@@ -65,20 +65,20 @@ struct Scattered : Program {
 TEST(Machines, are_cut_off_whole_with_and_without_remap) {
     for (const char* remap : {"1", "0"}) {
         Scattered program;
-        program.set("REMAP", remap);
+        program.set({{"REMAP", remap}, {"RRCB_MACHINES", "ON"}});
         EXPECT_TRUE(program.keeps_machines_apart()) << "REMAP " << remap;
     }
 }
 
 TEST(Machines, are_cut_off_whole_from_earlier_cuts) {
     Scattered program;
-    program.set("RCB_REUSE", "1");
+    program.set({{"RCB_REUSE", "1"}, {"RRCB_MACHINES", "ON"}});
     EXPECT_TRUE(program.keeps_machines_apart());
     for (double& x : program.coordinates) x += 0.01 * x;
     EXPECT_TRUE(program.keeps_machines_apart());
     program.set("RRCB_MACHINES", "OFF");
     EXPECT_FALSE(program.keeps_machines_apart());
-    program.set("RRCB_MACHINES", "DEFAULT");
+    program.set("RRCB_MACHINES", "ON");
     EXPECT_TRUE(program.keeps_machines_apart());
     program.set("RCB_LOCK_DIRECTIONS", "1");
     EXPECT_TRUE(program.keeps_machines_apart());
@@ -96,7 +96,7 @@ TEST(Machines, to_which_ranks_are_dealt_in_turn_are_cut_off_whole) {
     for (const char* remap : {"1", "0"}) {
         SCOPED_TRACE(remap);
         Scattered program;
-        program.set({{"REMAP", remap}, {"KEEP_CUTS", "1"}});
+        program.set({{"REMAP", remap}, {"KEEP_CUTS", "1"}, {"RRCB_MACHINES", "ON"}});
         const Outcome outcome = program.partition();
         EXPECT_TRUE(are_apart(boxes_of_machines(program, outcome)));
         expect_own_parts(program, outcome);
@@ -109,14 +109,15 @@ TEST(Machines, to_which_ranks_are_dealt_in_turn_are_cut_off_whole) {
     is_dealt = false;
 }
 
-TEST(Machines, are_not_looked_at_if_that_is_switched_off) {
+TEST(Machines, are_looked_at_only_if_that_is_switched_on) {
     Scattered program;
-    EXPECT_EQ(program.set("RRCB_MACHINES", "off"), ZOLTAN_OK);
     EXPECT_FALSE(program.keeps_machines_apart());
-    EXPECT_EQ(program.set("RRCB_MACHINES", "SOMETIMES"), ZOLTAN_WARN);
-    EXPECT_FALSE(program.keeps_machines_apart());
-    EXPECT_EQ(program.set("RRCB_MACHINES", "DEFAULT"), ZOLTAN_OK);
+    EXPECT_EQ(program.set("RRCB_MACHINES", "on"), ZOLTAN_OK);
     EXPECT_TRUE(program.keeps_machines_apart());
+    EXPECT_EQ(program.set("RRCB_MACHINES", "SOMETIMES"), ZOLTAN_WARN);
+    EXPECT_TRUE(program.keeps_machines_apart());
+    EXPECT_EQ(program.set("RRCB_MACHINES", "DEFAULT"), ZOLTAN_OK);
+    EXPECT_FALSE(program.keeps_machines_apart());
 }
 
 TEST(Machines, do_not_matter_if_parts_lie_unevenly) {

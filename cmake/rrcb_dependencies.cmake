@@ -96,26 +96,6 @@ if(RRCB_FORTRAN)
   set(fortran OPTIONAL_COMPONENTS Fortran)
 endif()
 rrcb_find_mpi(C CXX ${fortran})
-set(RRCB_EIGEN_DIR "$ENV{RRCB_EIGEN_DIR}" CACHE PATH
-    "Folder of Eigen's headers, if not those of the system")
-if(RRCB_EIGEN_DIR AND NOT TARGET Eigen3::Eigen)
-  find_file(RRCB_EIGEN_CORE Eigen/Core PATHS ${RRCB_EIGEN_DIR} NO_DEFAULT_PATH
-            NO_CMAKE_FIND_ROOT_PATH NO_CACHE)
-  if(RRCB_EIGEN_CORE)
-    add_library(Eigen3::Eigen INTERFACE IMPORTED GLOBAL)
-    target_include_directories(Eigen3::Eigen SYSTEM INTERFACE ${RRCB_EIGEN_DIR})
-    set(Eigen3_FOUND TRUE)
-  endif()
-else()
-  # Eigen 5 refuses to be found as 3.4 or newer.
-  find_package(Eigen3 QUIET NO_MODULE)
-  if(Eigen3_VERSION AND Eigen3_VERSION VERSION_LESS 3.4)
-    set(Eigen3_FOUND FALSE)
-  endif()
-endif()
-rrcb_requires(Eigen3_FOUND "Eigen 3.4 or newer" RRCB_EIGEN_DIR "the folder that contains Eigen/Core"
-              libeigen3-dev)
-
 if(RRCB_ZOLTAN)
   rrcb_find_trilinos(Zoltan)
   rrcb_needs(RRCB_ZOLTAN "TARGET;Zoltan::zoltan" "Zoltan of Trilinos" Zoltan)
@@ -136,6 +116,11 @@ endforeach()
 if(RRCB_TESTS)
   rrcb_find_package(GTest)
   rrcb_needs(RRCB_TESTS GTest_FOUND "GoogleTest" GTest)
+endif()
+# Tests compare with Eigen; the library needs none. Eigen 5 refuses to be found as 3.4 or newer.
+if(RRCB_TESTS)
+  rrcb_find_package(Eigen3)
+  rrcb_needs(RRCB_TESTS "TARGET;Eigen3::Eigen" "Eigen 3.4 or newer" Eigen3)
 endif()
 
 # The library's own code needs no Kokkos: tests and examples do.

@@ -32,23 +32,23 @@ enum HeadOfSums : std::size_t {
 }  // namespace
 
 CostRule::CostRule(int num_columns, int rank, int num_ranks)
-    : num_columns_(num_columns),
+    : num_columns_(static_cast<std::size_t>(num_columns)),
       rank_(rank),
       num_ranks_(num_ranks),
-      sums_(head_size + static_cast<std::size_t>(num_columns * (num_columns + 2) + 1)),
-      seen_(CostVector::Zero(num_columns)),
+      sums_(head_size + num_columns_ * (num_columns_ + 2) + 1),
+      seen_(num_columns_),
       known_(seen_),
-      columns_(CostVector::Zero(num_columns)),
-      all_(num_columns),
+      columns_(num_columns_),
+      all_(num_columns_),
       guard_(num_ranks),
-      costs_(CostVector::Zero(num_columns)),
+      costs_(num_columns_),
       state_(guard_.state()) {}
 
 /// Returns false if a column was 0, or nearly 0, in the steps from which the costs were fitted. The
 /// cost of this column cannot be predicted then, so seconds beyond the prediction need not be
 /// outliers.
 bool CostRule::knows_columns() const {
-    for (Eigen::Index j = 0; j < num_columns_; ++j)
+    for (std::size_t j = 0; j < num_columns_; ++j)
         if (columns_[j] * columns_[j] > known_[j]) return false;
     return true;
 }
@@ -65,7 +65,7 @@ std::span<const double> CostRule::hand_in(double seconds, std::span<const double
     std::copy(columns.begin(), columns.end(), columns_.begin());
     seconds_ = seconds;
     was_learned_ = is_learned_;
-    learned_ = costs_.dot(columns_);
+    learned_ = weight(columns_);
     kept_seconds_ = without_outlier(seconds);
     const bool is_root = rank_ == 0;
     sums_[seconds_sum] = seconds_;
@@ -84,8 +84,7 @@ std::span<const double> CostRule::hand_in(double seconds, std::span<const double
         *next++ = first * kept_seconds_;
         for (const double second : columns_) *next++ = first * second;
     }
-    CostVector fitted = CostVector::Zero(num_columns_);
-    if (is_root) fitted = fitted_costs(all_);
+    const CostVector fitted = is_root ? fitted_costs(all_) : CostVector(num_columns_);
     *std::copy(fitted.begin(), fitted.end(), next) = seconds_;
     return sums_;
 }
@@ -99,10 +98,10 @@ void CostRule::take(std::span<const double> all) {
     state_ = static_cast<CostState>(static_cast<int>(all[state_of_root]));
     learned_error_ = all[learned_of_root];
     counted_error_ = all[counted_of_root];
-    std::copy_n(all.end() - 1 - num_columns_, num_columns_, costs_.begin());
+    std::ranges::copy(all.last(num_columns_ + 1).first(num_columns_), costs_.begin());
     note_errors(all);
     known_ = seen_;
-    for (Eigen::Index j = 0; j < num_columns_; ++j)
+    for (std::size_t j = 0; j < num_columns_; ++j)
         seen_[j] = forgetting * seen_[j] + all[head_size + j * (num_columns_ + 2) + 1];
     if (rank_ == 0) learn(all);
     mean_ = mean;
@@ -110,7 +109,7 @@ void CostRule::take(std::span<const double> all) {
 
 double CostRule::weight(std::span<const double> columns) const {
     double sum = 0;
-    for (Eigen::Index j = 0; j < num_columns_; ++j) sum += costs_[j] * columns[j];
+    for (std::size_t j = 0; j < num_columns_; ++j) sum += costs_[j] * columns[j];
     return sum;
 }
 
@@ -133,12 +132,11 @@ void CostRule::note_errors(std::span<const double> all) {
 }
 
 void CostRule::learn(std::span<const double> all) {
-    all_.squares *= forgetting;
-    all_.products *= forgetting;
     const double* next = all.data() + head_size;
-    for (Eigen::Index i = 0; i < num_columns_; ++i) {
-        all_.products[i] += *next++;
-        for (Eigen::Index j = 0; j < num_columns_; ++j) all_.squares(i, j) += *next++;
+    for (std::size_t i = 0; i < num_columns_; ++i) {
+        all_.products[i] = forgetting * all_.products[i] + *next++;
+        for (std::size_t j = 0; j < num_columns_; ++j)
+            all_.squares(i, j) = forgetting * all_.squares(i, j) + *next++;
     }
 }
 
@@ -149,8 +147,7 @@ void CostRule::set_own_numbers(std::span<const double> numbers) {
 }
 
 void CostRule::store(SavedState& state) {
-    const auto num_squares = static_cast<std::size_t>(all_.squares.size());
-    std::span squares(all_.squares.data(), num_squares);
+    const std::span squares = all_.squares.numbers();
     state.each(seen_, known_, costs_, scatter_, mean_, squares, all_.products, guard_, is_learned_,
                was_learned_, learned_error_, counted_error_);
     auto state_of_costs = static_cast<std::size_t>(state_);

@@ -21,7 +21,7 @@ class CostRule {
   public:
     CostRule(int num_columns, int rank, int num_ranks);
 
-    std::size_t num_columns() const { return static_cast<std::size_t>(num_columns_); }
+    std::size_t num_columns() const { return num_columns_; }
 
     /// Returns the number of doubles that each rank contributes; join_carried() joins them.
     std::size_t num_sums() const { return sums_.size(); }
@@ -57,7 +57,7 @@ class CostRule {
     double without_outlier(double seconds) const;
     bool knows_columns() const;
 
-    Eigen::Index num_columns_;
+    std::size_t num_columns_;
     int rank_;
     int num_ranks_;
     std::vector<double> sums_;

@@ -1,53 +1,76 @@
 #include "controller/nonnegative_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace rrcb {
 
 namespace {
 
-using Active = Eigen::Array<bool, Eigen::Dynamic, 1, 0, most_cost_columns, 1>;
+using Active = std::array<bool, most_cost_columns>;
 
-/// Returns the minimum if all columns except the free ones are 0.
+/// Returns the minimum with all other columns than the free ones held at 0, by a Cholesky
+/// decomposition. Rows and columns that are not free remain 0.
 CostVector free_minimum(const CostMatrix& a, const CostVector& b, const Active& is_free) {
-    CostMatrix equations = a;
-    CostVector right = b;
-    for (Eigen::Index j = 0; j < b.size(); ++j) {
-        if (is_free[j]) continue;
-        equations.row(j).setZero();
-        equations.col(j).setZero();
-        equations(j, j) = 1;
-        right[j] = 0;
+    const std::size_t size = b.size();
+    CostMatrix lower(size);
+    CostVector x(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        if (!is_free[i]) continue;
+        double square = a(i, i);
+        x[i] = b[i];
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!is_free[j]) continue;
+            double product = a(i, j);
+            for (std::size_t k = 0; k < j; ++k) product -= lower(i, k) * lower(j, k);
+            lower(i, j) = product / lower(j, j);
+            square -= lower(i, j) * lower(i, j);
+            x[i] -= lower(i, j) * x[j];
+        }
+        lower(i, i) = std::sqrt(square);
+        x[i] /= lower(i, i);
     }
-    return equations.ldlt().solve(right);
+    for (std::size_t i = size; i-- > 0;) {
+        if (!is_free[i]) continue;
+        for (std::size_t k = i + 1; k < size; ++k) x[i] -= lower(k, i) * x[k];
+        x[i] /= lower(i, i);
+    }
+    return x;
 }
 
-/// Returns the share of the way from `from` to `to` along which no free number becomes negative.
+/// Returns the share of the way from `from` to `to` on which no free number turns negative.
 double allowed_share(const CostVector& from, const CostVector& to, const Active& is_free) {
     double share = 1;
-    for (Eigen::Index j = 0; j < to.size(); ++j)
+    for (std::size_t j = 0; j < to.size(); ++j)
         if (is_free[j] && to[j] <= 0) share = std::min(share, from[j] / (from[j] - to[j]));
     return share;
+}
+
+/// Returns the column whose number lowers the sum fastest if it grows, and how fast.
+std::pair<std::size_t, double> steepest(const CostMatrix& a, const CostVector& b,
+                                        const CostVector& x, const Active& is_free) {
+    std::pair<std::size_t, double> found{0, -1};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        double descent = b[i];
+        for (std::size_t j = 0; j < x.size(); ++j) descent -= a(i, j) * x[j];
+        if (!is_free[i] && descent > found.second) found = {i, descent};
+    }
+    return found;
 }
 
 }  // namespace
 
 CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
-    CostVector x = CostVector::Zero(b.size());
-    if (b.size() == 0) return x;
-    Active is_free = Active::Constant(b.size(), false);
-    const double least = 1e-14 * b.cwiseAbs().maxCoeff();
-    // Each turn of the outer loop lowers the objective, so no set of free columns is repeated,
-    // except because of round-off; therefore the limit.
-    for (Eigen::Index turn = 0; turn < 4 * b.size(); ++turn) {
-        // Frees the column along which the objective decreases fastest.
-        Eigen::Index next = 0;
-        const CostVector descent = b - a * x;
-        if (is_free.select(-1.0, descent.array()).maxCoeff(&next) <= least) break;
+    CostVector x(b.size());
+    Active is_free{};
+    double largest = 0;
+    for (const double product : b) largest = std::max(largest, std::abs(product));
+    // Each turn of the outer loop lowers the sum, so none repeats, except by round-off.
+    for (std::size_t turn = 0; turn < 4 * b.size(); ++turn) {
+        const auto [next, descent] = steepest(a, b, x, is_free);
+        if (descent <= 1e-14 * largest) break;
         is_free[next] = true;
-        // Invariant: x >= 0. Each turn either reaches the minimum, or fixes a column at 0 on the
-        // way.
+        // x >= 0 throughout: each turn reaches the minimum, or fixes a column at 0 on the way.
         for (;;) {
             const CostVector to = free_minimum(a, b, is_free);
             const double share = allowed_share(x, to, is_free);
@@ -55,7 +78,7 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
                 x = to;
                 break;
             }
-            for (Eigen::Index j = 0; j < b.size(); ++j) {
+            for (std::size_t j = 0; j < b.size(); ++j) {
                 const double reached = x[j] + share * (to[j] - x[j]);
                 if (is_free[j] && to[j] <= 0 && reached <= 1e-14 * x[j]) is_free[j] = false;
                 x[j] = is_free[j] ? reached : 0;
@@ -66,17 +89,25 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
 }
 
 CostVector fitted_costs(const NormalEquations& sums) {
-    // This is so small that it changes no cost, unless noise hides the difference between two
-    // columns.
+    // So small that it changes no cost, unless noise hides the difference of two columns.
     constexpr double draw = 1e-6;
-    const CostVector lengths = sums.squares.diagonal().cwiseMax(0).cwiseSqrt();
-    CostVector scales = lengths;
-    for (double& scale : scales) scale = scale > 0 ? 1 / scale : 0;
-    CostMatrix a = scales.asDiagonal() * sums.squares * scales.asDiagonal();
-    CostVector b = scales.cwiseProduct(sums.products);
+    const std::size_t size = sums.products.size();
+    CostVector scales(size);
+    for (std::size_t j = 0; j < size; ++j) {
+        const double square = sums.squares(j, j);
+        scales[j] = square > 0 ? 1 / std::sqrt(square) : 0;
+    }
+    CostMatrix a(size);
+    CostVector b(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t j = 0; j < size; ++j)
+            a(i, j) = i == j ? 1 + draw : scales[i] * sums.squares(i, j) * scales[j];
+        b[i] = scales[i] * sums.products[i];
+    }
     b[0] += draw * b[0];
-    a.diagonal().setConstant(1 + draw);
-    return scales.cwiseProduct(nonnegative_minimum(a, b));
+    CostVector costs = nonnegative_minimum(a, b);
+    for (std::size_t j = 0; j < size; ++j) costs[j] *= scales[j];
+    return costs;
 }
 
 }  // namespace rrcb

@@ -61,9 +61,9 @@ class RebalanceRule {
     Cycle cycle_;
     Cycle earlier_;                  ///< average of all earlier cycles
     bool knows_rebalances_ = false;  ///< whether earlier_ shows the excess that a rebalance leaves
-    double busiest_ = 0;  ///< largest work of four consecutive steps in this cycle, not counting
-                          ///< the first four
-    double slow_start_ = 0;          ///< slow_start() of the last cycle
+    double busiest_ = 0;     ///< largest work of four consecutive steps in this cycle, not counting
+                             ///< the first four
+    double slow_start_ = 0;  ///< slow_start() of the last cycle
     std::array<double, 3> costs_{};  ///< costs of the last three rebalances, in a ring
     std::size_t num_rebalances_ = 0;
     double least_ = 0;  ///< excess that even a perfect rebalance leaves

@@ -9,23 +9,39 @@ namespace rrcb {
 namespace {
 
 CostVector vector_of(std::initializer_list<double> values) {
-    CostVector vector(static_cast<Eigen::Index>(values.size()));
+    CostVector vector(values.size());
     std::copy(values.begin(), values.end(), vector.begin());
     return vector;
 }
 
+Eigen::VectorXd in_eigen(const CostVector& vector) {
+    return Eigen::Map<const Eigen::VectorXd>(vector.begin(), std::ssize(vector));
+}
+
+Eigen::VectorXd minimum(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+    const auto size = static_cast<std::size_t>(b.size());
+    CostMatrix matrix(size);
+    std::copy_n(a.data(), a.size(), matrix.numbers().begin());
+    CostVector vector(size);
+    std::copy_n(b.data(), b.size(), vector.begin());
+    return in_eigen(nonnegative_minimum(matrix, vector));
+}
+
 void add(const CostVector& columns, double seconds, NormalEquations& sums) {
-    sums.squares += columns * columns.transpose();
-    sums.products += columns * seconds;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        sums.products[i] += columns[i] * seconds;
+        for (std::size_t j = 0; j < columns.size(); ++j)
+            sums.squares(i, j) += columns[i] * columns[j];
+    }
 }
 
 /// x'Ax / 2 - b'x
-double sum_at(const CostVector& x, const CostMatrix& a, const CostVector& b) {
+double sum_at(const Eigen::VectorXd& x, const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
     return 0.5 * x.dot(a * x) - b.dot(x);
 }
 
 /// Least sum over all choices of columns that are not 0.
-double least_sum(const CostMatrix& a, const CostVector& b) {
+double least_sum(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
     double least = 0;
     for (unsigned chosen = 1; chosen < 1U << b.size(); ++chosen) {
         std::vector<Eigen::Index> columns;
@@ -34,7 +50,7 @@ double least_sum(const CostMatrix& a, const CostVector& b) {
         const Eigen::VectorXd part =
             Eigen::MatrixXd(a(columns, columns)).fullPivLu().solve(Eigen::VectorXd(b(columns)));
         if (part.minCoeff() < 0) continue;
-        CostVector x = CostVector::Zero(b.size());
+        Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
         for (std::size_t k = 0; k < columns.size(); ++k)
             x[columns[k]] = part[static_cast<Eigen::Index>(k)];
         least = std::min(least, sum_at(x, a, b));
@@ -44,11 +60,12 @@ double least_sum(const CostMatrix& a, const CostVector& b) {
 
 // Two unknowns: 2x + y = 3, x + 2y = 0 has y = -1, so y is 0 and x = 3/2.
 TEST(NonnegativeMinimum, holds_at_zero_what_would_be_negative) {
-    CostMatrix a(2, 2);
+    Eigen::Matrix2d a;
     a << 2, 1, 1, 2;
-    EXPECT_TRUE(nonnegative_minimum(a, vector_of({3, 3})).isApprox(vector_of({1, 1}), 1e-14));
-    EXPECT_TRUE(nonnegative_minimum(a, vector_of({3, 0})).isApprox(vector_of({1.5, 0}), 1e-14));
-    EXPECT_EQ(nonnegative_minimum(a, vector_of({-1, -2})), vector_of({0, 0}));
+    using Pair = Eigen::Vector2d;
+    EXPECT_TRUE(minimum(a, Pair(3, 3)).isApprox(Pair(1, 1), 1e-14));
+    EXPECT_TRUE(minimum(a, Pair(3, 0)).isApprox(Pair(1.5, 0), 1e-14));
+    EXPECT_EQ(minimum(a, Pair(-1, -2)), Pair(0, 0));
 }
 
 TEST(NonnegativeMinimum, is_the_best_of_all_active_sets) {
@@ -61,10 +78,10 @@ TEST(NonnegativeMinimum, is_the_best_of_all_active_sets) {
             1 + trial % 11, size, [&] { return normal(random) + (trial % 2 == 0 ? 1 : 0); });
         const Eigen::VectorXd right =
             Eigen::VectorXd::NullaryExpr(rows.rows(), [&] { return normal(random); });
-        CostMatrix a = rows.transpose() * rows;
+        Eigen::MatrixXd a = rows.transpose() * rows;
         a.diagonal().array() += 1e-6;
-        const CostVector b = rows.transpose() * right;
-        const CostVector x = nonnegative_minimum(a, b);
+        const Eigen::VectorXd b = rows.transpose() * right;
+        const Eigen::VectorXd x = minimum(a, b);
         EXPECT_GE(x.minCoeff(), 0);
         EXPECT_LE(sum_at(x, a, b), least_sum(a, b) + 1e-9) << trial;
     }
@@ -82,7 +99,7 @@ TEST(FittedCosts, finds_costs_that_explain_all) {
 
 TEST(FittedCosts, counts_what_the_columns_leave_open) {
     NormalEquations none(3);
-    EXPECT_EQ(fitted_costs(none), vector_of({0, 0, 0}));
+    EXPECT_EQ(in_eigen(fitted_costs(none)), Eigen::Vector3d(0, 0, 0));
     // The second column repeats the first, the third is 0: all goes to the first.
     NormalEquations repeated(3);
     for (const double points : {10.0, 30.0})
@@ -105,9 +122,10 @@ TEST(FittedCosts, agrees_with_long_double) {
         for (int row = 0; row < 40; ++row) {
             const CostVector columns =
                 vector_of({1e6 * flat(random), 1e2 * flat(random), 1e-4 * flat(random)});
-            const double seconds = columns.dot(vector_of({1e-6, 1e-2, 1e4})) * flat(random);
+            const double seconds =
+                in_eigen(columns).dot(Eigen::Vector3d(1e-6, 1e-2, 1e4)) * flat(random);
             add(columns, seconds, sums);
-            const Vector exact = columns.cast<long double>();
+            const Vector exact = in_eigen(columns).cast<long double>();
             squares += exact * exact.transpose();
             products += exact * static_cast<long double>(seconds);
         }
@@ -117,7 +135,8 @@ TEST(FittedCosts, agrees_with_long_double) {
         const Vector exact = squares.inverse() * products;
         if (exact.minCoeff() <= 0) continue;
         const CostVector costs = fitted_costs(sums);
-        for (int j = 0; j < 3; ++j) EXPECT_NEAR(costs[j] / static_cast<double>(exact(j)), 1, 1e-9);
+        for (int j = 0; j < 3; ++j)
+            EXPECT_NEAR(in_eigen(costs)(j) / static_cast<double>(exact(j)), 1, 1e-9);
     }
 }
 

@@ -24,7 +24,8 @@ foreach(program IN ITEMS examples/quick_start/main.cpp examples/loop/main.cpp
   read_flat(${ROOT}/${program} source)
   string(APPEND compiled "${source}")
 endforeach()
-foreach(document IN ITEMS README.md docs/loop.md docs/queries.md docs/tutorial.md)
+foreach(document IN ITEMS README.md docs/loop.md docs/queries.md docs/tutorial.md
+                         docs/languages.md)
   read_flat(${ROOT}/${document} text)
   string(REGEX MATCHALL "```cpp\n[^`]+```" blocks "${text}")
   list(LENGTH blocks num_blocks)
@@ -38,6 +39,19 @@ foreach(document IN ITEMS README.md docs/loop.md docs/queries.md docs/tutorial.m
       message(FATAL_ERROR "this C++ in ${document} is in no program:\n${block}")
     endif()
   endforeach()
+endforeach()
+
+# The same program in the other languages.
+foreach(shown IN ITEMS c=quick_start_c/main.c fortran=quick_start_fortran/main.f90 python=python/quick_start.py)
+  string(REGEX MATCH "^(.*)=(.*)$" shown "${shown}")
+  set(language ${CMAKE_MATCH_1})
+  read_flat(${ROOT}/examples/${CMAKE_MATCH_2} source)
+  read_flat(${ROOT}/docs/languages.md text)
+  string(REGEX MATCH "```${language}\n([^`]+)```" block "${text}")
+  string(FIND "${source}" "${CMAKE_MATCH_1}" position)
+  if(NOT block OR position EQUAL -1)
+    message(FATAL_ERROR "the ${language} in docs/languages.md is not in its program:\n${block}")
+  endif()
 endforeach()
 
 set(configured "")

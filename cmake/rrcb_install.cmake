@@ -55,11 +55,7 @@ list(FILTER RRCB_CXX_LIBRARIES INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|m)$")
 list(REMOVE_DUPLICATES RRCB_CXX_LIBRARIES)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rrcbConfig.cmake.in rrcbConfig.cmake
                               INSTALL_DESTINATION ${RRCB_CONFIG_DIR})
-set(compatible SameMajorVersion)
-if(PROJECT_VERSION_MAJOR EQUAL 0)
-  set(compatible SameMinorVersion)
-endif()
-write_basic_package_version_file(rrcbConfigVersion.cmake COMPATIBILITY ${compatible})
+write_basic_package_version_file(rrcbConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(
   FILES ${PROJECT_BINARY_DIR}/rrcbConfig.cmake ${PROJECT_BINARY_DIR}/rrcbConfigVersion.cmake
         ${CMAKE_CURRENT_LIST_DIR}/rrcb_probe.cmake

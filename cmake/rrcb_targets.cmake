@@ -23,13 +23,8 @@ function(rrcb_compile_together target)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# While the first number of the version is 0, a new second one may change the interface.
-set(RRCB_INTERFACE ${PROJECT_VERSION_MAJOR})
-if(PROJECT_VERSION_MAJOR EQUAL 0)
-  string(APPEND RRCB_INTERFACE .${PROJECT_VERSION_MINOR})
-endif()
 function(rrcb_set_soname target)
-  set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${RRCB_INTERFACE})
+  set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 endfunction()
 
 # Leaves a shared library no symbols but those of a version script; the compiler's own for

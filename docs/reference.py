@@ -317,7 +317,7 @@ def pages(root):
                                             links_from(os.path.dirname(title), items))
               for title, of_page in items.items()}
     for language, heading, text in (
-            ("cpp", "C++", "Include `rrcb/rrcb.hpp`, which has all but the last nine headers."),
+            ("cpp", "C++", "Include `rrcb/rrcb.hpp`, which has all but the last eight headers."),
             ("c", "C", "Include `rrcb/rrcb.h`."), ("fortran", "Fortran", "The module is `rrcb`.")):
         titles = [title for title in items if languages[title] == language]
         result[f"reference/{language}.md"] = overview(heading, text, titles, items)

@@ -13,7 +13,7 @@ import reference
 
 ROOT = Path(__file__).resolve().parents[1]
 MENU = {
-    "Start": ["docs/install", "docs/first_program", "docs/tutorial", "docs/python", "docs/zoltan"],
+    "Start": ["docs/install", "docs/first_program", "docs/languages", "docs/tutorial", "docs/python", "docs/zoltan"],
     "Guide": ["docs/loop", "docs/queries", "docs/rebalancing", "docs/weights", "docs/choosing",
               "docs/errors", "docs/hard_cases", "docs/teuchos",
               "SUPPORT"],
@@ -91,7 +91,8 @@ def gather(folder):
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text)
-    shutil.copy(ROOT / "docs" / "conf.py", folder)
+    for file in (ROOT / "docs" / "conf.py", ROOT / "CITATION.cff"):
+        shutil.copy(file, folder)
     for name in ("site.css", "site.js"):
         shutil.copy(ROOT / "docs" / name, folder)
 

@@ -203,7 +203,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "neighbours_fetch": (c_void_p, c_size_t, c_void_p, c_void_p),
     "neighbours_accumulate": (c_void_p, c_size_t, c_void_p),
     "neighbours_sum": (c_void_p, POINTER(SharedEntries), c_size_t, c_size_t, c_void_p),
-    "neighbours_ghosts": (c_void_p, POINTER(GhostPlan)),
+    "neighbours_ghost_plan": (c_void_p, POINTER(GhostPlan)),
     "neighbours_apply_shifts": (c_void_p, POINTER(Points)),
     "neighbours_ranks": (c_void_p, POINTER(c_size_t), POINTER(c_void_p)),
     "controller_create_fortran": (c_int, HANDLE),

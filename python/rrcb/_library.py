@@ -36,7 +36,7 @@ from ._interface import (
 
 __all__: list[str] = []
 
-VERSION = "0.2"  # of the shared library
+VERSION = "1"  # of the shared library
 CODES = ("", "invalid argument", "out of memory", "MPI error", "internal error")
 
 

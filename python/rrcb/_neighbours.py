@@ -204,5 +204,5 @@ class Neighbours:
 
     def _lists(self) -> c.GhostPlan:
         shown = c.GhostPlan()
-        c.call("neighbours_ghosts", self._own, shown)
+        c.call("neighbours_ghost_plan", self._own, shown)
         return shown

@@ -1,4 +1,5 @@
 #include "c/balancer.hpp"
+#include "c/for_experimental.h"
 #include "c/for_fortran.h"
 #include "c/handle_mpi.hpp"
 #include "c/sized.hpp"

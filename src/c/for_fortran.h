@@ -5,22 +5,16 @@
 #define RRCB_SRC_C_FOR_FORTRAN_H
 
 #include <rrcb/c/controller.h>
-#include <rrcb/experimental/cost.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* As the functions without this ending, but with a communicator of Fortran. A controller is
- * given by the address of its handle, which may be null. */
+/* As the functions without this ending, but with a communicator of Fortran. */
 RRCB_API int rrcb_balancer_create_fortran(int comm, rrcb_balancer** balancer);
 RRCB_API int rrcb_controller_create_fortran(int comm, rrcb_controller** controller);
 RRCB_API int rrcb_controller_load_fortran(int comm, const void* bytes, size_t size,
                                           rrcb_controller** controller);
-RRCB_API int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* controller,
-                                            int num_columns, rrcb_cost_model** model);
-RRCB_API int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller,
-                                          const void* bytes, size_t size, rrcb_cost_model** model);
 
 /* An error ends a Fortran program that does not ask for the code. All ranks of a failing
  * collective call get the same text, and one of them prints it. */

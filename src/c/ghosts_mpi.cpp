@@ -1,6 +1,6 @@
 #include "c/columns.hpp"
 #include "c/domain.hpp"
-#include "c/for_python.h"
+#include "c/for_experimental.h"
 #include "c/handle_mpi.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/duplicated_mpi.hpp"

@@ -4,7 +4,7 @@ target_link_libraries(verbose_client PRIVATE rrcb_zoltan_test_program)
 target_include_directories(verbose_client PRIVATE ../zoltan)
 rrcb_set_warnings(verbose_client)
 
-string(REPLACE "." "\\." version "RRCB ${PROJECT_VERSION}")
+string(REPLACE "." "\\." version "RRCB ${RRCB_VERSION}")
 set(time "[0-9.]+ ms\n")
 
 # add_verbose_run(<name> <expected output> <unexpected output> <command>...)

@@ -24,7 +24,7 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
                    COMMAND ${CMAKE_COMMAND} -E env LD_PRELOAD=$<TARGET_FILE:rrcb_lammps> RRCB_VERBOSE=1
                            $<TARGET_FILE:quick_start_c>)
   set_tests_properties(lammps_shim.no_calls PROPERTIES
-    PASS_REGULAR_EXPRESSION "RRCB ${PROJECT_VERSION}: no calls"
+    PASS_REGULAR_EXPRESSION "RRCB ${RRCB_VERSION}: no calls"
     FAIL_REGULAR_EXPRESSION "no calls.*no calls")
 endif()
 

@@ -1,4 +1,5 @@
 // The interface in C beside the one in C++, which is the reference.
+#include "c/for_experimental.h"
 #include "c/for_fortran.h"
 #include "c_calls.hpp"
 

@@ -30,7 +30,6 @@ struct Bisection {
 /// piecewise-linear cumulative weight of the patches
 /// Throws Error for a number of parts below 1, illegal sizes (see Options::part_sizes), or an
 /// illegal dimension.
-RRCB_API Bisection bisect(StatisticalDomain domain, int num_parts,
-                          std::span<const double> part_sizes);
+Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes);
 
 }  // namespace rrcb

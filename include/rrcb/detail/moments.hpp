@@ -33,7 +33,7 @@ struct CellMoments {
 /// Source: Chan, Golub, LeVeque: Updating formulae and a pairwise algorithm for computing sample
 /// variances (1979), equations 2.1, with weights in place of counts. If neither set has weight,
 /// counts are used and the weight remains 0.
-RRCB_API Moments merge(const Moments& a, const Moments& b);
+Moments merge(const Moments& a, const Moments& b);
 
 /// Returns the moments of every cell with weight, in the order of the cells. Not collective.
 ///
@@ -47,6 +47,6 @@ RRCB_API Moments merge(const Moments& a, const Moments& b);
 /// Uses shifted sums (Chan, Golub, LeVeque: Algorithms for computing the sample variance, 1983,
 /// section 3): about the first point of each cell, and again about the mean if that point is far
 /// off. Neither large coordinates nor different weights cost more than one digit.
-RRCB_API std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
+std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
 
 }  // namespace rrcb

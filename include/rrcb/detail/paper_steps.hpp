@@ -25,12 +25,12 @@ struct MassPoint {
 /// @return `sample_fraction` times the number of real points, but at least one; they are shared
 /// among the cells in proportion to their weight by the method of largest remainders
 /// Throws Error for options out of range.
-RRCB_API std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dimension,
-                                              const PaperOptions& options);
+std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dimension,
+                                     const PaperOptions& options);
 
 /// Copies points with their weights; if all weights are 0, each copy weighs 1. Not collective.
 /// Throws Error for arrays of another length than the points.
-RRCB_API std::vector<MassPoint> mass_points(const Points& points);
+std::vector<MassPoint> mass_points(const Points& points);
 
 /// Bisects points recursively across the longest extent of the points in each box. Not collective.
 ///
@@ -41,9 +41,8 @@ RRCB_API std::vector<MassPoint> mass_points(const Points& points);
 /// @param rule       position of cuts
 /// @param plain_cuts points on a cut are not divided by their other coordinates
 /// Throws Error as bisect().
-RRCB_API Bisection bisect_points(std::vector<MassPoint> points, int dimension, int num_parts,
-                                 std::span<const double> part_sizes = {},
-                                 CutRule rule = CutRule::weighted_fraction,
-                                 bool plain_cuts = false);
+Bisection bisect_points(std::vector<MassPoint> points, int dimension, int num_parts,
+                        std::span<const double> part_sizes = {},
+                        CutRule rule = CutRule::weighted_fraction, bool plain_cuts = false);
 
 }  // namespace rrcb

@@ -39,7 +39,7 @@ struct StatisticalDomain {
 /// nowhere negative; to second order this is the density of greatest entropy. If there is no such
 /// interval, two uniform densities are used instead: between the mean and both faces or, if sigma
 /// is even larger, at both faces.
-RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
-                                           const Box& box);
+StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
+                                  const Box& box);
 
 }  // namespace rrcb

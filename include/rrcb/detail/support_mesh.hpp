@@ -23,7 +23,7 @@ struct SupportMesh {
 /// @param dimension      of the points
 /// @param cells_per_axis 1 or more
 /// Throws Error for less than one cell, or an illegal dimension.
-RRCB_API SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
+SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
 
 /// Returns the number of cells, the product over the axes. Not collective.
 RRCB_API LocalIndex num_cells(const SupportMesh& mesh);
@@ -32,7 +32,7 @@ RRCB_API LocalIndex num_cells(const SupportMesh& mesh);
 ///
 /// @param mesh     of the points
 /// @param position positions outside the mesh go to the nearest cell
-RRCB_API LocalIndex cell_of(const SupportMesh& mesh, const Vector& position);
+LocalIndex cell_of(const SupportMesh& mesh, const Vector& position);
 
 /// Returns the box of a cell; the shared faces of adjacent cells are bit-identical. Not collective.
 ///

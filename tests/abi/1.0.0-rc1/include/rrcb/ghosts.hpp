@@ -44,7 +44,7 @@ struct GhostPlan {
     /// second, ...
     std::vector<LocalIndex> send_indices;
     std::vector<RankCount> receive;  ///< number of ghosts from each rank
-    Box periodic{};                  ///< repeated box; empty: none
+    std::optional<Box> periodic{};   ///< repeated box, if there is one
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
     Stamp stamp{};                   ///< of the call, see unstamped()
     std::optional<double> cutoff{};  ///< of all points, as in the options

@@ -1,10 +1,11 @@
 /** @file
- * Functions of the library that only the Python package calls. No public header declares them,
- * and they may change in any version. */
-#ifndef RRCB_SRC_C_FOR_PYTHON_H
-#define RRCB_SRC_C_FOR_PYTHON_H
+ * Functions of the library without a promise that only the Fortran module and the Python package
+ * call. No public header declares them, and they may change in any version. */
+#ifndef RRCB_SRC_C_FOR_EXPERIMENTAL_H
+#define RRCB_SRC_C_FOR_EXPERIMENTAL_H
 
 #include <rrcb/c/ghosts.h>
+#include <rrcb/experimental/cost.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -49,6 +50,13 @@ typedef struct rrcb_verification {
  * @param seen    gets the result */
 RRCB_API int rrcb_ghosts_verify(rrcb_ghosts* ghosts, const rrcb_points* points,
                                 const rrcb_verify_options* options, rrcb_verification* seen);
+
+/* As the functions without this ending, but with a communicator of Fortran. A controller is
+ * given by the address of its handle, which may be null. */
+RRCB_API int rrcb_cost_model_create_fortran(int comm, rrcb_controller* const* controller,
+                                            int num_columns, rrcb_cost_model** model);
+RRCB_API int rrcb_cost_model_load_fortran(int comm, rrcb_controller* const* controller,
+                                          const void* bytes, size_t size, rrcb_cost_model** model);
 
 #ifdef __cplusplus
 }

@@ -56,13 +56,13 @@ bool read_mesh(std::string_view text, PaperOptions& options) {
     Options own;
     const bool is_legal = rrcb::read_option(*rrcb::find_option("cells_per_axis"), text, own);
     if (is_legal && own.expert.cells_per_axis != 0)
-        options.support_mesh = own.expert.cells_per_axis;
+        options.cells_per_axis = own.expert.cells_per_axis;
     return is_legal && own.expert.cells_per_axis != 0;
 }
 
 constexpr PaperKey paper_keys[] = {
     {"mesh", "RRCB_SUPPORT_MESH", "a whole number from 1 to 4096", read_mesh,
-     write_field<&PaperOptions::support_mesh>},
+     write_field<&PaperOptions::cells_per_axis>},
     {"cut", "RRCB_CUT_RULE", "WEIGHTED or MIDPOINT",
      read_field<&PaperOptions::cut_rule, rrcb::read_cut_rule>,
      [](const PaperOptions& options) { return rrcb::name_of(options.cut_rule); }},
@@ -92,7 +92,7 @@ Options refined(Refine refine) {
 PaperOptions of_paper(PaperDomain domain) {
     PaperOptions options;
     options.domain = domain;
-    options.support_mesh = 4;
+    options.cells_per_axis = 4;
     options.sigma_multiplier = 1.5;
     options.sample_fraction = 1;
     return options;

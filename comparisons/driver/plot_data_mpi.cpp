@@ -162,9 +162,9 @@ void write_statistics(const ResultsFolder& folder, const Workload& workload,
     RankCell of_rank{rank_of(comm), {}};
     std::vector<RankCell> mine;
     if (points.count > 0) {
-        for (const rrcb::CellMoments& cell :
-             rrcb::cell_moments(points, rrcb::make_support_mesh(rrcb::bounding_box(points),
-                                                                dimension, options.support_mesh))) {
+        for (const rrcb::CellMoments& cell : rrcb::cell_moments(
+                 points, rrcb::make_support_mesh(rrcb::bounding_box(points), dimension,
+                                                 options.cells_per_axis))) {
             of_rank.moments = cell;
             mine.push_back(of_rank);
         }

@@ -30,8 +30,8 @@ bool has(const Choice& words, int value) {
 void check(const PaperOptions& options, int dimension) {
     const int most_cells = dimension < 3 ? 4096 : 256;
     require(options.num_parts >= 1, "num_parts must be positive, or 0 for one part per rank");
-    require(options.support_mesh >= 1 && options.support_mesh <= most_cells,
-            "support_mesh must be 1 ... 4096 cells per axis, in 3-D 1 ... 256");
+    require(options.cells_per_axis >= 1 && options.cells_per_axis <= most_cells,
+            "cells_per_axis must be 1 ... 4096 cells per axis, in 3-D 1 ... 256");
     require(options.sample_fraction > 0 && options.sample_fraction <= 1,
             "sample_fraction must be in (0, 1]");
     check_sampling(options);
@@ -51,7 +51,7 @@ void agree_on(const PaperOptions& options, const Points& points, Participant& se
                  {"domain", static_cast<std::uint64_t>(options.domain)},
                  {"cut_rule", static_cast<std::uint64_t>(options.cut_rule)},
                  {"plain_cuts", options.plain_cuts ? 1u : 0u},
-                 {"support_mesh", static_cast<std::uint64_t>(options.support_mesh)},
+                 {"cells_per_axis", static_cast<std::uint64_t>(options.cells_per_axis)},
                  {"sigma_multiplier", std::bit_cast<std::uint64_t>(options.sigma_multiplier)},
                  {"sample_fraction", std::bit_cast<std::uint64_t>(options.sample_fraction)},
                  {"seed", options.seed},
@@ -76,7 +76,7 @@ Contribution reduce_points(const Points& points, const Box& box, const PaperOpti
         mine.summary.num_cells = mine.summary.num_points;
     } else if (points.count > 0) {
         const CellSet set{
-            cell_moments(points, make_support_mesh(box, points.dimension, options.support_mesh)),
+            cell_moments(points, make_support_mesh(box, points.dimension, options.cells_per_axis)),
             0};
         append_cells(set, points.dimension, 1, mine.records);
         mine.summary.num_cells = std::ssize(set.cells);

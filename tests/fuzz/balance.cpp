@@ -52,7 +52,7 @@ Request take_request(rrcb::fuzz::Input& input) {
         size = std::ldexp(input.take_below(3), -(most_halvings * input.take_below(256) / 255));
     paper.num_parts = own.num_parts;
     paper.part_sizes = own.part_sizes;
-    paper.support_mesh = std::max(1, own.expert.cells_per_axis);
+    paper.cells_per_axis = std::max(1, own.expert.cells_per_axis);
     paper.plain_cuts = own.expert.axes.plain;
     if (method == 1 || method == 2) return {own, paper};
     return {own, {}};

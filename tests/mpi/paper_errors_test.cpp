@@ -50,7 +50,8 @@ TEST(PaperErrors, of_options_name_the_range) {
     };
     with([](PaperOptions& o) { o.num_parts = -1; }, "num_parts must be positive");
     for (const int mesh : {0, 4097})
-        with([&](PaperOptions& o) { o.support_mesh = mesh; }, "support_mesh must be 1 ... 4096");
+        with([&](PaperOptions& o) { o.cells_per_axis = mesh; },
+             "cells_per_axis must be 1 ... 4096");
     for (const double k : {0.0, nan, HUGE_VAL})
         with([&](PaperOptions& o) { o.sigma_multiplier = k; },
              "sigma_multiplier must be finite and above 0");
@@ -64,7 +65,7 @@ TEST(PaperErrors, of_options_name_the_range) {
 }
 
 TEST(PaperErrors, of_a_mesh_in_space_begin_at_257_cells) {
-    PaperOptions options{.support_mesh = 257};
+    PaperOptions options{.cells_per_axis = 257};
     expect_error(weighted_share(rank()), options, "in 3-D 1 ... 256");
 }
 
@@ -83,7 +84,7 @@ TEST(PaperErrors, of_options_that_differ_name_the_option_and_the_rank) {
     with([](PaperOptions& o) { o.domain = PaperDomain::points; }, "domain");
     with([](PaperOptions& o) { o.cut_rule = CutRule::midpoint; }, "cut_rule");
     with([](PaperOptions& o) { o.plain_cuts = true; }, "plain_cuts");
-    with([](PaperOptions& o) { o.support_mesh = 3; }, "support_mesh");
+    with([](PaperOptions& o) { o.cells_per_axis = 3; }, "cells_per_axis");
     with([](PaperOptions& o) { o.sigma_multiplier = 3; }, "sigma_multiplier");
     with([](PaperOptions& o) { o.sample_fraction = 0.5; }, "sample_fraction");
     with([](PaperOptions& o) { o.seed = 3; }, "seed");

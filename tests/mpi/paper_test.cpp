@@ -151,7 +151,7 @@ TEST(PaperRrcb, bisects_the_sampled_points_of_the_cells_of_all_ranks) {
         for (const int mesh : {1, 4, 7}) {
             for (const CutRule rule : {CutRule::weighted_fraction, CutRule::midpoint}) {
                 PaperOptions options{.num_parts = 6,
-                                     .support_mesh = mesh,
+                                     .cells_per_axis = mesh,
                                      .sample_fraction = mesh == 4 ? 0.25 : 1,
                                      .seed = static_cast<std::uint64_t>(mesh)};
                 if (mesh == 7) options.part_sizes = {0, 3, 0, 0, 1, 2};
@@ -179,7 +179,7 @@ TEST(PaperRrcb, comes_nearer_to_the_points_with_a_finer_mesh) {
     for (double& x : cloud) x = x * x * x;
     const Points points(cloud, 2);
     const auto imbalance_with = [&](int mesh) {
-        PaperOptions options{.num_parts = 4, .support_mesh = mesh};
+        PaperOptions options{.num_parts = 4, .cells_per_axis = mesh};
         const Balance result = balance_as_in_paper(points, MPI_COMM_WORLD, options);
         return imbalance(part_weights(points, result.parts, 4, MPI_COMM_WORLD));
     };

@@ -132,7 +132,7 @@ PaperOptions Case::paper_options() const {
     options.domain = shape.choice % 2 == 0 ? PaperDomain::sampled : PaperDomain::points;
     options.cut_rule = shape.choice / 2 % 4 == 0 ? CutRule::midpoint : CutRule::weighted_fraction;
     options.plain_cuts = shape.plain_cuts != 0;
-    if (shape.support_mesh != 0) options.support_mesh = shape.support_mesh;
+    if (shape.support_mesh != 0) options.cells_per_axis = shape.support_mesh;
     options.sample_fraction = shape.choice / 8 % 2 == 0 ? 1 : 0.25;
     return options;
 }

@@ -51,7 +51,7 @@ TEST(PaperDomains, give_the_parts_of_balance_as_in_paper) {
     expect_same({{"RRCB_REFINE", "NONE"}}, [](PaperOptions&) {});
     expect_same({{"NUM_GLOBAL_PARTS", "11"}, {"RRCB_SUPPORT_MESH", "3"}}, [](PaperOptions& o) {
         o.num_parts = 11;
-        o.support_mesh = 3;
+        o.cells_per_axis = 3;
     });
     expect_same({{"RRCB_CUT_RULE", "MIDPOINT"}, {"NUM_GLOBAL_PARTS", "6"}}, [](PaperOptions& o) {
         o.cut_rule = CutRule::midpoint;

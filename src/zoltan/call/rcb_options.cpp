@@ -102,7 +102,7 @@ PaperOptions make_paper_options(const Parameters& parameters, const Layout& layo
     options.cut_rule = parameters.cut_rule;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
     if (parameters.options.expert.cells_per_axis != 0)
-        options.support_mesh = parameters.options.expert.cells_per_axis;
+        options.cells_per_axis = parameters.options.expert.cells_per_axis;
     options.sigma_multiplier = parameters.sigma_multiplier;
     options.sample_fraction = parameters.sample_fraction;
     options.seed = parameters.seed;

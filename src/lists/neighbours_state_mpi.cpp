@@ -47,7 +47,7 @@ void Neighbours::State::check_radii(const Points& points, const Radii& radii) co
     if (!radii.each) return;
     require(radii.each->size() == points.count, "cutoffs must have one entry for each point");
     require(std::ranges::all_of(*radii.each, [&](double r) { return r >= 0 && r <= radius; }),
-            "each radius must be 0 or more, and at most that of NeighbourOptions");
+            "each cutoff must be 0 or more, and at most that of NeighbourOptions");
 }
 
 void Neighbours::State::require_ghosts(Stage least) const {
@@ -112,7 +112,7 @@ void Neighbours::State::find_ghosts(const Points& points, const Radii& radii) {
             territory.check_position(points, i);
             if (!territory.is_within_reach(x, radii.of(i)))
                 reject(territory.name_of(points, i) +
-                       " is too far outside the parts of this rank for its radius; call migrate() "
+                       " is too far outside the parts of this rank for its cutoff; call migrate() "
                        "before, or give more travel");
         });
         lists->write(ghosts);

@@ -43,7 +43,7 @@ void PeriodicImages::check(double radius) const {
                     std::isfinite(box_.upper[a]) == is_periodic(a),
                 "each axis of the periodic box must have two finite ends, the lower one first, or "
                 "two infinite ones");
-        require(radius / most_periods <= period, "a radius must be at most 100 periods");
+        require(radius / most_periods <= period, "a cutoff must be at most 100 periods");
     }
 }
 

@@ -34,7 +34,7 @@ Territory::Territory(const Cuts& cuts, const NeighbourOptions& options, int rank
       reach_(std::max(options.cutoff, options.travel)) {
     check_tree(cuts);
     require(is_distance(options.cutoff) && is_distance(options.travel),
-            "radius and travel must be finite, 0 or more");
+            "cutoff and travel must be finite, 0 or more");
     require(options.needs >= Needs::scatter && options.needs <= Needs::symmetric,
             "needs must be scatter, gather or symmetric");
     if (has_ranks_) {

@@ -214,7 +214,7 @@ TEST_F(CNeighbours, refuse_null_and_zeroed_arguments) {
     rrcb_neighbours* made = nullptr;
     const rrcb_neighbour_options none = RRCB_NEIGHBOUR_OPTIONS_INIT;
     EXPECT_EQ(rrcb_neighbours_create(balancer_, &none, &made), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::string(rrcb_last_error()).find("radius and travel are both 0"),
+    EXPECT_NE(std::string(rrcb_last_error()).find("cutoff and travel are both 0"),
               std::string::npos);
     EXPECT_EQ(rrcb_neighbours_create(balancer_, nullptr, &made), RRCB_INVALID_ARGUMENT);
     EXPECT_EQ(made, nullptr);

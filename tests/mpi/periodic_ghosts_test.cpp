@@ -309,7 +309,7 @@ TEST(PeriodicGhosts, in_no_usable_box_are_refused_on_all_ranks) {
     refused("two finite ends", 0.1, -1e308, 1e308);
     refused("coordinate 0.25 of point 0 on axis 0 is outside the periodic box, -1 to 0", 0.1, -1,
             0);
-    refused("a radius must be at most 100 periods", 151, -1, 0.5);
+    refused("a cutoff must be at most 100 periods", 151, -1, 0.5);
     if (num_ranks() > 1) refused("the periodic box differs between rank 0", 0.1, -1, 0.75);
 }
 

@@ -210,7 +210,7 @@ TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
             "rank " + std::to_string(faulty) + ": max_root_parts must be at least 2");
         options.expert.max_root_parts = rank() == faulty ? 2 : 1000;
         test::expect_same_error([&] { balance(points, MPI_COMM_WORLD, options); },
-                                "central_parts differs between rank");
+                                "max_root_parts differs between rank");
     }
     const std::vector<double> fine{0.5, 1.5};
     EXPECT_EQ(balance(Points(fine, 1), MPI_COMM_WORLD).parts.size(), 2u);

@@ -209,7 +209,7 @@ TEST(SpreadReuse, tells_all_ranks_what_is_wrong_on_one) {
     expect("refine differs", first.cuts, other);
     other = options;
     if (is_last) other.expert.max_root_parts = 1000;
-    expect("central_parts differs", first.cuts, other);
+    expect("max_root_parts differs", first.cuts, other);
     if (is_last) mine.coordinates[7] = std::nan("");
     expect("is NaN or infinite", first.cuts, options);
 }

@@ -137,7 +137,7 @@ def test_balances_weights_and_tolerances():
     uneven = rrcb.balance(x, comm=comm, part_sizes=sizes)
     counts = comm.allreduce(np.bincount(uneven.parts, minlength=RANKS))
     assert np.abs(counts / counts.sum() - sizes / sizes.sum()).max() < 0.01
-    shape = {"tree__group_size": 2, "tree__larger_below": True, "tree__dealt": 1}
+    shape = {"tree__group_size": 2, "tree__larger_below": True, "tree__round_robin_block": 1}
     shaped = rrcb.balance(x, comm=comm, num_parts=6, axes__plain=True, **shape)
     assert shaped.cuts.__getstate__()[3] == (2, 1, 1)
     wide = rrcb.balance(x, comm=comm, num_parts=4, axes__min_width=(0.4, np.float32(0.1)))

@@ -36,7 +36,7 @@ struct PaperOptions {
     PaperDomain domain = PaperDomain::sampled;      ///< points bisected by rank 0
     CutRule cut_rule = CutRule::weighted_fraction;  ///< position of cuts
     bool plain_cuts = false;                        ///< as Axes::plain
-    int support_mesh = 8;           ///< cells per axis of each rank's mesh, 1 to 4096, in 3-D 256
+    int cells_per_axis = 8;         ///< cells per axis of each rank's mesh, 1 to 4096, in 3-D 256
     double sigma_multiplier = 1.5;  ///< half-width of a cell's sampling box in sigmas, > 0
     double sample_fraction = 1.0;   ///< points drawn per real point, in (0, 1]
     std::uint64_t seed = 1;         ///< the same seed gives the same points

@@ -22,6 +22,7 @@ struct Texts {
     std::map<std::string, std::string> values;
     bool quick = false;
     bool data = true;
+    bool serial = false;
     bool progress = false;
     bool version = false;
 
@@ -43,6 +44,7 @@ const std::map<std::string, std::string>& documentation() {
         {"methods", "methods, by commas, parameters in brackets, or all: " + method_names()},
         {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
         {"steps", "steps of the simulation; to the end of the scene"},
+        {"from", "steps of the scene before the simulations begin, all from one state; 0"},
         {"every",
          "steps between rebalances, or auto (default): when they pay; or several by commas"},
         {"cost", "learned: simulations compare learned costs of points with counting; count"},
@@ -66,6 +68,8 @@ std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
     }
     processor.setOption("quick", "no-quick", &texts.quick, "a small run of everything");
     processor.setOption("data", "no-data", &texts.data, "write the data of the pictures");
+    processor.setOption("serial", "no-serial", &texts.serial,
+                        "simulate on rank 0 alone as well, in turns with the others");
     processor.setOption("progress", "no-progress", &texts.progress, "show a progress bar");
     processor.setOption("version", "no-version", &texts.version, "print the versions");
     std::ostringstream output;
@@ -129,6 +133,7 @@ void check_combination(const Texts& texts) {
           "--cloud or --file only; remove it");
     needs("only", is_scene, "--scene only; remove it");
     needs("steps", is_scene, "--scene only; remove it");
+    needs("from", is_scene, "--scene only; remove it");
     needs("every", is_scene, "--scene only; remove it");
     needs("cost", is_scene, "--scene only; remove it");
 }
@@ -175,6 +180,7 @@ Arguments read_arguments(int argc, char** argv) {
     if (arguments.help || arguments.version) return arguments;
     check_combination(texts);
     arguments.data = texts.data;
+    arguments.serial = texts.serial;
     arguments.quick = texts.quick;
     arguments.progress = texts.progress;
     use_default_sizes(arguments);
@@ -195,6 +201,7 @@ Arguments read_arguments(int argc, char** argv) {
     read_choice<Lists>(texts, "lists", arguments.lists,
                        {{"PARTS", Lists::parts}, {"EXPORT", Lists::exports}, {"ALL", Lists::all}});
     read_integer(texts, "steps", arguments.steps, 1, many);
+    read_integer(texts, "from", arguments.from, 0, many);
     if (texts.given("every")) arguments.every = read_intervals(texts["every"]);
     read_choice<Cost>(texts, "cost", arguments.cost,
                       {{"count", Cost::count}, {"learned", Cost::learned}});

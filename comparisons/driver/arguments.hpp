@@ -38,11 +38,13 @@ struct Arguments : MeasurementPlan {
     Layout layout = Layout::sorted;
     std::vector<Method> methods;
     int steps = 0;  ///< number of steps of the simulation; 0: until the end of the scene
+    int from = 0;   ///< number of steps of the scene before the simulations begin
     std::vector<int> every = {0};  ///< steps between rebalances; 0: a controller decides
     Cost cost = Cost::count;  ///< `learned` adds simulations that weigh points by learned costs
     std::string out = "comparisons/out";
     Only only = Only::all;
-    bool data = true;  ///< write the points and boxes that pictures show
+    bool data = true;     ///< write the points and boxes that pictures show
+    bool serial = false;  ///< add a simulation on rank 0 alone
     bool quick = false;
     bool progress = false;
     std::optional<std::string> help;  ///< text to print instead of running

@@ -48,6 +48,8 @@ std::vector<SimulationRounds> contenders(const Arguments& arguments) {
     std::vector<SimulationRounds> all(1, none);
     for (const int every : arguments.every)
         std::ranges::move(contenders(arguments, every), std::back_inserter(all));
+    if (arguments.serial)
+        all.push_back({"serial", {}, {}, Cost::count, arguments.every.front(), true});
     all.push_back(all[all.size() > 1 ? 1 : 0]);
     all.back().method += " again";
     return all;
@@ -75,6 +77,13 @@ Observer observer(const SimulationPlan& plan, Progress& progress,
     };
 }
 
+/// Tells all ranks that a simulation on rank 0 has failed. Collective.
+void share_failure(SimulationRun& run, MPI_Comm comm) {
+    bool has_failed = !run.error.empty();
+    MPI_Bcast(&has_failed, 1, MPI_CXX_BOOL, 0, comm);
+    if (has_failed && rank_of(comm) != 0) run.error = "it failed on rank 0";
+}
+
 /// Runs one simulation of each contender that has not failed. The snapshots are those of the first
 /// contender in the first round.
 void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPlan& plan,
@@ -95,10 +104,10 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
                                  weights);
         };
         plans[next].every = rounds.every;
-        if (!rounds.has_failed())
+        if (!rounds.has_failed() && (!rounds.is_serial || rank_of(comm) == 0))
             simulations[next] = std::make_unique<TimedSimulation>(
                 plans[next], make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr),
-                comm, rounds.cost);
+                rounds.is_serial ? MPI_COMM_SELF : comm, rounds.cost);
     }
     // The turns are long enough that most steps find their points in the cache.
     constexpr int turn = 50;
@@ -108,13 +117,25 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
             if (simulations[next]) simulations[next]->advance(turn);
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!simulations[i]) continue;
-        SimulationRun& run = all[i].runs.emplace_back(simulations[i]->result());
+        if (all[i].has_failed()) continue;
+        SimulationRun& run = all[i].runs.emplace_back();
+        if (simulations[i]) run = simulations[i]->result();
+        if (all[i].is_serial) share_failure(run, comm);
         const std::optional<Method>& method = all[i].balanced_by;
         if (method && varies_with_seed(*method))
             run.seed = method->seed() + static_cast<unsigned>(round);
         if (round > 0) run.history.clear();
     }
+}
+
+/// Writes the state of a scene after some steps without rebalancing. Returns the file. Collective.
+std::string state_after(int num_steps, const SimulationPlan& plan, const std::string& folder,
+                        MPI_Comm comm) {
+    mpm::Simulation simulation(plan.scene, comm);
+    for (int step = 0; step < num_steps; ++step) simulation.step();
+    const std::string file = folder + "/state.mpm";
+    simulation.write_state(file);
+    return file;
 }
 
 /// Returns the steps until the front of the slope stops, within 0.2 m of its final position.
@@ -141,7 +162,7 @@ Row round_row(const SimulationPlan& plan, int num_ranks, const SimulationRounds&
     row.add("method", rounds.method)
         .add("round", number)
         .add("seed", run.seed)
-        .add("ranks", num_ranks)
+        .add("ranks", rounds.is_serial ? 1 : num_ranks)
         .add("points", run.num_points)
         .add("steps", plan.num_steps)
         .add("every", interval_text(rounds.every))
@@ -186,7 +207,9 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
     SimulationPlan plan{choose_scene(arguments.scene, arguments.quick, comm)};
     plan.num_steps = arguments.steps > 0 ? arguments.steps
                      : arguments.quick   ? quick_steps
-                                         : steps_to_end(plan.scene, comm);
+                     : arguments.scene == "slope" && arguments.only != Only::simulations
+                         ? steps_of_failure(comm)
+                         : steps_to_end(plan.scene, comm);
     plan.record_every = record_interval(plan.num_steps, num_runs, comm);
     plan.seed = arguments.seed;
     return plan;
@@ -224,9 +247,7 @@ std::vector<SimulationRounds> run_scene(const Arguments& arguments, const Result
                                         MPI_Comm comm) {
     std::vector<SimulationRounds> all = contenders(arguments);
     SimulationPlan plan = plan_scene(arguments, all.size() - 1, comm);
-    const bool is_main_job = arguments.scene == "slope" && arguments.only == Only::all;
-    if (is_main_job && arguments.steps == 0 && !arguments.quick)
-        plan.num_steps = steps_of_failure(comm);
+    if (arguments.from > 0) plan.state = state_after(arguments.from, plan, arguments.out, comm);
     const int num_rounds = arguments.only == Only::simulations
                                ? arguments.repeats
                                : std::min(arguments.repeats, max_rounds);

@@ -23,7 +23,8 @@ struct SimulationRounds {
     std::vector<SimulationRun> runs;      ///< a simulation that fails is the last one
     std::optional<Method> balanced_by{};  ///< nullopt: no rebalancing
     Cost cost = Cost::count;
-    int every = 0;  ///< as in SimulationPlan
+    int every = 0;           ///< as in SimulationPlan
+    bool is_serial = false;  ///< runs on rank 0 alone, which alone has the results
 
     bool has_failed() const { return !runs.empty() && !runs.back().error.empty(); }
 };
@@ -55,7 +56,7 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 /// has stopped, unless a number of steps is given or only simulations are requested. `visit` is
 /// called after the first round, so that tables of the calls appear early. With learned costs there
 /// are two more simulations: "count" and "learned" weigh the points of rrcb-arrays. Methods that
-/// vary with the seed use a new seed in each round.
+/// vary with the seed use a new seed in each round. "serial" runs on rank 0 while the others wait.
 std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
                                         Progress& progress, const SnapshotVisitor& visit,
                                         MPI_Comm comm);

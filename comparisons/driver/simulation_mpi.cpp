@@ -84,7 +84,9 @@ TimedSimulation::TimedSimulation(const SimulationPlan& plan, const BalancerMaker
     balancer_ = make_balancer(cost == Cost::learned ? PointWeights([this] { return weights(); })
                                                     : PointWeights());
     unless_failed(run_, [&] {
-        simulation_ = std::make_unique<mpm::Simulation>(plan.scene, comm);
+        simulation_ = plan.state.empty()
+                          ? std::make_unique<mpm::Simulation>(plan.scene, comm)
+                          : std::make_unique<mpm::Simulation>(plan.scene, plan.state, comm);
         if (balancer_) start_controller(cost);
         run_.num_points = simulation_->num_points();
         observe_(0, *simulation_);

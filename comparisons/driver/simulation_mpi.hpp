@@ -26,6 +26,7 @@ struct SimulationPlan {
     int every = 1;           ///< steps between rebalances; 0: a controller decides
     int record_every = 1;    ///< steps between records of the load
     std::uint64_t seed = 1;  ///< for the order of turns
+    std::string state{};     ///< file of the first state; empty: the start of the scene
 };
 
 /// The number of points on every rank in a step, after its rebalance if it had one.

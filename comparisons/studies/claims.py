@@ -1,4 +1,4 @@
-"""The paper's claims and the numbers measured here with which they are judged. docs/design/paper.md discusses them."""
+"""The paper's claims and the numbers measured here with which they are judged: the table of docs/design/paper.md."""
 
 from __future__ import annotations
 
@@ -12,54 +12,50 @@ import numpy as np
 import pandas as pd
 from boxes import drawn_outside, excesses, material_points
 from intervals import NOT_TOLD_APART, ONE, Value, median_of
-from methods import RCB, STANDARD, WINNERS, setting_of
-from paper_figures import speed_ups
+from methods import RCB, WINNERS, setting_of
+from paper_figures import moved_shares, speed_ups
 from results import Results, measurements, read
-from simulation import balancing, of_method, once, paired, uneven_points
+from simulation import balancing, of_method, once, uneven_points
 
 CONFIRMED, REFUTED, PARTLY = "confirmed", "refuted", "partly"
+BY_COST = "depends on the cost of a point-step"
 SEEDS = 10
 SNAPSHOTS = [f"slope-{moment}" for moment in ("start", "middle", "end")]
+PATH = "critical path"
 
 
 @dataclass
 class Claim:
-    """A claim is confirmed if the first value is greater and the 95 % intervals do not overlap. Single measurements are
-    inconclusive. The interval of several counts is their range."""
+    """A claim, what was measured, and the verdict. `judge` names the numbers that were compared: exact counts, or times
+    whose 95 % intervals must not overlap."""
 
+    number: int
     text: str
     measured: str
-    value: Value
-    limit: Value
-    part: str  # part of the study that measures the numbers
-    digits: int = 2
-    verdict: str = ""
-
-    @property
-    def row(self) -> dict[str, str]:
-        limit = self.limit.text(self.digits) if self.limit is not ONE else "1"
-        verdict = self.verdict or compare(self.value, self.limit)
-        return {
-            "the paper says": self.text, "measured here": self.measured,
-            "value": self.value.text(self.digits), "against": limit, "verdict": verdict,
-            "part": self.part,
-        }  # fmt: skip
+    verdict: str
+    judge: str
 
 
 def compare(first: Value, second: Value) -> str:
-    """Returns whether the first value is greater."""
+    """Returns whether the first value is greater. Single measurements are inconclusive."""
     if first.low > second.high:
         return CONFIRMED
     return REFUTED if first.high < second.low else NOT_TOLD_APART
 
 
 def counts(values: Iterable[float]) -> Value:
+    """Returns the median of counts, with their range as the interval."""
     values = list(values)
     return Value(median(values), min(values), max(values))
 
 
 def exactly(value: float) -> Value:
     return Value(value, value, value)
+
+
+def listed(values: Iterable[str]) -> str:
+    *first, last = values
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 class Evidence:
@@ -84,86 +80,114 @@ class Evidence:
         """Returns the rows of RCB and of the paper's best settings, from the same snapshot."""
         return [(rows[RCB], rows[of]) for rows in self.snapshots for of in WINNERS if of in rows]
 
-    def speed_ups(self, name: str, serial: str) -> dict[str, Value]:
-        return speed_ups(self.out / name, self.out / serial)
-
     @cached_property
     def speeds(self) -> dict[str, Value]:
-        return self.speed_ups("simulations", "serial")
+        return speed_ups(self.out / "simulations")
+
+    @cached_property
+    def grid(self) -> dict[str, Value]:
+        return speed_ups(self.out / "grid")
 
 
 def claim_table(out: Path) -> pd.DataFrame:
     """Returns a row for each claim that has been measured. The paper gives no number for any of them."""
     evidence = Evidence(out)
-    return pd.DataFrame([claim.row for find in FINDERS for claim in find(evidence)])
+    claims = sorted((claim for find in FINDERS for claim in find(evidence)), key=lambda claim: claim.number)
+    return pd.DataFrame(
+        [{"": f"{c.number}", "the paper says": c.text, "measured here": c.measured, "verdict": c.verdict,
+          "judged by": c.judge} for c in claims]
+    )  # fmt: skip
 
 
 def _name(method: str) -> str:
     mesh, k, fraction = setting_of(method)
-    return f"mesh {mesh:g} × {mesh:g}, {k:g} σ, {100 * fraction:g} %"
+    return f"mesh {mesh:g}, k = {k:g} and {100 * fraction:g} %"
 
 
 def _traffic(evidence: Evidence) -> Iterator[Claim]:
-    for column, what in (("bytes", "bytes of RCB / of RRCB, the four settings"),
-                         ("root_bytes_in", "bytes received by rank 0, RCB / RRCB")):  # fmt: skip
+    for number, column, text, what in (
+        (1, "bytes", "RRCB exchanges less data than RCB.", "RCB sends {} times as many bytes as the four settings."),
+        (2, "root_bytes_in", "The root receives less data.", "Under RCB rank 0 receives {} times as many bytes."),
+    ):
         if found := [getattr(rcb, column) / getattr(ours, column) for rcb, ours in evidence.winners]:
-            text = "RRCB exchanges far less than RCB"
-            yield Claim(text, what, counts(found), ONE, "snapshots", 1)
+            of = counts(found)
+            span = f"{of.low:.0f} to {of.high:.0f}"
+            yield Claim(number, text, what.format(span), compare(of, ONE), "counts at three moments")
     tables = [read(path) for path in evidence.out.glob("points-*/table.csv")]
     if len(tables) > 1:
         tables.sort(key=lambda table: table["points"].iloc[0])
         first, last = (table.set_index("method") for table in (tables[0], tables[-1]))
-        grown = (last["bytes"] / first["bytes"]).map(exactly)
-        what = f"growth of RCB's bytes, of RRCB's, {last['points'].iloc[0] / first['points'].iloc[0]:.3g}"
-        text = "RCB's traffic grows with the points"
-        yield Claim(text, what + " times the points", grown[RCB], grown[WINNERS[1]], "snapshots")
+        grown, times = last["bytes"] / first["bytes"], last["points"].iloc[0] / first["points"].iloc[0]
+        what = f"With {times:.3g} times the points, RCB sends {grown[RCB]:.2f} times as many bytes, RRCB {grown[WINNERS[1]]:.2f} times."
+        verdict = compare(*map(exactly, (grown[RCB], grown[WINNERS[1]])))
+        yield Claim(3, "RCB's traffic grows with the number of points.", what, verdict, "counts")
 
 
 def _speed(evidence: Evidence) -> Iterator[Claim]:
     speeds = evidence.speeds
-    if RCB not in speeds:
+    named = [setting for setting in WINNERS if setting in speeds]
+    if RCB not in speeds or not named:
         return
-    for method in (setting for setting in WINNERS if setting in speeds):
-        text = f"{_name(method)} is faster than RCB"
-        yield Claim(text, "speed-up, RCB's", speeds[method], speeds[RCB], "simulations")
-    what = f"speed-up; {_break_even(evidence)}"
-    yield Claim("RCB on 4 processes is faster than serial", what, speeds[RCB], ONE, "simulations")
-    if "rrcb" in speeds:
-        yield Claim("RRCB on 4 processes is faster than serial", "speed-up of rrcb, the best here",
-                    speeds["rrcb"], ONE, "simulations")  # fmt: skip
+    rcb, moved = speeds[RCB], moved_shares(evidence.out / "simulations")
+    verdicts = {compare(speeds[of], rcb) for of in named}
+    what = (
+        f"Their speed-ups are {listed(speeds[of].text(2) for of in named)}; RCB's is {rcb.text(2)}. A call moves"
+        f" {listed(f'{100 * moved[of]:.2g} %' for of in (*named, RCB))} of the points."
+    )
+    yield Claim(4, "The four settings are faster than RCB.", what, verdicts.pop() if len(verdicts) == 1 else PARTLY, PATH)
+    best = max((speeds[of] for of in named), key=lambda v: v.number)
+    others = [f"the library's `rrcb` {speeds[of].text(2)}" for of in ("rrcb",) if of in speeds]
+    if settings := [v for of, v in evidence.grid.items() if setting_of(of)]:
+        others.append(f"the best of {len(settings)} settings {max(settings, key=lambda v: v.number).text(2)}")
+    what = f"The best of the four has a speed-up of {best.text(2)}" + "".join(f"; {other}" for other in others) + "."
+    yield Claim(5, "RRCB is faster than a serial run.", what, compare(best, ONE), PATH)
+    yield Claim(11, "RCB on 4 processes is faster than a serial run.",
+                f"Its speed-up is {rcb.text(2)}. {_break_even(evidence)}", BY_COST, PATH)  # fmt: skip
 
 
 def _break_even(evidence: Evidence) -> str:
     """Returns the cost of a point in a step above which RCB is faster although it is called in each step: the
     additional time of its call divided by what the other processes save."""
-    rcb, serial = evidence.runs("simulations", RCB), evidence.runs("serial", "none")
+    rcb, serial = evidence.runs("simulations", RCB), evidence.runs("simulations", "serial")
     call = (balancing(rcb) / rcb["steps"]).median()
     step = (serial["step_path_s"] / serial["steps"] / serial["points"]).median()
-    saved = rcb["points"] * (1 - rcb["mean_imbalance"] / rcb["ranks"])
-    return f"it wins from {1e9 * (call / saved).median():.0f} ns a point-step, here {1e9 * step:.0f}"
+    saved = (rcb["points"] * (1 - rcb["mean_imbalance"] / rcb["ranks"])).median()
+    return f"It would be faster if a point cost at least {1e9 * call / saved:.0f} ns a step; here it costs {1e9 * step:.0f} ns."
 
 
 def _best_settings(evidence: Evidence) -> Iterator[Claim]:
     """Yields the claims of figure 5."""
-    speeds = evidence.speed_ups("grid", "grid-serial")
-    fastest = sorted((of for of in speeds if setting_of(of)), key=lambda of: -speeds[of].number)[: len(WINNERS)]
+    speeds, moved = evidence.grid, moved_shares(evidence.out / "grid")
+    settings = sorted((of for of in speeds if setting_of(of)), key=lambda of: -speeds[of].number)
     named = [of for of in WINNERS if of in speeds]
-    if fastest and named:
-        slowest = min(named, key=lambda of: speeds[of].number)
-        both = len(set(fastest) & set(WINNERS))
-        what = f"speed-up of the slowest of the paper's four, of the best here, {_name(fastest[0])}; {both} in both"
-        yield Claim("these four settings are the fastest", what, speeds[slowest], speeds[fastest[0]], "grid")
+    if not settings or not named or RCB not in speeds:
+        return
+    best, slowest = settings[0], min(named, key=lambda of: speeds[of].number)
+    what = (
+        f"The slowest of them has a speed-up of {speeds[slowest].text(2)}; {_name(best)} has {speeds[best].text(2)}."
+        f" A call moves {100 * moved[slowest]:.2g} and {100 * moved[best]:.2g} % of the points."
+    )
+    yield Claim(12, "The four settings are the fastest.", what, compare(speeds[slowest], speeds[best]), PATH)
+    better = sum(compare(speeds[of], speeds[RCB]) == CONFIRMED for of in settings)
+    what = f"{better} of {len(settings)} settings are faster than RCB."
+    yield Claim(14, "In certain configurations there was an improvement.", what, CONFIRMED if better else REFUTED, PATH)
+    ratios = {}
+    for k in sorted({setting_of(of)[1] for of in settings}):
+        pairs = _pairs({of: speeds[of] for of in settings if setting_of(of)[1] == k}, 0, (2, 10))
+        ratios |= {f"{k:g}": [coarse.number / fine.number for coarse, fine in pairs]} if pairs else {}
+    if ratios:
+        each = listed(f"{median(of):.2f} with k = {k}" for k, of in ratios.items())
+        all_pairs = median_of(ratio for of in ratios.values() for ratio in of)
+        what = f"Mesh 2 has {each} of the speed-up of mesh 10; {all_pairs.text(2)} in all {all_pairs.count} pairs."
+        yield Claim(18, "A finer mesh costs speed.", what, compare(all_pairs, ONE), PATH)
 
 
 def _best_number(evidence: Evidence) -> Iterator[Claim]:
     numbers = sorted(int(path.name.removeprefix("ranks-")) for path in evidence.out.glob("ranks-*"))
-    by_ranks = {n: evidence.speed_ups(f"ranks-{n}", "ranks-1") for n in numbers if n > 1}
-    for method in (RCB, STANDARD):
-        found = {n: of[method] for n, of in by_ranks.items() if method in of}
-        if 4 in found and len(found) > 1:
-            other = max((n for n in found if n != 4), key=lambda n: found[n].number)
-            what = f"speed-up of {method} on 4, on {other}"
-            yield Claim("4 processes are best", what, found[4], found[other], "ranks")
+    found = {n: speeds[RCB] for n in numbers if RCB in (speeds := speed_ups(evidence.out / f"ranks-{n}"))}
+    if 4 in found and len(found) > 1:
+        what = f"The speed-up on {listed(map(str, found))} processes is {listed(v.text(2) for v in found.values())}."
+        yield Claim(13, "4 processes are best for RCB.", what, BY_COST, PATH)
 
 
 def _unbalance(evidence: Evidence) -> Iterator[Claim]:
@@ -171,14 +195,16 @@ def _unbalance(evidence: Evidence) -> Iterator[Claim]:
     if runs.empty or not {RCB, *WINNERS} <= set(runs["method"]):
         return
     found = {m: of_method(runs, runs["mean_imbalance"], m) for m in (RCB, *WINNERS)}
-    rcb = exactly(found[RCB].number)
     least, most = (find((found[m] for m in WINNERS), key=lambda v: v.number) for find in (min, max))
-    point = max(rcb.number - 1, runs["ranks"].iloc[0] / runs["points"].iloc[0])
-    times = Value(*((found_at - 1) / point for found_at in (most.number, least.low, most.high)))
-    yield Claim("RRCB's unbalance is “considerably greater” than RCB's", "excess of RRCB / RCB's",
-                times, ONE, "simulations", 0)  # fmt: skip
-    yield Claim("its unbalance is a “small increase”", "1.05, mean imbalance of the four settings",
-                exactly(1.05), Value(most.number, least.low, most.high), "simulations", 4)  # fmt: skip
+    ours = Value(most.number, least.low, most.high)
+    point = runs["ranks"].iloc[0] / runs["points"].iloc[0]  # one point more in a part
+    excess = {m: Value(*(100 * (of - 1) for of in (v.number, v.low, v.high))) for m, v in found.items()}
+    what = f"The mean excess is {listed(excess[m].text(2) for m in WINNERS)} % with the four settings, {max(excess[RCB].number, 100 * point):.2f} % with RCB."
+    yield Claim(6, "RRCB's imbalance is \u201cconsiderably greater\u201d than RCB's.", what,
+                compare(ours, exactly(max(found[RCB].number, 1 + point))), "points of each step")  # fmt: skip
+    yield Claim(17, "RRCB's imbalance is a \u201csmall increase\u201d.",
+                f"The largest mean imbalance is {most.text(3)}; we call up to 1.05 small.",
+                compare(exactly(1.05), ours), "points of each step")  # fmt: skip
 
 
 def _random_points(evidence: Evidence) -> Iterator[Claim]:
@@ -193,9 +219,8 @@ def _random_points(evidence: Evidence) -> Iterator[Claim]:
         drawn, alone = (100 * mean(values) for values in zip(*pairs))
         part = 1 - alone / drawn
         verdict = PARTLY if 0.1 < part < 0.9 else CONFIRMED if part > 0.5 else REFUTED
-        what = "% of unbalance with random points, with the boxes they are drawn from"
-        yield Claim("... because of the pseudo-random points", what, exactly(drawn), exactly(alone),
-                    "boxes", verdict=verdict)  # fmt: skip
+        what = f"The excess is {drawn:.2f} % with random points, and {alone:.2f} % with the boxes that they are drawn from."
+        yield Claim(19, "The random points cause the imbalance.", what, verdict, f"{SEEDS} seeds, points at rest")
 
 
 def _pairs(rows: dict[str, object], field: int, ends: tuple[float, float]) -> list[tuple]:
@@ -210,39 +235,34 @@ def _finer_mesh(evidence: Evidence) -> Iterator[Claim]:
     skewed = [rows for rows in evidence.snapshots if not rows[RCB].workload.endswith("-start")]
     if pairs := [pair for rows in skewed for pair in _pairs(rows, 0, (2, 10))]:
         found = median_of(coarse.excess / fine.excess for coarse, fine in pairs)
-        what = f"unbalance of mesh 2 / of mesh 10: {found.count} pairs of k, fraction and snapshot"
-        yield Claim("a finer mesh lowers the unbalance", what, found, ONE, "snapshots", 1)
-    runs = evidence.runs("simulations")
-    if len(runs) and (found := paired(runs, 1 / runs["critical_path_s"], WINNERS[1], WINNERS[3])):
-        what = "speed-up with mesh 4 / with mesh 8, 2 σ, 12.5 %"
-        yield Claim("... and costs speed", what, found, ONE, "simulations")
+        what = f"The excess with mesh 2 is {found.text(1)} times that with mesh 10; {found.count} pairs."
+        yield Claim(7, "A finer mesh lowers the imbalance.", what, compare(found, ONE), "points at two moments")
     folders = [Results(evidence.out / f"setting-{number}") for number in (2, 4)]
     shares = [[drawn_outside(results, name) for name in SNAPSHOTS] for results in folders]
     if not np.isnan(shares).any():
-        coarse, fine = map(exactly, 100 * np.mean(shares, axis=1))
-        what = "% of the drawn points in empty squares of 1 m, mesh 4, mesh 8"
-        yield Claim("a finer mesh mends the poor incline", what, coarse, fine, "boxes", 1)
+        coarse, fine = 100 * np.mean(shares, axis=1)
+        what = f"With mesh 8, {fine:.1f} % of the drawn points are outside the slope, with mesh 4 {coarse:.1f} %."
+        yield Claim(8, "A finer mesh represents the incline better.", what, compare(exactly(coarse), exactly(fine)),
+                    "drawn points")  # fmt: skip
 
 
 def _others(evidence: Evidence) -> Iterator[Claim]:
     if pairs := [pair for rows in evidence.snapshots for pair in _pairs(rows, 2, (1, 0.125))]:
         found = median_of(most.time_ms / least.time_ms for most, least in pairs)
-        what = f"time of a call with 100 % / with 12.5 %: {found.count} pairs of mesh, k and snapshot"
-        yield Claim("fewer drawn points are faster", what, found, ONE, "snapshots")
+        what = f"A call with 100 % takes {found.text(2)} times as long as with 12.5 %; {found.count} pairs."
+        yield Claim(9, "Fewer drawn points are faster.", what, compare(found, ONE), "times of calls")
     if len(seldom := evidence.runs("seldom", RCB)):
-        lost = exactly(100 * (uneven_points(seldom).iloc[0] - 1))
-        every, steps = seldom.iloc[0][["every", "steps"]]
-        what = f"RCB's excess in %, rebalanced each {every} of {steps:,} steps, 5 %"
-        yield Claim("rebalancing is needed at each step", what, lost, exactly(5), "simulations", 1)
+        lost = 100 * (uneven_points(seldom).iloc[0] - 1)
+        what = f"If RCB is called every {seldom.iloc[0]['every']} steps, its excess is {lost:.1f} %; 5 % would need more calls."
+        yield Claim(15, "Each step needs a rebalance.", what, compare(exactly(lost), exactly(5)), "points of each step")
     if found := [ours.ghosts / rcb.ghosts for rcb, ours in evidence.winners]:
         verdict = CONFIRMED if max(found) < 1.1 else PARTLY if min(found) < 1.1 else REFUTED
-        text = "cuts across the longest extent keep the communication area small"
-        yield Claim(text, "ghosts of RRCB's parts / of RCB's", counts(found), exactly(1.1), "snapshots",
-                    verdict=verdict)  # fmt: skip
+        what = f"RRCB's parts have {min(found):.2f} to {max(found):.2f} times the ghosts of RCB's; 1.1 would be more."
+        yield Claim(10, "Cuts across the longest extent keep communication small.", what, verdict, "counts at three moments")
     method = RCB + "[cut=midpoint]"
     if found := [rows[method].imbalance for rows in evidence.snapshots if method in rows]:
-        text = "boxes are cut at the “midpoint of that direction”"
-        yield Claim(text, "1.1, imbalance of RCB with that rule", exactly(1.1), counts(found), "snapshots", 3)
+        what = f"This rule leaves an imbalance of {min(found):.2f} to {max(found):.2f}."
+        yield Claim(16, "Boxes are cut at the midpoint.", what, compare(exactly(1.1), counts(found)), "points at three moments")
 
 
 FINDERS = (_traffic, _speed, _best_settings, _best_number, _unbalance, _random_points, _finer_mesh, _others)

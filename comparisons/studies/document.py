@@ -46,6 +46,13 @@ def markdown_table(lines: list[list]) -> str:
     return "\n".join([header, "|---" * len(lines[0]) + "|", *rows])
 
 
+def write_between(page: Path, name: str, lines: list[list]) -> None:
+    """Writes a table, whose first line is the header, between the marks of that name on a page."""
+    text = page.read_text(encoding="utf-8")
+    start = text.index(mark := f"<!-- {name} -->\n") + len(mark)
+    page.write_text(text[:start] + markdown_table(lines) + "\n" + text[text.index("<!-- end -->", start) :], encoding="utf-8")
+
+
 def show(caption: str, rows: pd.DataFrame) -> None:
     """Prints a table whose cells are texts."""
     lines = [list(rows), *rows.values.tolist()]

@@ -1,20 +1,23 @@
-"""Measures the paper's claims again and draws its figures 2 to 6. Each part runs the driver, whose CSV files contain
+"""Measures the paper's claims again and draws its figures. Each part runs the driver, whose CSV files contain
 everything that the figures and the table need."""
 
 from __future__ import annotations
 
 import argparse
+import re
+import shutil
 import sys
 from pathlib import Path
 
 import pandas as pd
 import plot
 from claims import claim_table
-from document import Report, shared_cores, show
-from driver import COMPARE, OUT, Driver, build
+from document import Report, shared_cores, show, write_between
+from driver import COMPARE, OUT, ROOT, Driver, build
 from methods import RCB, STANDARD, WINNERS, setting_of
-from paper_figures import CAPTIONS, CHART_K, draw_all, speed_ups
-from results import measurements, read
+from paper_figures import CAPTIONS, CHART_K, FINEST, draw_all, grid_table, speed_ups
+from results import Results, measurements, read, sound
+from simulation import of_method
 
 GRID = [
     f"rrcb-sampled[mesh={mesh},k={k},fraction={fraction}]"
@@ -22,10 +25,12 @@ GRID = [
     for k in (1, 1.5, 2, 2.5)
     for fraction in (1, 0.5, 0.25, 0.125)
 ]
-FINEST = "rrcb-sampled[mesh=10,k=1.5,fraction=1]"  # of figures 3 and 4
 RANKS = (2, 4, 6, 8)
-STEPS, STEPS_BY_RANKS, STEPS_OF_GRID, SELDOM = 1000, 500, 200, 300
-SEEDS = 200
+# The slope is at rest for 1,000 steps, and some settings move many points while they lie on a lattice.
+FIRST_STEP, STEPS, STEPS_BY_RANKS, STEPS_OF_GRID, SELDOM = 1500, 1000, 500, 200, 300
+PAGE = ROOT / "docs/design/paper.md"
+COUNTS = ROOT / "comparisons/paper.csv"
+COUNTED = ["workload", "points", "method", "bytes", "root_bytes_in", "ghosts", "imbalance"]
 
 
 def measure_boxes(driver: Driver) -> None:
@@ -46,38 +51,29 @@ def measure_snapshots(driver: Driver) -> None:
                    f"--points={points}", "--repeats=1", "--no-data")  # fmt: skip
 
 
-def _simulate(driver: Driver, name: str, ranks: int, methods: list[str], steps: int, rounds: int) -> None:
-    """Runs simulations that rebalance in each step, as in the paper."""
-    words = ["--only=simulations", "--every=1", f"--repeats={2 if driver.quick else rounds}"]
-    driver.run(name, ranks, methods, *words, *([] if driver.quick else [f"--steps={steps}"]))
+def _simulate(driver: Driver, name: str, ranks: int, methods: list[str], steps: int, rounds: int, every: int = 1) -> None:
+    """Runs simulations that rebalance in each step, as in the paper, in turns with a serial run on rank 0."""
+    words = ["--only=simulations", f"--every={every}", "--serial", f"--repeats={2 if driver.quick else rounds}"]
+    words += [] if driver.quick else [f"--from={FIRST_STEP}", f"--steps={steps}"]
+    driver.run(name, ranks, methods, *words)
 
 
 def measure_simulations(driver: Driver) -> None:
     """Runs ten rounds with a seed each. Also runs simulations that rebalance rarely."""
     _simulate(driver, "simulations", 4, [RCB, "rrcb", *WINNERS], STEPS, 10)
-    _simulate(driver, "serial", 1, ["none"], STEPS, 10)
-    driver.run("seldom", 4, [RCB], "--only=simulations", f"--every={SELDOM}", "--repeats=1")
+    _simulate(driver, "seldom", 4, [RCB], STEPS, 1, SELDOM)
 
 
 def measure_grid(driver: Driver) -> None:
     """Measures figure 5: every mesh, k and fraction of the paper's charts, in the same rounds."""
-    methods = [RCB, *(setting for setting in GRID if setting_of(setting)[1] in CHART_K)]
-    _simulate(driver, "grid", 4, methods[:: 9 if driver.quick else 1], STEPS_OF_GRID, 6)
-    _simulate(driver, "grid-serial", 1, ["none"], STEPS_OF_GRID, 6)
+    settings = [setting for setting in GRID if setting_of(setting)[1] in CHART_K]
+    _simulate(driver, "grid", 4, [RCB, "rrcb", *settings][:: 9 if driver.quick else 1], STEPS_OF_GRID, 6)
 
 
 def measure_ranks(driver: Driver) -> None:
     """Measures the paper's table 1 for other numbers of processes."""
     for ranks in RANKS[:1] if driver.quick else RANKS:
         _simulate(driver, f"ranks-{ranks}", ranks, [RCB, STANDARD], STEPS_BY_RANKS, 6)
-    _simulate(driver, "ranks-1", 1, ["none"], STEPS_BY_RANKS, 6)
-
-
-def measure_seeds(driver: Driver) -> None:
-    """Runs the settings with 2 σ with many seeds, so that the meshes can be distinguished."""
-    seeds = range(1, 3 if driver.quick else SEEDS + 1)
-    methods = [f"{setting[:-1]},seed={seed}]" for setting in WINNERS[1:] for seed in seeds]
-    driver.run("seeds", 4, methods, "--only=calls", "--no-data", "--repeats=1")
 
 
 PARTS = {
@@ -86,27 +82,43 @@ PARTS = {
     "simulations": measure_simulations,
     "grid": measure_grid,
     "ranks": measure_ranks,
-    "seeds": measure_seeds,
 }
 
 
 def rank_table(out: Path) -> pd.DataFrame:
-    """Returns the paper's table 1: the speed-up over one process by number of processes."""
+    """Returns the paper's table 1: the speed-up over one process and the imbalance, by number of processes."""
     lines = []
     for ranks in RANKS:
-        speeds = speed_ups(out / f"ranks-{ranks}", out / "ranks-1")
-        lines += [{"processes": f"{ranks}"} | {method: of.text(2) for method, of in speeds.items()}] * bool(speeds)
+        folder = out / f"ranks-{ranks}"
+        runs = sound(Results(folder).all_runs)
+        for method, speed in speed_ups(folder).items():
+            imbalance = of_method(runs, runs["mean_imbalance"], method).text(4)
+            lines.append({"processes": f"{ranks}", "method": method, "speed-up": speed.text(2),
+                          "mean imbalance": imbalance})  # fmt: skip
     return pd.DataFrame(lines)
 
 
-def seed_table(out: Path) -> pd.DataFrame:
-    """Returns the median excess over the seeds in percent, by mesh and snapshot."""
-    rows = measurements(read(out / "seeds/table.csv"))
-    if rows.empty:
-        return rows
-    rows["mesh"] = rows["method"].str.extract(r"mesh=(\d+)")
-    excess = (100 * rows["excess"]).groupby([rows["mesh"], rows["workload"]], sort=False).median()
-    return excess.map("{:.2f}".format).unstack().reset_index()
+def counts(out: Path) -> pd.DataFrame:
+    """Returns the exact counts of calls with which claims are judged."""
+    files = [out / "snapshots/table.csv", *sorted(out.glob("points-*/table.csv"))]
+    rows = pd.concat([measurements(read(path)) for path in files if path.exists()] or [pd.DataFrame(columns=COUNTED)])
+    return rows[rows["method"].isin([RCB, RCB + "[cut=midpoint]", *WINNERS])].reindex(columns=COUNTED)
+
+
+def write_page(out: Path, claims: pd.DataFrame) -> None:
+    """Writes the tables of the page, the counts that a test compares with it, and its figures. Claims that were not
+    measured keep their rows."""
+    old, ranks = re.search(r"<!-- claims -->\n.*?\n<!-- end -->", PAGE.read_text(), re.S)[0], rank_table(out)
+    rows = {row[0]: row for line in old.splitlines()[3:-1] for row in [line.strip("| ").split(" | ")]}
+    rows |= {row[0]: row for row in claims.values.tolist()}
+    write_between(PAGE, "claims", [list(claims), *(rows[number] for number in sorted(rows, key=int))])
+    if len(ranks):
+        write_between(PAGE, "ranks", [list(ranks), *ranks.values.tolist()])
+    if len(counted := counts(out)):
+        counted.to_csv(COUNTS, index=False, float_format="%.9g")
+    for figure in (out / f"paper_figure_{name}.png" for name in ("all", "5", "6")):
+        if figure.exists():
+            shutil.copy(figure, ROOT / "docs/figures")
 
 
 def main() -> int:
@@ -121,15 +133,17 @@ def main() -> int:
     plot.use_style()
     report = Report("The paper, measured again", out)
     report.text(shared_cores(max(RANKS)))
-    for caption, rows in (("What the paper says", claim_table(out)),
-                          ("Table 1: speed-up by processes", rank_table(out)),
-                          ("Excess in %, medians over the seeds", seed_table(out))):  # fmt: skip
+    claims = claim_table(out)
+    for caption, rows in (("What the paper says", claims), ("Table 1: by processes", rank_table(out)),
+                          ("Figure 5: its settings", grid_table(out))):  # fmt: skip
         report.table(caption, rows)
         if len(rows):
             show(caption, rows)
     for name in draw_all(out):
         report.picture(name, CAPTIONS[name])
     report.write(out / "snapshots/run.txt")
+    if arguments.page:
+        write_page(out, claims)
     return 0
 
 
@@ -137,10 +151,11 @@ def _read_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="comparisons/paper", description=__doc__)
     parser.add_argument("--out", type=Path, default=OUT / "paper",
                         help="folder of the results; comparisons/out/paper")  # fmt: skip
-    usual = [part for part in PARTS if part not in ("seeds", "grid")]
+    usual = [part for part in PARTS if part != "grid"]
     parser.add_argument("--only", type=_parts, default=usual, metavar="LIST",
-                        help=f"what to measure, by commas: {', '.join(PARTS)}; all but seeds and"
-                        " grid, of a quarter of an hour. The rest is read from the folder.")  # fmt: skip
+                        help=f"what to measure, by commas: {', '.join(PARTS)}; all but grid. The rest is read from"
+                        " the folder.")  # fmt: skip
+    parser.add_argument("--page", action="store_true", help="write docs/design/paper.md, its counts and figures")
     parser.add_argument("--quick", action="store_true", help="a small run of everything")
     parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     return parser.parse_args()

@@ -1,4 +1,4 @@
-"""Draws figures 2 to 6 like the paper, and the map from one cut to the next that docs/design/paper.md derives."""
+"""Draws figures 1 to 6 of the paper, and the map from one cut to the next that docs/design/paper.md derives."""
 
 from __future__ import annotations
 
@@ -9,24 +9,27 @@ import numpy as np
 import pandas as pd
 import plot
 from history import draw_history
-from intervals import Value, median_of
+from intervals import ONE, Value
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from methods import RCB, WINNERS, setting_of
 from PIL import Image
 from results import Results, sound
-from simulation import once
+from simulation import of_method, once, paired
 
 START = "slope-start"
+SERIAL = "serial"
+FINEST = "rrcb-sampled[mesh=10,k=1.5,fraction=1]"  # of figures 3 and 4
 CHART_K = (1, 1.5, 2)  # of figure 5
 CAPTIONS = {
+    "paper_figure_1.png": "Figure 1: the procedures of the paper (left) and of the library (right).",
     "paper_figure_2.png": "Figure 2: the slope in six boxes, by the paper's RCB.",
     "paper_figure_3.png": "Figure 3: the support mesh of 10 × 10 cells (red) of one sub-domain of"
-    " four, and the centroids of its cells (green).",
+    " four, its points (grey), and the centroids of its cells (green).",
     "paper_figure_4.png": "Figure 4: the statistical domain of the four sub-domains, 1.5 σ, 100 % of the"
     " points. Bands between the cells stay empty, and the incline is poorly represented.",
-    "paper_figure_5.png": "Figure 5: speed-up of the whole simulation on 4 ranks, rebalanced at each step.",
+    "paper_figure_5.png": "Figure 5: speed-up of the simulation on 4 ranks, rebalanced at each step, and its 95 % intervals.",
     "paper_figure_6.png": "Figure 6: the largest load unbalance of a sub-domain over the steps.",
     "paper_cycle_map.png": "The map from one cut to the next.",
 }
@@ -34,11 +37,11 @@ CAPTIONS = {
 
 def draw_all(out: Path) -> list[str]:
     """Draws the figures whose files exist. Returns their names."""
-    figures = (draw_boxes, draw_mesh, draw_domain, draw_speed_ups, draw_largest, draw_map)
+    figures = (draw_procedures, draw_boxes, draw_mesh, draw_domain, draw_speed_ups, draw_largest, draw_map)
     drawn = {name: figure for name, draw in zip(CAPTIONS, figures) if (figure := draw(out))}
     for name, figure in drawn.items():
         plot.save(figure, out / name)
-    draw_together(out, [name for name in drawn if name != "paper_cycle_map.png"])
+    draw_together(out, [name for name in drawn if name[-5] in "1234"])
     return list(drawn)
 
 
@@ -54,7 +57,39 @@ def draw_together(out: Path, names: list[str]) -> None:
         axes.axis("off")
     path = out / "paper_figure_all.png"
     plot.save(figure, path)
-    Image.open(path).convert("RGB").quantize(32).save(path, optimize=True)
+    Image.open(path).convert("RGB").quantize(96).save(path, optimize=True)
+
+
+PROCEDURES = {
+    "the paper's RRCB, at each step": (
+        ("every rank", "lays a support mesh over its points;\nsends count, mean and σ of each cell"),
+        ("rank 0", "draws random points within mean ± k σ"),
+        ("rank 0", "bisects the drawn points\nacross the longest axis of each box"),
+        ("rank 0", "broadcasts the boxes"),
+        ("every rank", "sends each point to the rank of its box"),
+    ),
+    "the library, when it pays": (
+        ("every rank", "lays a support mesh over its points;\nsends count, mean and σ of each cell"),
+        ("rank 0", "makes a density of each cell"),
+        ("rank 0", "bisects the densities\nacross the axis with fewest points near"),
+        ("every rank", "counts its points near the cuts;\nthe cuts move until the parts are even"),
+        ("every rank", "sends each point to the rank of its box"),
+    ),
+}
+
+
+def draw_procedures(_: Path) -> Figure:
+    """Draws a box for each step, from top to bottom. Steps of rank 0 are grey."""
+    figure, grid = plot.panels(1, 2, 9, 4.4)
+    for axes, (title, steps) in zip(grid[0], PROCEDURES.items()):
+        for line, (who, text) in enumerate(steps):
+            look = {"boxstyle": "round", "facecolor": "#E0E0E0" if who == "rank 0" else "white"}
+            arrow = {"arrowstyle": "<-", "shrinkB": 16} if line else None
+            axes.annotate(f"{who}: {text}", (0.5, -max(0, line - 1)), (0.5, -line), ha="center", va="center",
+                          bbox=look, arrowprops=arrow)  # fmt: skip
+        axes.set(title=title, xlim=(0, 1), ylim=(0.5 - len(steps), 0.5))
+        axes.axis("off")
+    return figure
 
 
 def draw_boxes(out: Path) -> Figure | None:
@@ -76,6 +111,10 @@ def draw_mesh(out: Path) -> Figure | None:
         return None
     corners = pd.DataFrame({axis: cells[[f"lower_{axis}", f"upper_{axis}"]].stack() for axis in "xy"})
     figure, axes = _panel(corners)
+    points = Results(out / "mesh").data("points", START, FINEST)
+    low, high = corners.min(), corners.max()
+    inside = points[((points[["x", "y"]] >= low) & (points[["x", "y"]] <= high)).all(axis=1)]
+    axes.plot(inside["x"], inside["y"], ".", color="#BBBBBB", markersize=1.5)
     boxes = PatchCollection(plot.rectangles(cells), facecolors="none", edgecolors="#D62728")
     axes.add_collection(boxes)
     axes.plot(cells["mean_x"], cells["mean_y"], "o", color="#2CA02C", markersize=4)
@@ -110,7 +149,7 @@ def _histories(out: Path) -> dict[str, pd.DataFrame]:
 
 
 def draw_speed_ups(out: Path) -> Figure | None:
-    speeds = speed_ups(out / "grid", out / "grid-serial")
+    speeds = speed_ups(out / "grid")
     settings = {method: setting_of(method) for method in speeds if setting_of(method)}
     if not settings:
         return None
@@ -126,20 +165,43 @@ def draw_speed_ups(out: Path) -> Figure | None:
                 numbers, lows, highs = zip(*((v.number, *v.reach) for v in values))
                 look = {"color": plot.method_style("rrcb-sampled").colour, "linestyle": line, "marker": "."}
                 plot.draw_line(axes, meshes, numbers, lows, highs, label=f"k = {k:g}", **look)
-        axes.axhline(speeds[RCB].number, color=plot.method_style(RCB).colour, label="the paper's RCB")
+        levels = ((speeds.get(RCB), RCB, "the paper's RCB"), (speeds.get("rrcb"), "rrcb", "rrcb"), (ONE, "none", "serial"))
+        for value, method, label in (level for level in levels if level[0]):
+            colour = plot.method_style(method).colour
+            axes.axhline(value.number, color=colour, label=label)
+            axes.axhspan(*value.reach, color=colour, alpha=0.15, linewidth=0)
         axes.set(title=f"{points * fraction:,.0f} points drawn", xlabel="cells along an axis")
         axes.grid(True)
     grid[0, 0].set_ylabel("speed-up of the simulation")
+    grid[0, 0].set_ylim(bottom=0)
     return plot.legend_above(figure, grid[0, 0])
 
 
-def speed_ups(folder: Path, serial: Path) -> dict[str, Value]:
-    """Returns for each method the median critical path of the serial run divided by its own, over the rounds."""
-    runs, alone = (once(sound(Results(of).all_runs)) for of in (folder, serial))
-    if runs.empty or alone.empty:
+def speed_ups(folder: Path) -> dict[str, Value]:
+    """Returns for each method the critical path of the serial run divided by its own, as the median of pairs of a round."""
+    runs = once(sound(Results(folder).all_runs))
+    if runs.empty or SERIAL not in set(runs["method"]):
         return {}
-    ratios = alone["critical_path_s"].median() / runs.set_index("method")["critical_path_s"]
-    return {method: median_of(of) for method, of in ratios.groupby(level=0, sort=False)}
+    methods = [method for method in runs["method"].unique() if method not in (SERIAL, "none")]
+    return {method: paired(runs, runs["critical_path_s"], SERIAL, method) for method in methods}
+
+
+def moved_shares(folder: Path) -> dict[str, float]:
+    """Returns for each method the mean share of the points that a call of the first round moves, except the first call."""
+    histories = Results(folder).histories()
+    return {method: rows[rows["step"] > rows["step"].min()]["moved_fraction"].mean() for method, rows in histories.items()}
+
+
+def grid_table(out: Path) -> pd.DataFrame:
+    """Returns the speed-ups of figure 5, with the steps, the moved share and the imbalance of each setting."""
+    runs, moved = once(sound(Results(out / "grid").all_runs)), moved_shares(out / "grid")
+    lines = [
+        {"setting": method, "speed-up": speed.text(2), "steps": f"{runs['steps'].iloc[0]}",
+         "moved in a call, %": f"{100 * moved.get(method, 0):.2g}",
+         "mean imbalance": of_method(runs, runs["mean_imbalance"], method).text(4)}
+        for method, speed in speed_ups(out / "grid").items()
+    ]  # fmt: skip
+    return pd.DataFrame(lines)
 
 
 def draw_largest(out: Path) -> Figure | None:

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import argparse
 import io
+import shutil
 import subprocess
 import sys
+from itertools import combinations, product
 from math import ceil, log2, sqrt
 from pathlib import Path
 from typing import NamedTuple
@@ -17,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 import plot
-from document import Report, show
-from driver import COMPARE, OUT, Driver, build, has_multijagged
+from document import Report, show, write_between
+from driver import COMPARE, OUT, ROOT, Driver, build, has_multijagged
 from results import read, row_of
 
 RANKS = (2, 3, 4, 8, 16, 32, 64)
@@ -31,17 +33,18 @@ CHILDREN = 7  # per rank in a tree of radix 8
 RANK_CELLS, CENTRAL_CELLS = 16, 8192  # cells of a rank, and the largest number passed on
 NS_PER_POINT, NS_PER_LOOK, NS_PER_CELL = 20, 2, 50  # moments and assignment; a count; a merge
 POINT_BYTES = 16  # in 2-D
-TERMS = {"1": lambda p: 1.0, "log": log2, "root": sqrt, "ranks": float, "ranks^1.5": lambda p: p**1.5}
+TERMS = {"1": lambda p: 1.0, "log": log2, "root": sqrt, "ranks": float, "ranks^1.5": lambda p: p**1.5}  # of bytes
 ZOLTAN, JAGGED = "zoltan-rcb", "zoltan2-mj"
 NAMES = {name: name for name in (ZOLTAN, JAGGED)}  # names of the driver
 NAMES |= {name: f"{name}[mesh=4]" for name in ("rrcb", "rrcb-exact")}
-LEVELS, ARRAYS = ("1", "log"), ("1", "log", "ranks")
-GROWTHS = {
-    ZOLTAN: {"collectives": LEVELS, "messages": LEVELS, "bytes": ARRAYS},
-    JAGGED: {"collectives": LEVELS, "messages": ("1",), "bytes": ("1", "root", "ranks^1.5")},
-    "rrcb": {"collectives": ("1",), "messages": ("1",), "bytes": ARRAYS},
-    "rrcb-exact": {"collectives": ("1",), "messages": LEVELS, "bytes": ARRAYS},
+LEVELS = ("1", "log")
+GROWTHS = {  # of what follows from the method; the growth of bytes is chosen by the error of the fit
+    ZOLTAN: {"collectives": LEVELS, "messages": LEVELS},
+    JAGGED: {"collectives": LEVELS, "messages": ("1",)},
+    "rrcb": {"collectives": ("1",), "messages": ("1",)},
+    "rrcb-exact": {"collectives": ("1",), "messages": LEVELS},
 }
+AS_GOOD = 2  # times the least error of a fit, which the counts do not tell apart from it
 POINTS_BY = {ZOLTAN: "MPI_Rsend", JAGGED: "MPI_Send"}  # the function that moves points
 TOLERANCES = {"rrcb": 1.01, "rrcb-exact": 1}  # of the search on virtual ranks
 
@@ -103,9 +106,8 @@ def _counts(name: str, row: object, calls: pd.DataFrame) -> dict[str, float]:
     }
 
 
-def fit(name: str, counts: pd.DataFrame, column: str) -> dict[str, float]:
-    """Returns the coefficients of the column's terms, at least 0, fitted to minimize the relative error."""
-    terms = GROWTHS[name][column.split()[-1]]
+def fit(counts: pd.DataFrame, column: str, terms: tuple[str, ...]) -> dict[str, float]:
+    """Returns the coefficients of the terms, at least 0, fitted to minimize the relative error."""
     counted = counts[column].to_numpy(float)
     table = np.array([[TERMS[term](ranks) for term in terms] for ranks in counts["ranks"]])
     scale = np.maximum(counted, 1)
@@ -113,14 +115,33 @@ def fit(name: str, counts: pd.DataFrame, column: str) -> dict[str, float]:
     return dict(zip(terms, np.maximum(found, 0)))
 
 
+def fits(name: str, counts: pd.DataFrame, column: str) -> list[dict[str, float]]:
+    """Returns the fit with the smallest largest error, and then those that are as good. Fits of bytes have any one or two
+    terms, all others the terms of the method."""
+    if terms := GROWTHS[name].get(column):
+        return [fit(counts, column, terms)]
+    found = [fit(counts, column, terms) for number in (1, 2) for terms in combinations(TERMS, number)]
+    errors = [error_of(of, counts, column) for of in found]
+    order = sorted(range(len(found)), key=errors.__getitem__)
+    return [found[k] for k in order if errors[k] <= AS_GOOD * errors[order[0]] + 1e-9]
+
+
+def error_of(coefficients: dict[str, float], counts: pd.DataFrame, column: str) -> float:
+    """Returns the largest error relative to its count."""
+    pairs = zip(counts["ranks"], counts[column])
+    return max(abs(at(coefficients, ranks) - counted) / max(counted, 1) for ranks, counted in pairs)
+
+
 def at(coefficients: dict[str, float], ranks: int) -> float:
     return sum(factor * TERMS[term](ranks) for term, factor in coefficients.items())
 
 
-def path(name: str, counts: pd.DataFrame, ranks: int, machine: Machine, virtual: pd.DataFrame) -> dict:
-    """Returns the sequential messages, bytes and work of a call, and its modelled time."""
+def path(
+    name: str, terms: dict[str, dict[str, float]], ranks: int, machine: Machine, virtual: pd.DataFrame
+) -> dict:
+    """Returns the sequential messages, bytes and work of a call, and its modelled time, for the coefficients of each
+    column."""
     log = log2(ranks)
-    terms = {column: fit(name, counts, column) for column in counts.columns[1:]}
     value = {column: at(of, ranks) for column, of in terms.items()}
     collectives, root_bytes, work = terms["collectives"], value["root bytes"], NS_PER_POINT
     # Terms that grow with the levels: each level has half as many ranks.
@@ -166,9 +187,16 @@ def _search(virtual: pd.DataFrame, tolerance: float, ranks: int) -> tuple[float,
 
 
 def all_paths(counts: dict[str, pd.DataFrame], machine: Machine, virtual: pd.DataFrame) -> pd.DataFrame:
-    numbers = [1 << power for power in range(1, MOST_RANKS.bit_length())]
-    each = ((name, of, ranks) for name, of in counts.items() for ranks in numbers)
-    return pd.DataFrame([path(*case, machine, virtual) for case in each])
+    """Returns the calls by the best fits. low_s and high_s are the range of the times by all fits that are as good."""
+    rows = []
+    for name, of in counts.items():
+        choices = {column: fits(name, of, column) for column in of.columns[1:]}
+        for ranks in (1 << power for power in range(1, MOST_RANKS.bit_length())):
+            found = [path(name, dict(zip(choices, terms)), ranks, machine, virtual)
+                     for terms in product(*choices.values())]  # fmt: skip
+            times = [row["model_s"] for row in found]
+            rows.append(found[0] | {"low_s": min(times), "high_s": max(times)})
+    return pd.DataFrame(rows)
 
 
 def draw(paths: pd.DataFrame) -> plot.Figure:
@@ -180,6 +208,9 @@ def draw(paths: pd.DataFrame) -> plot.Figure:
         for name, rows in paths.groupby("method", sort=False):
             style = plot.method_style(name)
             axes.plot(rows["ranks"], unit * rows[column], color=style.colour, linestyle=style.line, label=name)
+            if column == "model_s":
+                axes.fill_between(rows["ranks"], unit * rows["low_s"], unit * rows["high_s"], color=style.colour,
+                                  alpha=0.15, linewidth=0)  # fmt: skip
         axes.axvspan(2, RANKS[-1], color="#EEEEEE", zorder=0, label="counted here")
         axes.axvline(CENTRAL_PARTS, color="#BBBBBB", linewidth=0.8,
                      label="RRCB: rank 0 to the left,\nmany ranks to the right")  # fmt: skip
@@ -196,14 +227,30 @@ def draw(paths: pd.DataFrame) -> plot.Figure:
 
 
 def fit_errors(counts: dict[str, pd.DataFrame]) -> pd.DataFrame:
-    """Returns how much a fit without the largest number of ranks misses the counts on that number."""
-    rows = [
-        {"method": name}
-        | {c: f"{at(fit(name, of[:-1], c), of.iloc[-1]['ranks']) / of.iloc[-1][c] - 1:+.0%}"
-           for c in ("collectives", "bytes", "root bytes")}
-        for name, of in counts.items()
-    ]  # fmt: skip
+    """Returns how much fits without the largest number of ranks miss the counts on that number, and the terms of the
+    bytes."""
+    rows = []
+    for name, of in counts.items():
+        last, row = of.iloc[-1], {"method": name}
+        for column in ("collectives", "bytes", "root bytes"):
+            errors = [at(each, last["ranks"]) / last[column] - 1 for each in fits(name, of[:-1], column)]
+            row[column] = f"{min(errors):+.0%} to {max(errors):+.0%}" if len(errors) > 1 else f"{errors[0]:+.0%}"
+        rows.append(row | {"terms of the bytes": "; ".join(" + ".join(of) for of in fits(name, of, "bytes"))})
     return pd.DataFrame(rows)
+
+
+def time_table(paths: pd.DataFrame) -> list[list[str]]:
+    """Returns the table of the page: modelled times in ms, and their ranges."""
+    by = paths.set_index(["ranks", "method"])
+    names = [name for name in ("rrcb", "rrcb-exact", ZOLTAN, JAGGED) if name in set(paths["method"])]
+    lines = [["ranks", "who finds RRCB's cuts", *(f"`{name}`, ms" for name in names)]]
+    for ranks in (64, CENTRAL_PARTS, 2 * CENTRAL_PARTS, MOST_RANKS):
+        line = [f"{ranks:,}", "rank 0" if ranks <= CENTRAL_PARTS else "many ranks"]
+        for name in names:
+            model, low, high = (f"{float(f'{1e3 * by.loc[(ranks, name), of]:.2g}'):,g}" for of in ("model_s", "low_s", "high_s"))
+            line.append(model if low == high else f"{model} [{low}, {high}]")
+        lines.append(line)
+    return lines
 
 
 def report(out: Path, counts: dict[str, pd.DataFrame], paths: pd.DataFrame) -> None:
@@ -231,6 +278,7 @@ def main() -> int:
     parser.add_argument("--latency-us", type=float, default=1.5)
     parser.add_argument("--bandwidth-gb", type=float, default=12.0)
     parser.add_argument("--points-per-rank", type=int, default=50_000)
+    parser.add_argument("--page", action="store_true", help="write the table and the picture of docs/performance.md")
     parser.add_argument("--quick", action="store_true", help="up to 8 ranks")
     parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     given = parser.parse_args()
@@ -248,6 +296,9 @@ def main() -> int:
     plot.use_style()
     plot.save(draw(paths), given.out / "scaling.png")
     report(given.out, counts, paths)
+    if given.page:
+        write_between(ROOT / "docs/performance.md", "times", time_table(paths))
+        shutil.copy(given.out / "scaling.png", ROOT / "docs/figures")
     return 0
 
 

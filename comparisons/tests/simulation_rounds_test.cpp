@@ -51,6 +51,13 @@ TEST(SimulationRounds, have_a_row_for_each_run) {
               "broken,2,,4,0,6,auto,slope,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,no balance today\n");
 }
 
+TEST(SimulationRounds, on_rank_0_alone_have_one_rank) {
+    const std::vector<SimulationRounds> serial = {
+        {"serial", {run_of(8)}, {}, Cost::count, 0, true}};
+    const std::string text = rounds_csv({.scene = {}, .num_steps = 6}, 4, serial);
+    EXPECT_NE(text.find("\nserial,1,,1,1000,6,"), std::string::npos) << text;
+}
+
 TEST(SimulationRounds, print_their_paths_and_why_one_failed) {
     std::ostringstream out;
     print_round(out, {2, 6, 30.2}, two_methods());

@@ -70,6 +70,21 @@ TEST(Simulation, every_balancer_keeps_the_points_and_their_mass) {
     expect_points_kept(anchor);
 }
 
+TEST(Simulation, goes_on_from_a_state_with_the_same_bits) {
+    const std::string file = testing::TempDir() + "state_of_simulation_test.mpm";
+    mpm::Simulation before(coarse_slope(), MPI_COMM_WORLD);
+    for (int step = 0; step < 4; ++step) before.step();
+    before.write_state(file);
+    const SimulationPlan plan{.scene = coarse_slope(), .num_steps = 2, .state = file};
+    TimedSimulation simulation(
+        plan, without_weights({}), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    simulation.advance(2);
+    const SimulationRun after = simulation.result();
+    ASSERT_EQ(after.error, "");
+    EXPECT_EQ(after.moved_m, run(std::nullopt).moved_m);
+    EXPECT_EQ(after.history.front().step, 4);
+}
+
 TEST(Simulation, tells_how_far_points_have_come) {
     mpm::Scene scene = choose_scene("torpedo_anchor", true, MPI_COMM_WORLD);
     scene.effects.clear();

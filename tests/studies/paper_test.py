@@ -89,62 +89,94 @@ class ClaimsTest(unittest.TestCase):
         ]
         (self.directory / folder).mkdir(exist_ok=True)
         pd.DataFrame(runs).to_csv(self.directory / folder / "simulation_runs.csv", index=False)
+        # The first call moves a half, the second a quarter.
+        moved = [{"method": name, "step": step, "moved_fraction": 0.5 / (1 + step)} for name in times for step in (0, 1)]
+        pd.DataFrame(moved).to_csv(self.directory / folder / "history.csv", index=False)
 
-    def verdicts(self) -> dict[str, str]:
+    def rows(self) -> dict[str, tuple[str, str]]:
+        """What is measured and the verdict, by the number of the claim."""
         table = claims.claim_table(self.directory)
-        return dict(zip(table["the paper says"], table["verdict"]))
+        return {row.iloc[0]: (row["measured here"], row["verdict"]) for _, row in table.iterrows()}
 
     def test_name_no_winner_within_the_noise(self) -> None:
         times = {
+            "serial": [10.0] * 6,
             "root-rcb": [5.0, 5.1, 5.2, 5.3, 5.4, 5.5],
             WINNERS[0]: [4.0, 4.1, 4.2, 4.3, 4.4, 4.5],
             WINNERS[1]: [8.0, 8.1, 8.2, 8.3, 8.4, 8.5],
-            WINNERS[2]: [3.0, 5.1, 5.2, 5.3, 5.4, 9.0],
-            WINNERS[3]: [1.0],
         }
         self.write("simulations", times)
-        self.write("serial", {"none": [10.0] * 6})
-        found = self.verdicts()
-        self.assertEqual(found["mesh 2 × 2, 1.5 σ, 25 % is faster than RCB"], "confirmed")
-        self.assertEqual(found["mesh 4 × 4, 2 σ, 12.5 % is faster than RCB"], "refuted")
-        self.assertEqual(found["mesh 6 × 6, 2 σ, 12.5 % is faster than RCB"], "not told apart")
-        self.assertEqual(found["mesh 8 × 8, 2 σ, 12.5 % is faster than RCB"], "not told apart")
-        self.assertEqual(found["RCB on 4 processes is faster than serial"], "confirmed")
+        found = self.rows()
+        self.assertEqual(found["4"][1], "partly")
+        self.assertIn("speed-ups are 2.35 [2.22, 2.50] and 1.21 [1.18, 1.25]; RCB's is 1.90 [1.82, 2.00].", found["4"][0])
+        self.assertEqual(found["5"][1], "confirmed")
+        del times[WINNERS[1]]
+        self.write("simulations", times)
+        self.assertEqual(self.rows()["4"][1], "confirmed")
+        self.write("simulations", times | {WINNERS[0]: [3.0, 5.1, 5.2, 5.3, 5.4, 9.0]})
+        self.assertEqual(self.rows()["4"][1], "not told apart")
+
+    def test_serial_and_parallel_of_a_round_are_compared(self) -> None:
+        slow = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0]  # a machine of another speed in each round
+        self.write("simulations", {"serial": slow, "root-rcb": [2 * t for t in slow], WINNERS[0]: slow})
+        found = self.rows()
+        self.assertIn("Its speed-up is 0.50. ", found["11"][0])
+        self.assertEqual(found["11"][1], claims.BY_COST)
+        self.assertEqual(found["5"][1], "not told apart")
 
     def test_unbalance_is_greater_but_small_only_in_several_runs(self) -> None:
-        greater, small = "RRCB's unbalance is “considerably greater” than RCB's", "its unbalance is a “small increase”"
         for runs, verdicts in ((1, ("not told apart", "not told apart")), (10, ("confirmed", "refuted"))):
             self.write("simulations", {name: [5.0] * runs for name in ("root-rcb", *WINNERS)})
-            found = self.verdicts()
-            self.assertEqual((found[greater], found[small]), verdicts)  # 20 % above the mean are not small
+            found = self.rows()
+            self.assertEqual((found["6"][1], found["17"][1]), verdicts)  # 20 % above the mean are not small
+        self.assertIn("20.00, 20.00, 20.00 and 20.00 % with the four settings, 0.40 % with RCB", found["6"][0])
 
     def test_the_fastest_settings_are_those_of_the_charts(self) -> None:
-        other = "rrcb-sampled[mesh=10,k=1,fraction=1]"
-        self.write("grid-serial", {"none": [10.0] * 6})
-        self.write("grid", {"root-rcb": [20.0] * 6, other: [5.0] * 6, **{name: [8.0] * 6 for name in WINNERS}})
-        table = claims.claim_table(self.directory)
-        self.assertEqual(table["verdict"].tolist(), ["refuted"])
-        self.assertIn("mesh 10 × 10, 1 σ, 100 %; 3 in both", table["measured here"][0])
+        fine, coarse = "rrcb-sampled[mesh=10,k=1,fraction=1]", "rrcb-sampled[mesh=2,k=1,fraction=1]"
+        times = {"root-rcb": [7.0] * 6, "rrcb": [4.0] * 6, fine: [5.0] * 6, coarse: [6.0] * 6}
+        self.write("grid", {"serial": [10.0] * 6, **times, **{name: [8.0] * 6 for name in WINNERS}})
+        found = self.rows()
+        self.assertEqual(found["12"][1], "refuted")
+        self.assertIn("has a speed-up of 1.25; mesh 10, k = 1 and 100 % has 2.00. A call moves 25 and 25 %", found["12"][0])
+        self.assertEqual(found["14"][0], "2 of 6 settings are faster than RCB.")
+        self.assertIn("Mesh 2 has 0.83 with k = 1 of", found["18"][0])
         figure = paper_figures.draw_speed_ups(self.directory)
         self.assertEqual([axes.get_title() for axes in figure.axes], ["1,000 points drawn", "250 points drawn",
                                                                       "125 points drawn"])  # fmt: skip
+        self.assertEqual(figure.axes[0].get_ylim()[0], 0)
+        self.assertEqual(paper_figures.grid_table(self.directory).iloc[2].tolist(), [fine, "2.00", "10", "25", "1.2000"])
 
     def test_rcb_wins_from_the_cost_of_a_point_that_pays_for_its_call(self) -> None:
-        self.write("simulations", {"root-rcb": [5.0] * 6})
-        self.write("serial", {"none": [10.0] * 6})
+        self.write("simulations", {"root-rcb": [5.0] * 6, "serial": [10.0] * 6, WINNERS[0]: [5.0] * 6})
         # 20 ms a call over three quarters of 1000 points; a step takes 110 us a point.
-        row = claims.claim_table(self.directory).iloc[-1]
-        self.assertIn("wins from 26667 ns a point-step, here 110000", row["measured here"])
+        self.assertIn("at least 26667 ns a step; here it costs 110000 ns.", self.rows()["11"][0])
 
-    def test_four_processes_are_best_only_if_no_other_number_is(self) -> None:
-        self.write("ranks-1", {"none": [10.0] * 6})
-        self.write("ranks-2", {"root-rcb": [6.0] * 6})
-        self.write("ranks-4", {"root-rcb": [5.0] * 6})
-        self.assertEqual(self.verdicts(), {"4 processes are best": "confirmed"})
-        self.write("ranks-8", {"root-rcb": [4.0] * 6})
-        self.assertEqual(self.verdicts(), {"4 processes are best": "refuted"})
+    def test_other_numbers_of_processes_have_speed_and_quality(self) -> None:
+        for ranks, path in ((2, 6.0), (4, 5.0), (8, 4.0)):
+            self.write(f"ranks-{ranks}", {"root-rcb": [path] * 6, "serial": [10.0] * 6})
+        self.assertEqual(self.rows()["13"][0], "The speed-up on 2, 4 and 8 processes is 1.67, 2.00 and 2.50.")
         table = paper.rank_table(self.directory)
-        self.assertEqual(table.values.tolist(), [["2", "1.67"], ["4", "2.00"], ["8", "2.50"]])
+        self.assertEqual(table.values.tolist()[1], ["4", "root-rcb", "2.00", "1.0000"])
+
+
+class PageTest(unittest.TestCase):
+    def test_counts_of_the_page_are_those_of_paper_csv(self) -> None:
+        rows = pd.read_csv(paper.COUNTS)
+        with tempfile.TemporaryDirectory() as folder:
+            out = Path(folder)
+            rows = rows.assign(time_ms_median=1.0, ranks=4, dim=2, layout="simulation", error=None)
+            for points, of in rows[rows["workload"] == "slope"].groupby("points"):
+                (out / f"points-{points}").mkdir()
+                of.to_csv(out / f"points-{points}/table.csv", index=False)
+            (out / "snapshots").mkdir()
+            rows[rows["workload"] != "slope"].to_csv(out / "snapshots/table.csv", index=False)
+            found = claims.claim_table(out)
+        lines = [line for line in paper.PAGE.read_text().splitlines() if line.startswith("| ")]
+        numbers = []
+        for row in found.values.tolist():
+            numbers.append(row[0])
+            self.assertIn("| " + " | ".join(row) + " |", lines)
+        self.assertEqual(numbers, ["1", "2", "3", "10", "16"])
 
 
 if __name__ == "__main__":

@@ -31,14 +31,33 @@ VIRTUAL = pd.DataFrame(
 
 class ScalingTest(unittest.TestCase):
     def test_fit_finds_the_growth_of_the_counts(self) -> None:
-        found = scaling.fit("zoltan-rcb", COUNTS, "collectives")
+        (found,) = scaling.fits("zoltan-rcb", COUNTS, "collectives")
         self.assertAlmostEqual(found["1"], 10)
         self.assertAlmostEqual(found["log"], 3)
         self.assertAlmostEqual(scaling.at(found, 1024), 40)
 
+    def test_bytes_have_the_terms_of_the_least_error_and_those_as_good(self) -> None:
+        counts = COUNTS.assign(bytes=[300 + 100.0 * ranks for ranks in RANKS])
+        (found,) = scaling.fits("zoltan2-mj", counts, "bytes")
+        self.assertEqual([*found], ["1", "ranks"])
+        self.assertAlmostEqual(scaling.at(found, 1024), 300 + 102400)
+        # As counted of multijagged on 16 to 64 ranks: twice the least error does not tell three growths apart.
+        counted = pd.DataFrame({"ranks": [16, 32, 64], "bytes": [4584.0, 8580.0, 16794.0]})
+        found = scaling.fits("zoltan2-mj", counted, "bytes")
+        self.assertEqual([[*of] for of in found], [["1", "ranks"], ["log", "ranks"], ["root", "ranks"]])
+        columns = {name: COUNTS[name].to_list()[:3] for name in ("collectives", "messages", "point bytes", "root bytes")}
+        paths = scaling.all_paths({"zoltan2-mj": counted.assign(**columns)}, scaling.Machine(), VIRTUAL)
+        row = paths.iloc[-1]
+        self.assertLess(row["low_s"], row["model_s"])
+        self.assertEqual(row["model_s"], row["high_s"])
+        cells = scaling.time_table(paths)[-1]
+        self.assertEqual(cells[:2], ["1,048,576", "many ranks"])
+        self.assertRegex(cells[2], r"^\d+ \[\d+, \d+\]$")
+
     def test_collectives_of_a_level_are_on_half_as_many_ranks_at_each(self) -> None:
         machine = scaling.Machine(latency=1, bandwidth=1e30, points=1)
-        path = scaling.path("zoltan-rcb", COUNTS, 16, machine, VIRTUAL)
+        terms = {column: scaling.fits("zoltan-rcb", COUNTS, column)[0] for column in COUNTS.columns[1:]}
+        path = scaling.path("zoltan-rcb", terms, 16, machine, VIRTUAL)
         self.assertAlmostEqual(path["messages"], 4 * 10 + 3 * (4 + 3 + 2 + 1))
         self.assertAlmostEqual(path["bytes"], 1600)
 
@@ -51,7 +70,7 @@ class ScalingTest(unittest.TestCase):
 
     def test_digits_of_the_picture_are_apart_and_large_enough_on_a_page(self) -> None:
         ranks = [1 << power for power in range(1, 21)]
-        paths = pd.DataFrame({"method": "rrcb", "ranks": ranks, "model_s": ranks, "messages": ranks,
+        paths = pd.DataFrame({"method": "rrcb", "ranks": ranks, "model_s": ranks, "low_s": ranks, "high_s": ranks, "messages": ranks,
                               "bytes_into_root": [1e4 * number for number in ranks]})  # fmt: skip
         plot.use_style()
         figure = scaling.draw(paths)

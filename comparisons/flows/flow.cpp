@@ -2,7 +2,6 @@
 
 #include "counter_random.hpp"
 #include "failure.hpp"
-#include "grains.hpp"
 #include "text.hpp"
 
 #include <rrcb/points.hpp>
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -236,71 +234,11 @@ constexpr Kind kinds[] = {
     {"conveyor", 2, 8000, 100, 1, conveyor},
 };
 
-/// Returns a column of dry grains that collapses.
-Grains column() {
-    Grains grains{3, 0.5};
-    for (std::size_t i = 0; i < 7000; ++i) {
-        Particle p{i, 0, {31, i}};
-        const auto place = [&](std::size_t at) {
-            return static_cast<double>(at) + p.uniform(0.49, 0.51);
-        };
-        grains.x.push_back({place(i % 14) - 7, place(i / 14 % 14) - 7, place(i / 196)});
-    }
-    grains.v.resize(grains.x.size());
-    return grains;
-}
-
-/// Returns a disc that falls into a tank of grains without friction.
-Grains splash() {
-    Grains grains{2, 0, 60};
-    for (std::size_t i = 0; i < 4800; ++i) {
-        Particle p{i, 0, {37, i}};
-        grains.x.push_back({static_cast<double>(i % 120) - 60 + p.uniform(0.49, 0.51),
-                            static_cast<double>(i / 120) + p.uniform(0.49, 0.51), 0});
-    }
-    grains.v.resize(grains.x.size());
-    for (int y = -25; y <= 25; ++y)
-        for (int x = -25; x <= 25; ++x)
-            if (x * x + y * y <= 625) {
-                grains.x.push_back({x - 10.0, y + 70.0, 0});
-                grains.v.push_back({0, -8, 0});
-            }
-    return grains;
-}
-
-struct GrainKind {
-    const char* name;
-    std::size_t num_calls;
-    double time;  ///< time between two calls
-    Grains (*start)();
-};
-
-constexpr GrainKind grain_kinds[] = {{"column", 100, 0.25, column}, {"splash", 120, 0.25, splash}};
-
-/// Returns a flow of grains. They are simulated when positions are first needed.
-Flow fall(const GrainKind& kind) {
-    auto calls = std::make_shared<std::vector<std::vector<double>>>();
-    Grains start = kind.start();
-    const int dimension = start.dimension;
-    const std::size_t num_points = start.x.size();
-    const auto positions = [calls, kind, grains = std::move(start)](std::size_t call) mutable {
-        while (calls->size() <= call) {
-            if (!calls->empty()) move(grains, kind.time);
-            std::vector<double>& x = calls->emplace_back();
-            for (const Vector& at : grains.x)
-                x.insert(x.end(), at.begin(), at.begin() + grains.dimension);
-        }
-        return (*calls)[call];
-    };
-    return {kind.name, dimension, num_points, kind.num_calls, 1, positions};
-}
-
 }  // namespace
 
 std::vector<std::string> flow_names() {
     std::vector<std::string> names;
     for (const Kind& kind : kinds) names.emplace_back(kind.name);
-    for (const GrainKind& kind : grain_kinds) names.emplace_back(kind.name);
     return names;
 }
 
@@ -309,9 +247,6 @@ Flow make_flow(const std::string& name) {
         const auto positions = [kind](std::size_t call) { return kind->positions(call); };
         return {name, kind->dimension, kind->num_points, kind->num_calls, kind->spacing, positions};
     }
-    if (const auto* kind = std::ranges::find(grain_kinds, name, &GrainKind::name);
-        kind != std::end(grain_kinds))
-        return fall(*kind);
     throw Failure("flow '" + name + "' is none of " + joined(flow_names()));
 }
 

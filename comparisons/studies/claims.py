@@ -6,11 +6,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from statistics import mean, median
+from statistics import median
 
 import numpy as np
 import pandas as pd
-from boxes import drawn_outside, excesses, material_points
 from intervals import NOT_TOLD_APART, ONE, Value, median_of
 from methods import RCB, WINNERS, setting_of
 from paper_figures import moved_shares, speed_ups
@@ -19,7 +18,6 @@ from simulation import balancing, of_method, once, uneven_points
 
 CONFIRMED, REFUTED, PARTLY = "confirmed", "refuted", "partly"
 BY_COST = "depends on the cost of a point-step"
-SEEDS = 10
 SNAPSHOTS = [f"slope-{moment}" for moment in ("start", "middle", "end")]
 PATH = "critical path"
 
@@ -207,27 +205,26 @@ def _unbalance(evidence: Evidence) -> Iterator[Claim]:
                 compare(exactly(1.05), ours), "points of each step")  # fmt: skip
 
 
-def _random_points(evidence: Evidence) -> Iterator[Claim]:
-    results = Results(evidence.out / "setting-1")
-    pairs = []
-    for points in (material_points(results, workload) for workload in SNAPSHOTS):
-        for setting in WINNERS if len(points) else ():
-            seeds = [np.random.default_rng(seed) for seed in range(SEEDS)]
-            drawn = mean(excesses(points, setting, 4, seed) for seed in seeds)
-            pairs.append((drawn, excesses(points, setting, 4, None)))
-    if pairs:
-        drawn, alone = (100 * mean(values) for values in zip(*pairs))
-        part = 1 - alone / drawn
-        verdict = PARTLY if 0.1 < part < 0.9 else CONFIRMED if part > 0.5 else REFUTED
-        what = f"The excess is {drawn:.2f} % with random points, and {alone:.2f} % with the boxes that they are drawn from."
-        yield Claim(19, "The random points cause the imbalance.", what, verdict, f"{SEEDS} seeds, points at rest")
-
-
 def _pairs(rows: dict[str, object], field: int, ends: tuple[float, float]) -> list[tuple]:
     """Returns the rows for both ends of mesh (0) or fraction (2), all other parameters being equal."""
     settings = {setting_of(name): row for name, row in rows.items() if setting_of(name)}
     other = {s: (*s[:field], ends[1], *s[field + 1 :]) for s in settings if s[field] == ends[0]}
     return [(settings[a], settings[b]) for a, b in other.items() if b in settings]
+
+
+def drawn_outside(results: Results, workload: str, side: float = 1.0) -> float:
+    """Returns the share of the drawn points in squares without a material point; NaN if there are no files."""
+    drawn, real = results.data("statistical", workload), material_points(results, workload)
+    if drawn.empty or not len(real):
+        return float("nan")
+    squares = {tuple(square) for square in np.floor(real / side).astype(int)}
+    places = np.floor(drawn[["x", "y"]].to_numpy() / side).astype(int)
+    return float(np.mean([tuple(place) not in squares for place in places]))
+
+
+def material_points(results: Results, workload: str) -> np.ndarray:
+    files = sorted((results.folder / "data").glob(f"points_{workload}_*.csv"))
+    return np.loadtxt(files[0], delimiter=",", skiprows=1, usecols=(0, 1)) if files else np.empty(0)
 
 
 def _finer_mesh(evidence: Evidence) -> Iterator[Claim]:
@@ -265,4 +262,4 @@ def _others(evidence: Evidence) -> Iterator[Claim]:
         yield Claim(16, "Boxes are cut at the midpoint.", what, compare(exactly(1.1), counts(found)), "points at three moments")
 
 
-FINDERS = (_traffic, _speed, _best_settings, _best_number, _unbalance, _random_points, _finer_mesh, _others)
+FINDERS = (_traffic, _speed, _best_settings, _best_number, _unbalance, _finer_mesh, _others)

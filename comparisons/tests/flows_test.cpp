@@ -2,7 +2,6 @@
 #include "flow.hpp"
 #include "follower_mpi.hpp"
 #include "ghosts_mpi.hpp"
-#include "grains.hpp"
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -60,25 +59,6 @@ TEST(Follower, counts_moves_and_ghosts_of_a_rod_that_turns) {
     EXPECT_EQ(turn_by("fresh + remap"), (Turn{0, 8, 16}));
     // With kept axes the cut is along the rod, with two columns on each side.
     EXPECT_EQ(turn_by("kept axes"), (Turn{80, 80, 160}));
-}
-
-TEST(Grains, fall_like_a_stone_and_come_to_rest_on_the_ground_with_a_shallow_dent) {
-    Grains grain{2, 0, 0, {{0, 8.5, 0}}, {{1, 0, 0}}};
-    move(grain, 2);
-    // Symplectic Euler is ahead by half a time step of 0.01: 2 (2 + 0.01) / 2.
-    EXPECT_NEAR(grain.x[0][1], 8.5 - 2.01, 1e-9);
-    EXPECT_NEAR(grain.x[0][0], 2, 1e-9);
-    move(grain, 100);
-    EXPECT_NEAR(grain.x[0][1], 0.5 - 0.001, 1e-6);  // the weight divided by the stiffness
-}
-
-TEST(Grains, that_touch_push_each_other_apart_alike) {
-    // The pair is far above the ground and overlaps by a tenth of a diameter.
-    Grains pair{2, 0, 0, {{-0.45, 100, 0}, {0.45, 100, 0}}, {{}, {}}};
-    move(pair, 0.5);
-    EXPECT_GT(pair.v[1][0], 1);
-    EXPECT_EQ(pair.v[1][0], -pair.v[0][0]);
-    EXPECT_GT(pair.x[1][0] - pair.x[0][0], 1);
 }
 
 TEST(Flow, has_thousands_of_finite_particles_that_move_and_is_the_same_again) {

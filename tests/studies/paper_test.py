@@ -9,9 +9,7 @@ from pathlib import Path
 
 from support import simulated
 
-import boxes
 import claims
-import numpy as np
 import pandas as pd
 import paper
 import paper_figures
@@ -50,28 +48,6 @@ class CycleTest(unittest.TestCase):
                     expected = median_cut(0.5 + offset, mesh, multiplier) - 0.5
                     found = paper_figures.next_offset(offset, mesh, multiplier)
                     self.assertAlmostEqual(found, expected, places=9)
-
-
-class BoxesTest(unittest.TestCase):
-    def test_of_an_even_square_divide_it_evenly(self) -> None:
-        middles = (np.arange(8) + 0.5) / 8
-        points = np.array([(x, 2 * y) for x in middles for y in middles])
-        half = np.array([1, 2]) / 16
-        found = boxes.divide(points - half, points + half, np.ones(64), points, 4)
-        self.assertEqual(np.bincount(found).tolist(), [16, 16, 16, 16])
-
-    def test_narrower_than_their_cells_miss_by_the_gap(self) -> None:
-        lower, upper = np.array([[0.0, 0], [3, 0]]), np.array([[1.0, 1], [4, 1]])
-        points = np.array([(x, 0.5) for x in (0.2, 0.4, 0.6, 2.9)])
-        found = boxes.divide(lower, upper, np.array([3.0, 1]), points, 2)
-        self.assertEqual(found.tolist(), [0, 0, 0, 1])
-
-    def test_moments_of_cells_are_those_of_their_points(self) -> None:
-        points = np.array([(0.0, 0), (1, 1), (3, 0), (3, 4), (4, 4)])
-        count, center, sigma = boxes.cells_of(points, 2)
-        self.assertEqual(count.tolist(), [2, 1, 2])
-        self.assertEqual(center.tolist(), [[0.5, 0.5], [3, 0], [3.5, 4]])
-        self.assertEqual(sigma.tolist(), [[0.5, 0.5], [0, 0], [0.5, 0]])
 
 
 class ClaimsTest(unittest.TestCase):

@@ -231,7 +231,10 @@ std::vector<Method> all_methods() {
     std::vector<Method> methods;
     for (const Entry& entry : entries()) {
         const std::string name(entry.name);
-        if (name == "rrcb-sampled") {
+        if (name == "zoltan-rcb") {
+            for (const char* setting : {"", "[reuse]"})
+                methods.push_back(read_method(name + setting));
+        } else if (name == "rrcb-sampled") {
             for (const char* setting : {"mesh=2,k=1.5,fraction=0.25", "mesh=4,k=2,fraction=0.125",
                                         "mesh=6,k=2,fraction=0.125", "mesh=8,k=2,fraction=0.125"}) {
                 methods.push_back(read_method(name + '[' + setting + ']'));

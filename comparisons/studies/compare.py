@@ -24,7 +24,8 @@ comparisons/run [option ...]
                         rrcb rrcb-exact rrcb-arrays, and zoltan2-mj if Zoltan2 can be installed;
                         parameters in brackets: rrcb-sampled[mesh=4,k=2,fraction=0.25].
                         Default: zoltan-rcb, rrcb-sampled, rrcb and rrcb-exact.
-                        all: every method, rrcb-sampled and rrcb with four settings each
+                        all: every method, also zoltan-rcb[reuse], and rrcb-sampled and
+                        rrcb with four settings each
   --lists=PARTS         or EXPORT, ALL: the lists that a call must return
   --repeats=6           repeats of each call, preferably an even number, and rounds of the
                         simulations, at most 6. With 6 or more, medians have 95 % intervals

@@ -66,6 +66,7 @@ TEST(Method, compares_every_method_in_its_best_settings_if_asked_for_all) {
         if (method.label != "zoltan2-mj") labels.push_back(method.label);
     }
     const std::vector<std::string> expected = {"zoltan-rcb",
+                                               "zoltan-rcb[reuse]",
                                                "zoltan-rib",
                                                "zoltan-hsfc",
                                                "hilbert-counts",

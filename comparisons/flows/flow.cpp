@@ -4,17 +4,12 @@
 #include "failure.hpp"
 #include "text.hpp"
 
-#include <rrcb/points.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace comparisons {
-
-namespace {
 
 using rrcb::Vector;
 using std::numbers::pi;
@@ -43,6 +38,8 @@ struct Particle {
         return {r * across * std::cos(angle), r * across * std::sin(angle), r * z};
     }
 };
+
+namespace {
 
 /// Rotates a position in the plane of the axes `first` and `second`, from the first to the second.
 Vector turned(Vector x, double angle, std::size_t first = 0, std::size_t second = 1) {
@@ -196,28 +193,7 @@ Vector conveyor(Particle& p, double t) {
             60 - inside * std::cos(angle) + after * std::sin(angle), 0};
 }
 
-struct Kind {
-    const char* name;
-    int dimension;
-    std::size_t num_points;
-    std::size_t num_calls;
-    double spacing;
-    Vector (*position)(Particle&, double time);  ///< the time is from 0 to 1
-
-    std::vector<double> positions(std::size_t call) const {
-        const double time = static_cast<double>(call) / static_cast<double>(num_calls - 1);
-        std::vector<double> x;
-        for (std::size_t i = 0; i < num_points; ++i) {
-            const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(num_points);
-            Particle particle{i, share, {seed_for(name, 1), i}};
-            const Vector at = position(particle, time);
-            x.insert(x.end(), at.begin(), at.begin() + dimension);
-        }
-        return x;
-    }
-};
-
-constexpr Kind kinds[] = {
+constexpr Flow flows[] = {
     {"dam", 2, 8000, 100, 1, dam},
     {"pour", 3, 8000, 90, 1, pour},
     {"galaxies", 3, 8000, 120, 0.1, galaxies},
@@ -236,18 +212,29 @@ constexpr Kind kinds[] = {
 
 }  // namespace
 
+std::vector<double> Flow::positions(std::size_t call) const {
+    const double time = static_cast<double>(call) / static_cast<double>(num_calls - 1);
+    std::vector<double> x;
+    for (std::size_t i = 0; i < num_points; ++i) {
+        const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(num_points);
+        Particle particle{i, share, {seed_for(name, 1), i}};
+        const Vector at = position(particle, time);
+        x.insert(x.end(), at.begin(), at.begin() + dimension);
+    }
+    return x;
+}
+
 std::vector<std::string> flow_names() {
     std::vector<std::string> names;
-    for (const Kind& kind : kinds) names.emplace_back(kind.name);
+    for (const Flow& flow : flows) names.emplace_back(flow.name);
     return names;
 }
 
-Flow make_flow(const std::string& name) {
-    if (const auto* kind = std::ranges::find(kinds, name, &Kind::name); kind != std::end(kinds)) {
-        const auto positions = [kind](std::size_t call) { return kind->positions(call); };
-        return {name, kind->dimension, kind->num_points, kind->num_calls, kind->spacing, positions};
-    }
-    throw Failure("flow '" + name + "' is none of " + joined(flow_names()));
+const Flow& make_flow(const std::string& name) {
+    const auto* flow = std::ranges::find(flows, name, &Flow::name);
+    if (flow == std::end(flows))
+        throw Failure("flow '" + name + "' is none of " + joined(flow_names()));
+    return *flow;
 }
 
 }  // namespace comparisons

@@ -24,8 +24,7 @@ PATH = "critical path"
 
 @dataclass
 class Claim:
-    """A claim, what was measured, and the verdict. `judge` names the numbers that were compared: exact counts, or times
-    whose 95 % intervals must not overlap."""
+    """`judge` names the numbers compared: exact counts, or times whose 95 % intervals must not overlap."""
 
     number: int
     text: str

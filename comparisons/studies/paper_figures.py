@@ -60,16 +60,17 @@ def draw_together(out: Path, names: list[str]) -> None:
     Image.open(path).convert("RGB").quantize(96).save(path, optimize=True)
 
 
+MOMENTS = ("every rank", "lays a support mesh over its points;\nsends count, mean and σ of each cell")
 PROCEDURES = {
     "the paper's RRCB, at each step": (
-        ("every rank", "lays a support mesh over its points;\nsends count, mean and σ of each cell"),
+        MOMENTS,
         ("rank 0", "draws random points within mean ± k σ"),
         ("rank 0", "bisects the drawn points\nacross the longest axis of each box"),
         ("rank 0", "broadcasts the boxes"),
         ("every rank", "sends each point to the rank of its box"),
     ),
     "the library, when it pays": (
-        ("every rank", "lays a support mesh over its points;\nsends count, mean and σ of each cell"),
+        MOMENTS,
         ("rank 0", "makes a density of each cell"),
         ("rank 0", "bisects the densities\nacross the axis with fewest points near"),
         ("every rank", "counts its points near the cuts;\nthe cuts move until the parts are even"),

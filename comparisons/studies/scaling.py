@@ -139,8 +139,7 @@ def at(coefficients: dict[str, float], ranks: int) -> float:
 def path(
     name: str, terms: dict[str, dict[str, float]], ranks: int, machine: Machine, virtual: pd.DataFrame
 ) -> dict:
-    """Returns the sequential messages, bytes and work of a call, and its modelled time, for the coefficients of each
-    column."""
+    """Returns the sequential messages, bytes and work of a call, and its modelled time, by fits of its columns."""
     log = log2(ranks)
     value = {column: at(of, ranks) for column, of in terms.items()}
     collectives, root_bytes, work = terms["collectives"], value["root bytes"], NS_PER_POINT
@@ -227,8 +226,7 @@ def draw(paths: pd.DataFrame) -> plot.Figure:
 
 
 def fit_errors(counts: dict[str, pd.DataFrame]) -> pd.DataFrame:
-    """Returns how much fits without the largest number of ranks miss the counts on that number, and the terms of the
-    bytes."""
+    """Returns how much fits without the largest number of ranks miss the counts on it, and the terms of bytes."""
     rows = []
     for name, of in counts.items():
         last, row = of.iloc[-1], {"method": name}

@@ -27,7 +27,7 @@ GRID = [
 ]
 RANKS = (2, 4, 6, 8)
 # The slope is at rest for 1,000 steps, and some settings move many points while they lie on a lattice.
-FIRST_STEP, STEPS, STEPS_BY_RANKS, STEPS_OF_GRID, SELDOM = 1500, 1000, 500, 200, 300
+FIRST_STEP, STEPS, STEPS_BY_RANKS, STEPS_OF_GRID, SELDOM = 1500, 1000, 200, 200, 300
 PAGE = ROOT / "docs/design/paper.md"
 COUNTS = ROOT / "comparisons/paper.csv"
 COUNTED = ["workload", "points", "method", "bytes", "root_bytes_in", "ghosts", "imbalance"]
@@ -59,8 +59,8 @@ def _simulate(driver: Driver, name: str, ranks: int, methods: list[str], steps: 
 
 
 def measure_simulations(driver: Driver) -> None:
-    """Runs ten rounds with a seed each. Also runs simulations that rebalance rarely."""
-    _simulate(driver, "simulations", 4, [RCB, "rrcb", *WINNERS], STEPS, 10)
+    """Runs six rounds with a seed each. Also runs simulations that rebalance rarely."""
+    _simulate(driver, "simulations", 4, [RCB, "rrcb", *WINNERS], STEPS, 6)
     _simulate(driver, "seldom", 4, [RCB], STEPS, 1, SELDOM)
 
 

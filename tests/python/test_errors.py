@@ -171,7 +171,7 @@ def test_raises_errors_of_columns_on_all():
     ghosts = balance.ghosts(here, 0.1)
     ones = np.ones(ghosts.count)
     same_error(lambda: ghosts.accumulate(on_rank(last, ones[:, None] > 0, ones)), "are added")
-    same_error(lambda: ghosts.accumulate(on_rank(last, np.ones(ghosts.count + 1), ones)), "ghost_plan")
+    same_error(lambda: ghosts.accumulate(on_rank(last, np.ones(ghosts.count + 1), ones)), "ghosts")
     periodic = balance.ghosts(here, 0.3, 1.0)
     for bad, text in ((here.astype(int), "must be float64"), (here[:, 0], "2 axes, not 1")):
         given = on_rank(last, bad, here)

@@ -8,15 +8,20 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <span>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace rrcb {
+
+struct Participant;
 
 /// Distances within which ranks are neighbours, and the ranks of the parts. They must be the same
 /// on every rank.
@@ -42,6 +47,8 @@ struct SharedEntries {
                                    ///< order of ranks
     /// Indices of these entries: for the first rank, then for the second, ... Both ranks of a pair
     /// must list the same entries in the same order.
+    /// A rank lists no_entry for an entry that it does not hold: it adds nothing to the sum and
+    /// does not get it.
     std::vector<LocalIndex> indices;
 };
 
@@ -67,6 +74,36 @@ GhostArrays<Arrays...> ghosts_of(Arrays&... arrays) {
 namespace detail {
 
 struct NeighbourAccess;
+
+/// Stands for an entry that this rank does not hold, in SharedEntries.
+inline constexpr LocalIndex no_entry = static_cast<LocalIndex>(-1);
+
+/// Several arrays in a vector, each of which is a column.
+template <class Array>
+concept ArrayList = std::ranges::range<Array> &&
+    requires(std::ranges::range_reference_t<Array> one) {
+    one.resize(0);
+};
+
+/// Calls make(column) for each column and for each array of a list. Returns the results: an array,
+/// or a vector if there is a list.
+template <class Make, class... Columns>
+auto for_each_column(Make&& make, Columns&&... columns) {
+    using Result = std::common_type_t<decltype(make(std::declval<std::vector<double>&>()))>;
+    if constexpr ((ArrayList<Columns> || ...)) {
+        std::vector<Result> all;
+        const auto add = [&]<class Values>(Values&& values) {
+            if constexpr (ArrayList<Values>)
+                for (auto& one : values) all.push_back(make(one));
+            else
+                all.push_back(make(std::forward<Values>(values)));
+        };
+        (add(std::forward<Columns>(columns)), ...);
+        return all;
+    } else {
+        return std::array<Result, sizeof...(Columns)>{make(std::forward<Columns>(columns))...};
+    }
+}
 
 /// Adds the values of a column to the values of some points.
 using AddValues = void(std::span<const LocalIndex> points, std::size_t components,
@@ -160,6 +197,21 @@ class Neighbours {
     /// another communicator, or lack of memory. Cost: a pass over the parts, one pass of counts,
     /// and a reduction.
     RRCB_API Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& options);
+    /// Finds the neighbours by the boxes of any balancer. Collective.
+    ///
+    ///     rrcb::Neighbours neighbours(boxes, 3, comm, {.travel = t});  // a box for each rank
+    ///
+    /// A point in a closed box of its rank stays there, also on a face. Otherwise it moves to the
+    /// first part near this rank whose box contains it. Boxes may thus overlap; a point in none of
+    /// them is an error of migrate(), so that no ghost is missed.
+    /// @param boxes     of all parts; open sides are +-infinity, a box with lower above upper is
+    /// empty. Parts have ranks as described at ranks_of_part(), or NeighbourOptions::ranks_of_parts
+    /// @param dimension of the points, 1 to 3
+    /// @param comm      of the ranks with points
+    /// @param options   as above
+    /// Throws Error as above, and for bounds that are NaN. Cost: as above, for a list of the boxes.
+    RRCB_API Neighbours(std::span<const Box> boxes, int dimension, MPI_Comm comm,
+                        const NeighbourOptions& options);
     /// Frees the memory. Does not communicate.
     RRCB_API ~Neighbours();
     /// Takes over the state of another object, which may then only be destroyed or assigned to. Not
@@ -178,23 +230,21 @@ class Neighbours {
     /// places at the end; places left over are filled from the end. All other points keep their
     /// indices. Coincident points that a cut divides stay on their rank.
     /// @param positions column of positions, which moves too, or Points in arrays of `columns`
-    /// @param columns   different vectors, or column(vector, components)
+    /// @param columns   different vectors, or column(vector, components), or a vector of vectors
+    /// @return the number of arriving points
     /// Throws Error as described above: for a point in a part of no neighbour, which all arrays
     /// still contain, or columns that differ between ranks. Unless memory or MPI fails, no point is
-    /// lost or doubled. Cost: a few comparisons for each point, and a look-up for each that has
-    /// left.
+    /// lost or doubled. Cost: a few comparisons for each point, a look-up for each that has left.
     template <class Positions, class... Columns>
-    void migrate(Positions&& positions, Columns&&... columns) {
-        const std::array<detail::ByteColumn, sizeof...(Columns)> others{
-            detail::resizable_column(std::forward<Columns>(columns))...};
-        if constexpr (std::is_same_v<std::remove_cvref_t<Positions>, Points>) {
-            migrate_columns(positions, others);
-        } else {
-            std::array<detail::ByteColumn, 1 + sizeof...(Columns)> all{
-                detail::resizable_column(std::forward<Positions>(positions))};
-            for (std::size_t k = 0; k < others.size(); ++k) all[k + 1] = others[k];
-            migrate_columns(detail::positions_of(column(positions)), all);
-        }
+    LocalIndex migrate(Positions&& positions, Columns&&... columns) {
+        const auto resizable = []<class Values>(Values&& values) {
+            return detail::resizable_column(std::forward<Values>(values));
+        };
+        if constexpr (std::is_same_v<std::remove_cvref_t<Positions>, Points>)
+            return migrate_columns(positions, detail::for_each_column(resizable, columns...));
+        else
+            return migrate_columns(detail::positions_of(column(positions)),
+                                   detail::for_each_column(resizable, positions, columns...));
     }
 
     /// Finds the points that other ranks need as ghosts, as the function ghost_plan() does. They
@@ -279,16 +329,27 @@ class Neighbours {
     /// Exchanges messages with all neighbours.
     ///
     /// Values are added in ascending order of ranks. If every two ranks that have an entry list it
-    /// for each other, all get bit-identical sums.
+    /// for each other, all get bit-identical sums. An entry that is 0 in all columns of a rank is
+    /// not sent, so lists may contain many entries that only few points reach.
     /// @param shared  lists of entries in common with neighbours
-    /// @param columns writable numbers: one entry, or `components`, for each node
+    /// @param columns writable numbers: one entry, or `components`, for each node; or a vector of
+    /// vectors
     /// Throws Error as described above, and for ranks that are not neighbours or whose lists differ
     /// in length.
     template <class... Columns>
     void sum(const SharedEntries& shared, Columns&&... columns) {
-        sum_columns(shared,
-                    std::array<detail::SumColumn, sizeof...(Columns)>{summed_alone(columns)...});
+        const auto summed = []<class Values>(Values&& values) { return summed_alone(values); };
+        sum_columns(shared, detail::for_each_column(summed, columns...));
     }
+
+    /// Fails on this rank with a text of yours, as a call that fails: the other ranks throw it,
+    /// too. Not collective.
+    ///
+    ///     if (!is_finite(x)) neighbours.fail("the time step is too long");
+    ///
+    /// @param text of the Error
+    /// Throws Error.
+    [[noreturn]] RRCB_API void fail(const std::string& text);
 
     /// Returns the lists of find_ghosts() with a stamp: `send` and `send_indices`, and
     /// after the first fetch() also `receive` and `shifts`. They are valid until the next call. Not
@@ -302,11 +363,14 @@ class Neighbours {
     friend struct detail::NeighbourAccess;
     struct State;
 
+    void open(const NeighbourOptions& options, std::uint64_t bits_of_parts,
+              const char* name_of_parts, Participant& self);
+
     // The functions above for columns without their types. When columns migrate, the results are
     // their own arrays; when ghosts are fetched, the results are the arrays of the ghosts; of
     // shared entries only `points` is used.
-    RRCB_API void migrate_columns(const Points& positions,
-                                  std::span<const detail::ByteColumn> columns);
+    RRCB_API LocalIndex migrate_columns(const Points& positions,
+                                        std::span<const detail::ByteColumn> columns);
     RRCB_API void find_ghosts_of(const Points& points,
                                  const std::optional<std::span<const double>>& radii);
     RRCB_API void fetch_columns(std::span<const detail::ByteColumn> columns);

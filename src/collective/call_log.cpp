@@ -36,6 +36,7 @@ std::string_view name_of(CallName call) {
                                "Neighbours::fetch",
                                "Neighbours::accumulate",
                                "Neighbours::sum",
+                               "Neighbours::fail",
                                "fetch of known columns",
                                "accumulate of known columns",
                                "reply of known columns"};

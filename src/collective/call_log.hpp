@@ -49,6 +49,7 @@ enum class CallName : std::uint8_t {
     fetch_of_neighbours,
     accumulate_of_neighbours,
     sum,
+    fail_of_neighbours,
     kept_fetch,
     kept_accumulate,
     kept_reply

@@ -41,8 +41,11 @@ class NeighbourExchange {
     template <class Step>
     void attempt(Step&& step) {
         const Failure failure = rrcb::attempt(step);
-        if (failure.failed) fail(of_this_rank(failure));
+        if (failure.failed) end_with(failure);
     }
+
+    /// Ends the call with a failure of this rank, here and on the neighbours.
+    [[noreturn]] void end_with(const Failure& failure) { fail(of_this_rank(failure)); }
 
     /// Sets the columns whose rows the messages contain.
     void set_types(std::span<const detail::ByteColumn> columns);
@@ -56,6 +59,10 @@ class NeighbourExchange {
     /// Returns whether the message of a neighbour has arrived and belongs to the same call.
     bool has_message(std::size_t neighbour) const { return incoming_[neighbour].is_valid; }
     std::size_t rows_from(std::size_t neighbour) const;
+    /// Returns the message of a neighbour, 16-byte aligned.
+    std::span<const std::byte> message_from(std::size_t neighbour) const {
+        return std::span(incoming_[neighbour].bytes).subspan(header_bytes(types_.size()));
+    }
     /// Returns the message of a neighbour. Fails unless it has this length.
     const std::byte* message_from(std::size_t neighbour, std::size_t bytes) const;
 

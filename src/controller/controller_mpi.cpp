@@ -134,6 +134,7 @@ StepRecord Controller::State::hand_in(const RankLoad& load, BadInput fault) {
     if (fault != BadInput::none) mine.bad_input = code_of(rank_, fault);
     mine.num_rebalances = num_rebalances_;
     mine.minus_num_rebalances = -num_rebalances_;
+    mine.offered = std::exchange(offered_, none_offered);
     cost_ = 0;
     has_bad_cost_ = false;
     root_asks_ = false;
@@ -142,6 +143,7 @@ StepRecord Controller::State::hand_in(const RankLoad& load, BadInput fault) {
 
 void Controller::State::take(const StepRecord& all) {
     check_record(all);
+    largest_ = all.offered;
     // A decision is out of date if the ranks have rebalanced since its loads.
     is_due = all.is_due > 0 && all.num_rebalances == num_heeded_ &&
              all.num_rebalances == num_rebalances_;
@@ -177,6 +179,12 @@ void Controller::State::start(const RankLoad& load, std::span<const double> carr
     mpi::check(
         MPI_Iallreduce(mine.data(), all.data(), 1, type.get(), reduction_->get(), comm_, &request_),
         "MPI_Iallreduce");
+}
+
+void Controller::State::exchange(double* number) {
+    if (number == nullptr) return;
+    offered_ = std::isnan(*number) ? -none_offered : *number;
+    *number = largest_;
 }
 
 void Controller::State::finish() {
@@ -217,6 +225,7 @@ bool Controller::step(const Step& step) {
     State& state = State::of(*this);
     state.begin_step(CallName::controller_step);
     state.finish();
+    state.exchange(step.largest);
     if (!step.weight) {
         state.start({step.load, step.load});
         return state.is_due;

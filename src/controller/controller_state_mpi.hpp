@@ -77,6 +77,10 @@ struct Controller::State {
     /// Waits for the reduction under way, if there is one, and processes its result.
     void finish();
 
+    /// Sends a number with the next start(), and replaces it by the largest of those that were sent
+    /// with the reduction that is done. Does nothing for null.
+    void exchange(double* number);
+
     /// Returns the joined sums of all ranks for the last step.
     std::span<const double> carried() const {
         return std::span(message_->all).subspan(StepMessage::num_doubles);
@@ -130,6 +134,9 @@ struct Controller::State {
     bool has_started_ = false;
     bool is_restored_ = false;  ///< whether the state was loaded and has not started a reduction
                                 ///< since
+
+    double offered_ = none_offered;  ///< for the next reduction
+    double largest_ = none_offered;  ///< of all ranks, by the latest reduction that is done
 
     double cost_ = 0;  ///< sum over the rebalances since the last step
     bool has_bad_cost_ = false;

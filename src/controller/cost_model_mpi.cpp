@@ -141,12 +141,13 @@ CostModel::~CostModel() = default;
 CostModel::CostModel(CostModel&&) noexcept = default;
 CostModel& CostModel::operator=(CostModel&&) noexcept = default;
 
-void CostModel::step(double seconds, std::span<const double> columns) {
+void CostModel::step(double seconds, std::span<const double> columns, double* largest) {
     const NonStop arithmetic;
     State& state = State::of(*this);
     auto& [reducer, rule, own, num_ranks_before] = state;
     reducer.begin_step(CallName::cost_model_step);
     reducer.finish();
+    reducer.exchange(largest);
     if (reducer.has_started()) {
         const bool used_costs = rule.uses_costs();
         rule.take(reducer.carried());

@@ -35,7 +35,7 @@ void Controller::State::store(SavedState& state) {
     std::span record(message_->all.data(), StepMessage::num_doubles);
     state.each(has_started_, record, is_due, counts_points, least_imbalance_, num_points_,
                total_weight_, num_rebalances_, num_heeded_, rule_, num_followed_, root_asks_,
-               num_to_skip_);
+               num_to_skip_, largest_);
 }
 
 void Controller::State::resume() {

@@ -38,7 +38,7 @@ void join(const StepRecord& theirs, StepRecord& ours) {
     for (double StepRecord::*field :
          {&StepRecord::heaviest_load, &StepRecord::cost, &StepRecord::least_imbalance,
           &StepRecord::is_due, &StepRecord::bad_input, &StepRecord::num_rebalances,
-          &StepRecord::minus_num_rebalances})
+          &StepRecord::minus_num_rebalances, &StepRecord::offered})
         ours.*field = std::max(ours.*field, theirs.*field);
 }
 

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <limits>
 #include <span>
 
 namespace rrcb {
 
 /// Kind of a rank's invalid input.
 enum class BadInput { none, load, cost, columns };
+
+/// Stands for no number that the caller gave.
+inline constexpr double none_offered = -std::numeric_limits<double>::infinity();
 
 /// Step of one rank, or the joined steps of all ranks. Shares are added up; all other fields take
 /// the maximum. A minimum is sent as the maximum of the negative.
@@ -20,6 +24,7 @@ struct StepRecord {
     double bad_input = 0;  ///< code_of() the bad input; the maximum is that of the lowest rank
     double num_rebalances = 0;
     double minus_num_rebalances = 0;
+    double offered = none_offered;  ///< number that the caller gave
 };
 
 /// Returns the code of invalid input. Lower ranks have larger codes.

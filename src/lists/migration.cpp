@@ -17,6 +17,9 @@ void Migration::find(const Points& points, const Territory& territory, std::span
         territory.check_position(points, i);
         const int owner = territory.owner_of(points.position(i));
         if (owner == territory.rank()) return;
+        if (owner < 0)
+            reject(territory.name_of(points, i) +
+                   " is in none of the boxes; give boxes that contain every point, or remove it");
         const auto found = std::ranges::lower_bound(ranks, owner);
         if (found == ranks.end() || *found != owner)
             reject(territory.name_of(points, i) + " now belongs to rank " + std::to_string(owner) +
@@ -57,15 +60,15 @@ bool Migration::apply(std::span<const ByteColumn> columns, LocalIndex num_points
     places_.clear();
     for (std::size_t k = 0; k < leaving_.size(); ++k)
         if (exchange.has_message(neighbours_[k])) places_.push_back(leaving_[k]);
-    LocalIndex num_arriving = 0;
+    num_arrived_ = 0;
     for (std::size_t n = 0; n < exchange.ranks().size(); ++n) {
         if (!exchange.has_message(n)) continue;
         exchange.message_from(n, message_bytes(columns, exchange.rows_from(n)));
-        num_arriving += exchange.rows_from(n);
+        num_arrived_ += exchange.rows_from(n);
     }
     const LocalIndex num_left = places_.size();
-    if (num_left == 0 && num_arriving == 0) return false;
-    const LocalIndex end = place(num_points, num_arriving);
+    if (num_left == 0 && num_arrived_ == 0) return false;
+    const LocalIndex end = place(num_points, num_arrived_);
     for (LocalIndex i = num_points; i < end; ++i) places_.push_back(i);
     const auto resize = [&](const ByteColumn& column, LocalIndex number) {
         return column.resize(column.result, number * column.components);

@@ -30,6 +30,9 @@ class Migration {
     bool apply(std::span<const detail::ByteColumn> columns, LocalIndex num_points,
                const NeighbourExchange& exchange);
 
+    /// Returns the number of points that apply() has added.
+    LocalIndex num_arrived() const { return num_arrived_; }
+
   private:
     void sort(std::size_t num_neighbours);
     LocalIndex place(LocalIndex num_points, LocalIndex num_arriving);
@@ -39,6 +42,7 @@ class Migration {
     std::vector<LocalIndex> by_neighbour_;  ///< the leaving points, sorted by neighbour
     std::vector<LocalIndex> first_;  ///< begin of each neighbour in by_neighbour_; last, the number
                                      ///< of points
+    LocalIndex num_arrived_ = 0;
     std::vector<LocalIndex> places_;  ///< places of the points that left, ascending
     /// rows to move from the end into free places
     std::vector<std::pair<LocalIndex, LocalIndex>> moves_;

@@ -7,12 +7,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace rrcb {
 
 class PartReaches;
 class PeriodicImages;
+
+/// Returns the box that two boxes have in common; its bounds are reversed if there is none.
+Box common(const Box& a, const Box& b);
+
+/// Returns true if a closed box contains no position.
+bool is_empty(const Box& box, int dimension);
 
 /// Points of this rank, and the ranks that hold each part.
 struct NearRequest {
@@ -46,6 +53,11 @@ class NearBoxes {
     /// parts within reach of the box of the points.
     NearBoxes(const Cuts& cuts, const NearRequest& request);
 
+    /// Lists the boxes near this rank's points, of the boxes of all parts; the end of a row is the
+    /// number of its part. Boxes may overlap: homes() contains those of this rank that no box of
+    /// another rank overlaps. Throws std::bad_alloc.
+    NearBoxes(std::span<const Box> boxes, int dimension, const NearRequest& request);
+
     /// Calls visit(row) for each region that the ball touches, or whose part reaches the centre, in
     /// ascending order of ends. The ball must be that of a point of this rank or an image of it.
     template <int dimension, class Visit>
@@ -63,7 +75,9 @@ class NearBoxes {
     /// Returns all ranks of the listed parts, in ascending order.
     const std::vector<int>& ranks() const { return ranks_; }
 
-    /// Returns boxes in which only this rank holds parts. They do not overlap.
+    const std::vector<Row>& rows() const { return rows_; }
+
+    /// Returns boxes of which only this rank holds all parts; they do not overlap.
     const std::vector<Box>& homes() const { return homes_; }
 
   private:

@@ -12,6 +12,8 @@
 #include "options/request.hpp"
 #include "options/validation.hpp"
 
+#include <rrcb/detail/mix.hpp>
+
 #include <bit>
 
 namespace rrcb {
@@ -38,6 +40,15 @@ std::vector<int> mutual(const std::vector<int>& near, Participant& self) {
     return ranks;
 }
 
+std::uint64_t bits_of(std::span<const Box> boxes, int dimension) {
+    std::uint64_t hash = boxes.size() + (static_cast<std::uint64_t>(dimension) << 62);
+    for (const Box& box : boxes)
+        for (int a = 0; a < dimension; ++a)
+            for (const double end : {box.lower[a], box.upper[a]})
+                hash = detail::mix(hash ^ std::bit_cast<std::uint64_t>(end + 0.0));
+    return hash;
+}
+
 Shared shared(const char* name, double value) {
     return {name, std::bit_cast<std::uint64_t>(value + 0.0)};
 }
@@ -46,16 +57,35 @@ Shared shared(const char* name, double value) {
 
 Neighbours::Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& options) {
     Participant self = mpi::enter(comm, CallName::neighbours);
+    std::uint64_t bits = 0;
+    self.attempt([&] {
+        mpi::require_group(detail::StampAccess::ranks(cuts.stamp), "the balance of the cuts", self);
+        state_ = std::make_unique<State>(options, cuts, options, mpi::rank_of(self.comm),
+                                         mpi::size_of(self.comm));
+        bits = bits_of(cuts);
+    });
+    open(options, bits, "the tree of cuts", self);
+}
+
+Neighbours::Neighbours(std::span<const Box> boxes, int dimension, MPI_Comm comm,
+                       const NeighbourOptions& options) {
+    Participant self = mpi::enter(comm, CallName::neighbours);
+    std::uint64_t bits = 0;
+    self.attempt([&] {
+        state_ = std::make_unique<State>(options, boxes, dimension, options,
+                                         mpi::rank_of(self.comm), mpi::size_of(self.comm));
+        bits = bits_of(boxes, dimension);
+    });
+    open(options, bits, "the boxes", self);
+}
+
+void Neighbours::open(const NeighbourOptions& options, std::uint64_t bits_of_parts,
+                      const char* name_of_parts, Participant& self) {
     std::vector<int> near;
-    std::uint64_t bits_of_cuts = 0;
     std::uint64_t bits_of_ranks = 0;
     std::uint64_t bits_of_box = 0;
     self.attempt([&] {
-        mpi::require_group(detail::StampAccess::ranks(cuts.stamp), "the balance of the cuts", self);
-        state_ = std::make_unique<State>(cuts, options, mpi::rank_of(self.comm),
-                                         mpi::size_of(self.comm));
         near = state_->territory.near_ranks();
-        bits_of_cuts = bits_of(cuts);
         if (options.ranks_of_parts) bits_of_ranks = hash_of(*options.ranks_of_parts);
         if (options.periodic) bits_of_box = state_->territory.images()->hash();
     });
@@ -64,7 +94,7 @@ Neighbours::Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& 
         state_->open(std::move(ranks), self.log);
         detail::StampAccess::ranks(state_->ghosts.stamp) = self.group();
     });
-    agree(self, {{"the tree of cuts", bits_of_cuts},
+    agree(self, {{name_of_parts, bits_of_parts},
                  shared("the cutoff", options.cutoff),
                  shared("travel", options.travel),
                  {"needs", static_cast<std::uint64_t>(options.needs)},
@@ -90,7 +120,14 @@ std::span<const int> Neighbours::ranks() const {
     return State::of(*this).exchange->ranks();
 }
 
-void Neighbours::migrate_columns(const Points& positions, std::span<const ByteColumn> columns) {
+void Neighbours::fail(const std::string& text) {
+    NeighbourExchange& exchange = *State::of(*this).exchange;
+    exchange.begin(CallName::fail_of_neighbours);
+    exchange.end_with(failure_of(ErrorCode::internal, text));
+}
+
+LocalIndex Neighbours::migrate_columns(const Points& positions,
+                                       std::span<const ByteColumn> columns) {
     const NonStop arithmetic;
     State& s = State::of(*this);
     NeighbourExchange& exchange = *s.exchange;
@@ -113,6 +150,7 @@ void Neighbours::migrate_columns(const Points& positions, std::span<const ByteCo
             s.stage = State::Stage::moved;
     });
     exchange.end();
+    return s.migration.num_arrived();
 }
 
 void Neighbours::find_ghosts_of(const Points& points,
@@ -238,12 +276,8 @@ void Neighbours::sum_columns(const SharedEntries& shared, std::span<const SumCol
         for (const SumColumn& column : columns) s.of_ghosts.push_back(column.points);
         exchange.set_types(s.of_ghosts);
         s.list_shared(shared, columns);
-        for (std::size_t n = 0; n < exchange.ranks().size(); ++n) {
-            const std::span<const LocalIndex> entries = s.shared_with(shared, n);
-            pack(
-                s.of_ghosts, entries,
-                exchange.message_to(n, entries.size(), message_bytes(s.of_ghosts, entries.size())));
-        }
+        for (std::size_t n = 0; n < exchange.ranks().size(); ++n) s.pack_shared(shared, n);
+        s.clear_marks(shared);
     });
     exchange.run();
     exchange.end();

@@ -33,13 +33,13 @@ void Neighbours::State::open(std::vector<int> ranks, std::shared_ptr<CallLog> lo
     std::iota(by_rank.begin(), by_rank.end(), std::size_t{0});
     std::ranges::sort(by_rank, {}, [&](std::size_t n) { return rank_of(n); });
     near.emplace(territory.near_boxes(nullptr));
-    quiet.emplace(near->homes(), radius, territory.cuts().dimension, territory.images());
+    quiet.emplace(near->homes(), radius, territory.dimension(), territory.images());
     lists.emplace(near->ranks(), territory.images() != nullptr);
 }
 
 void Neighbours::State::check_positions(const Points& points) const {
     check_lengths(points);
-    require(points.dimension == territory.cuts().dimension,
+    require(points.dimension == territory.dimension(),
             "positions must have the dimension of the cuts: column(x, 2) or (x, 3)");
 }
 
@@ -62,7 +62,7 @@ void Neighbours::State::require_ghosts(Stage least) const {
 void Neighbours::State::exchange_reaches(const Points& points, const Radii& radii,
                                          PartReaches& reaches) {
     const std::size_t width =
-        reaches.numbers().size() / static_cast<std::size_t>(territory.cuts().num_parts);
+        reaches.numbers().size() / static_cast<std::size_t>(territory.num_parts());
     const std::span<const Part> ends = territory.ends();
     const std::size_t row = sizeof(Part) * 4 + width * sizeof(double);
     exchange->attempt([&] {
@@ -98,8 +98,7 @@ void Neighbours::State::exchange_reaches(const Points& points, const Radii& radi
 void Neighbours::State::find_ghosts(const Points& points, const Radii& radii) {
     std::optional<PartReaches> reaches;
     if (radii.are_of_receivers()) {
-        exchange->attempt(
-            [&] { reaches.emplace(territory.cuts().num_parts, territory.cuts().dimension); });
+        exchange->attempt([&] { reaches.emplace(territory.num_parts(), territory.dimension()); });
         exchange_reaches(points, radii, *reaches);
     }
     exchange->attempt([&] {
@@ -141,72 +140,6 @@ void Neighbours::State::note_sent() {
             is_neighbour ? static_cast<std::size_t>(found - exchange->ranks().begin()) : own();
         send[n] = {first, one.count};
         first += one.count;
-    }
-}
-
-void Neighbours::State::list_shared(const SharedEntries& shared,
-                                    std::span<const SumColumn> columns) {
-    LocalIndex number = 0;
-    if (!columns.empty())
-        number =
-            columns[0].points.num_values / std::max<std::size_t>(1, columns[0].points.components);
-    for (const SumColumn& column : columns) check_column(column.points, number, "entries");
-    if (number > 0) check_results(of_ghosts);
-    common.assign(own() + 1, {});
-    LocalIndex first = 0;
-    for (const RankCount& one : shared.ranks) {
-        const auto found = std::ranges::lower_bound(exchange->ranks(), one.rank);
-        if (found == exchange->ranks().end() || *found != one.rank)
-            reject("entries are shared with rank " + std::to_string(one.rank) +
-                   ", which is no neighbour of this one");
-        const auto n = static_cast<std::size_t>(found - exchange->ranks().begin());
-        require(common[n].count == 0, "shared entries must name each rank once");
-        require(one.count <= shared.indices.size() - first,
-                "the numbers of shared entries do not add up to their list");
-        common[n] = {first, one.count};
-        first += one.count;
-    }
-    require(first == shared.indices.size(),
-            "the numbers of shared entries do not add up to their list");
-    require(std::ranges::all_of(shared.indices, [&](LocalIndex i) { return i < number; }),
-            "indices of shared entries must be below the number of entries");
-    if (is_listed.size() < number) is_listed.resize(number);
-    entries.clear();
-    entries.reserve(shared.indices.size());
-    for (const LocalIndex i : shared.indices) {
-        if (is_listed[i] == 0) entries.push_back(i);
-        is_listed[i] = 1;
-    }
-    for (const LocalIndex i : entries) is_listed[i] = 0;
-}
-
-void Neighbours::State::add_shared(const SharedEntries& shared,
-                                   std::span<const SumColumn> columns) {
-    for (std::size_t n = 0; n < own(); ++n) {
-        if (exchange->rows_from(n) != common[n].count)
-            reject("rank " + std::to_string(rank_of(n)) + " shares " +
-                   std::to_string(exchange->rows_from(n)) + " entries with rank " +
-                   std::to_string(territory.rank()) + ", which lists " +
-                   std::to_string(common[n].count));
-        exchange->message_from(n, message_bytes(of_ghosts, common[n].count));
-    }
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-        const ByteColumn& column = columns[k].points;
-        const std::size_t bytes = row_bytes(column);
-        std::byte* const sums = column.resize(column.result, column.num_values);
-        own_values.resize(entries.size() * bytes);
-        gather(sums, bytes, entries, own_values.data());
-        for (const LocalIndex i : entries) std::fill_n(sums + i * bytes, bytes, std::byte{});
-        for (const std::size_t n : by_rank) {
-            if (n == own()) {
-                columns[k].add(entries, column.components, own_values.data(), sums);
-                continue;
-            }
-            const std::byte* const values =
-                exchange->message_from(n, message_bytes(of_ghosts, common[n].count)) +
-                message_bytes(std::span(of_ghosts).first(k), common[n].count);
-            columns[k].add(shared_with(shared, n), column.components, values, sums);
-        }
     }
 }
 

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -50,11 +51,37 @@ struct Neighbours::State {
         LocalIndex count = 0;
     };
 
+    /// Consecutive entries of the list of a pair of ranks, whose values a message contains.
+    struct Run {
+        std::uint64_t first;
+        std::uint64_t count;
+    };
+    static_assert(sizeof(Run) == 16);
+
+    /// Entries of this rank, and the row of a message from which their values follow.
+    struct Segment {
+        std::span<const LocalIndex> entries;
+        LocalIndex row;
+    };
+
+    /// Values from a neighbour, and the segments for which they are.
+    struct Received {
+        const std::byte* values;
+        std::size_t begin, end;
+    };
+
+    /// Marks of shared entries during a call.
+    enum class Mark : std::uint8_t { none, zero, sent };
+
     /// Progress of the ghosts.
     enum class Stage : std::uint8_t { none, moved, found, fetched };
 
-    State(const Cuts& cuts, const NeighbourOptions& options, int rank, int num_ranks)
-        : territory(cuts, options, rank, num_ranks), radius(options.cutoff), needs(options.needs) {
+    /// Takes what a Territory takes: cuts or boxes, options, the rank and the number of ranks.
+    template <class... Arguments>
+    explicit State(const NeighbourOptions& options, Arguments&&... of_territory)
+        : territory(std::forward<Arguments>(of_territory)...),
+          radius(options.cutoff),
+          needs(options.needs) {
         if (options.periodic) ghosts.periodic = *options.periodic;
         ghosts.cutoff = radius;
         ghosts.needs = needs;
@@ -121,11 +148,14 @@ struct Neighbours::State {
         });
     }
 
-    /// Checks the lists of shared entries, and collects each entry once.
+    // The steps of sum(), in their order.
     void list_shared(const SharedEntries& shared, std::span<const detail::SumColumn> columns);
     std::span<const LocalIndex> shared_with(const SharedEntries& shared, std::size_t n) const {
         return std::span(shared.indices).subspan(common[n].first, common[n].count);
     }
+    void pack_shared(const SharedEntries& shared, std::size_t n);
+    void clear_marks(const SharedEntries& shared);
+    void find_segments(const SharedEntries& shared, std::size_t n);
     void add_shared(const SharedEntries& shared, std::span<const detail::SumColumn> columns);
 
     Territory territory;
@@ -149,9 +179,13 @@ struct Neighbours::State {
     std::optional<QuietBoxes> quiet{};
     std::optional<RankLists> lists{};
 
-    std::vector<Range> common{};          ///< entries shared with each neighbour
-    std::vector<LocalIndex> entries{};    ///< each shared entry once
-    std::vector<char> is_listed{};        ///< for all entries; 0 between calls
+    std::vector<Range> common{};        ///< entries shared with each neighbour
+    std::vector<LocalIndex> entries{};  ///< each shared entry that is not 0 here, once
+    std::vector<Mark> marks{};          ///< for all entries; none between calls
+    std::vector<Run> runs{};            ///< of a message, after one with their number
+    std::vector<LocalIndex> sent_entries{};
+    std::vector<Segment> segments{};
+    std::vector<Received> received{};     ///< from each neighbour
     std::vector<std::byte> own_values{};  ///< this rank's values of the shared entries
 
     std::vector<detail::ByteColumn> of_ghosts{};

@@ -16,19 +16,24 @@
 
 namespace rrcb {
 
-/// The parts of this rank, and the parts near them.
+/// The parts of this rank, and the parts near them. Parts are regions of cuts, or boxes.
 class Territory {
   public:
     /// Copies the cuts. Throws Error if the cuts or options are not valid.
     Territory(const Cuts& cuts, const NeighbourOptions& options, int rank, int num_ranks);
+    /// Copies the boxes of the parts. Throws Error for boxes or options that are not valid.
+    Territory(std::span<const Box> boxes, int dimension, const NeighbourOptions& options, int rank,
+              int num_ranks);
     Territory(const Territory&) = delete;
     Territory& operator=(const Territory&) = delete;
 
-    const Cuts& cuts() const { return cuts_; }
+    int dimension() const { return cuts_.dimension; }
+    int num_parts() const { return cuts_.num_parts; }
     const PeriodicImages* images() const { return images_ ? &*images_ : nullptr; }
     int rank() const { return rank_; }
 
-    /// Returns the ends of the tree whose parts are on this rank and have a region, ascending.
+    /// Returns the ends of the tree, or the boxes, whose parts are on this rank and have a region,
+    /// in ascending order.
     std::span<const Part> ends() const { return ends_; }
 
     /// Returns the other ranks with parts within reach of those of this rank, ascending.
@@ -44,6 +49,7 @@ class Territory {
     }
 
     /// Returns the rank that owns a position. If several ranks may own it, prefers this rank.
+    /// Returns -1 for a position in none of the boxes.
     int owner_of(const Vector& position) const;
 
     /// Notes the reaches of this rank's points. A point outside all parts of this rank counts for
@@ -64,10 +70,16 @@ class Territory {
     std::string name_of(const Points& points, LocalIndex point) const;
 
   private:
+    void check(const NeighbourOptions& options);
     RankRange ranks_of_end(Part end) const;
     void find_regions();
+    void add_region(Part end, const Box& region);
+    NearBoxes near(const Box& points, const PartReaches* reaches) const;
+    Part end_at(const Vector& position) const;
+    int owner_by_boxes(const Vector& position) const;
 
-    Cuts cuts_;
+    Cuts cuts_;               ///< without a tree if there are boxes
+    std::vector<Box> boxes_;  ///< of all parts
     std::vector<RankRange> ranks_of_parts_;
     bool has_ranks_;
     int rank_;
@@ -75,8 +87,9 @@ class Territory {
     double reach_;
     std::optional<PeriodicImages> images_{};
     std::vector<Part> ends_{};
-    std::vector<Box> regions_{};  ///< regions of these ends
-    Box all_{};                   ///< box around all regions
+    std::vector<Box> regions_{};      ///< regions of these ends
+    Box all_{};                       ///< box around all regions
+    std::vector<Part> near_parts_{};  ///< parts of other ranks whose boxes are near these
     PackedTree tree_;
     std::optional<QuietBoxes> inside_{};
 };

@@ -41,6 +41,7 @@ ONLY_CPP = {
     "Cuts": "rrcb_get_cuts fails without cuts",
     "unstamped": "a balancer has one communicator",
     "Error": "rrcb_code and rrcb_last_error",
+    "Neighbours::fail": "programs in other languages agree on their own errors",
 }
 # Functions in C alone: a handle holds what is an argument or a result in C++.
 ONLY_C = {
@@ -247,7 +248,7 @@ def main():
     if "--table" in sys.argv:
         print("\n".join(table(cpp, fortran)))
         return 0
-    exceptions = ONLY_CPP.keys() - {name.split("::")[0] for name in cpp}
+    exceptions = ONLY_CPP.keys() - cpp - {name.split("::")[0] for name in cpp}
     problems += [f"the exception {name} is not needed" for name in exceptions | (ONLY_C - c)]
     print("\n".join(sorted(problems)) or
           f"{len(cpp)} functions in C++, {len(c)} in C, {len(fortran & allowed)} procedures in "

@@ -50,6 +50,30 @@ TEST(Controller, says_the_same_on_every_rank_and_rebalances_what_grows) {
     EXPECT_LE(mean_cycle, 16);
 }
 
+TEST(Controller, returns_the_largest_number_of_the_step_before) {
+    Controller controller(MPI_COMM_WORLD);
+    experimental::CostModel model(controller, 1);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < 6; ++step) {
+        double number = 10 * step + rank();
+        if (step == 4 && rank() == 0) number = std::nan("");
+        model.step(1, std::array{1.0}, step == 3 ? nullptr : &number);
+        if (step == 0 || step == 4)
+            EXPECT_EQ(number, -infinity);
+        else if (step != 3)
+            EXPECT_EQ(number, step == 5 ? infinity : 10 * (step - 1) + num_ranks() - 1);
+    }
+}
+
+TEST(Controller, returns_it_without_a_cost_model) {
+    Controller controller(MPI_COMM_WORLD);
+    double number = rank();
+    controller.step({.load = 1, .weight = 1, .largest = &number});
+    number = -5;
+    controller.step({.load = 1, .largest = &number});
+    EXPECT_EQ(number, num_ranks() - 1);
+}
+
 TEST(Controller, drops_what_it_decided_before_a_rebalance_it_did_not_ask_for) {
     Controller controller(MPI_COMM_WORLD);
     controller.rebalanced({.cost = 0.5});

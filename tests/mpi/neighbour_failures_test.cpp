@@ -11,6 +11,7 @@ namespace rrcb {
 namespace {
 
 const MPI_Comm world = MPI_COMM_WORLD;
+constexpr auto not_here = static_cast<LocalIndex>(-1);
 
 /// Ranks in a row: rank r has the points from r to r + 1.
 class Row : public testing::Test {
@@ -207,6 +208,91 @@ TEST_F(Row, entries_in_common_are_summed_in_one_order) {
     EXPECT_EQ(values[1], rank() + 1 < num_ranks() ? 1e16 + (1.1 + rank()) : 1e16);
     EXPECT_EQ(values[2], 3 + 0.7 * rank());
     EXPECT_EQ(counts, (std::vector<int>{rank() > 0 ? 2 : 1, rank() + 1 < num_ranks() ? 2 : 1, 1}));
+}
+
+// Ranks r and r + 1 list the entries 10 r to 10 r + 9. Each holds and fills some of them.
+TEST_F(Row, entries_that_are_zero_or_missing_are_not_sent) {
+    const auto holds = [](int of_rank, int entry) { return (entry + of_rank + 1) % 4 != 0; };
+    const auto value = [&](int of_rank, int entry) {
+        return holds(of_rank, entry) && (entry + of_rank + 1) % 3 == 0 ? 11.0 + entry : 0.0;
+    };
+    std::vector<int> entries;
+    for (int k = 10 * (rank() - 1); k < 10 * (rank() + 1); ++k)
+        if (holds(rank(), k)) entries.push_back(k);
+    SharedEntries shared;
+    for (const int other : {rank() - 1, rank() + 1}) {
+        if (other < 0 || other >= num_ranks()) continue;
+        shared.ranks.push_back({other, 10});
+        const int begin = 10 * std::min(rank(), other);
+        for (int k = begin; k < begin + 10; ++k) {
+            const auto found = std::ranges::find(entries, k);
+            shared.indices.push_back(found == entries.end()
+                                         ? not_here
+                                         : static_cast<LocalIndex>(found - entries.begin()));
+        }
+    }
+    std::vector<double> values;
+    std::vector<std::vector<float>> fields(2);
+    for (const int k : entries) {
+        values.insert(values.end(), {value(rank(), k), 2 * value(rank(), k)});
+        for (std::vector<float>& field : fields) field.push_back(k % 5 == 0 ? 1 : 0);
+    }
+    neighbours_->sum(shared, column(values, 2), fields);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const int other = entries[i] >= 10 * rank() ? rank() + 1 : rank() - 1;
+        const bool is_shared = other >= 0 && other < num_ranks();
+        const double sum = value(rank(), entries[i]) + (is_shared ? value(other, entries[i]) : 0.0);
+        EXPECT_EQ(values[2 * i], sum);
+        EXPECT_EQ(values[2 * i + 1], 2 * sum);
+        const int times = is_shared && holds(other, entries[i]) ? 2 : 1;
+        for (const std::vector<float>& field : fields)
+            EXPECT_EQ(field[i], entries[i] % 5 == 0 ? static_cast<float>(times) : 0.0F);
+    }
+}
+
+TEST_F(Row, lists_of_other_lengths_are_named) {
+    if (num_ranks() < 2) return;
+    SharedEntries shared;
+    if (rank() < 2) shared = {{{1 - rank(), rank() == 0 ? 2U : 1U}}, {0}};
+    if (rank() == 0) shared.indices.push_back(not_here);
+    std::vector<double> values{1};
+    const std::string text = steps_before_error([&] { neighbours_->sum(shared, values); }).second;
+    EXPECT_TRUE(text.find("rank 1 shares 1 entries with rank 0, which lists 2") != text.npos ||
+                text.find("rank 0 shares 2 entries with rank 1, which lists 1") != text.npos)
+        << text;
+}
+
+TEST_F(Row, a_failure_of_the_caller_reaches_all_ranks) {
+    step();
+    const auto [number, text] = steps_before_error([&] {
+        if (rank() == num_ranks() - 1) neighbours_->fail("the lid is open");
+        step();
+    });
+    EXPECT_NE(number, -1);
+    EXPECT_EQ(text, "rank " + std::to_string(num_ranks() - 1) + ": the lid is open");
+    neighbours_.emplace(cuts_, world, NeighbourOptions{.cutoff = 0.3, .travel = 0.3});
+    step();
+    expect_all_points();
+}
+
+TEST_F(Row, columns_may_be_a_vector_of_vectors) {
+    for (double& x : x_) x = std::min(x + 0.25, num_ranks() - 0.01);
+    const std::vector<double> numbers(ids_.begin(), ids_.end());
+    std::vector<std::vector<double>> columns{numbers, x_, numbers};
+    const Points points(columns[1], 1);
+    neighbours_->migrate(points, columns, ids_);
+    ASSERT_EQ(columns[0].size(), ids_.size());
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+        EXPECT_EQ(columns[0][i], static_cast<double>(ids_[i]));
+        EXPECT_EQ(columns[2][i], columns[0][i]);
+    }
+    x_ = columns[1];
+    load_.resize(x_.size() * words_);
+    expect_all_points();
+    const int last = num_ranks() - 1;
+    transfer_in_place(plan(std::vector<Part>(x_.size(), last), num_ranks(), world), world, columns);
+    EXPECT_EQ(columns[2].size(),
+              rank() == last ? static_cast<std::size_t>(per_rank * num_ranks()) : 0U);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct NeighbourCase {
     bool has_radii = false;
     bool is_periodic = false;
     bool has_lattice = false;  ///< many coincident points
+    bool has_boxes = false;    ///< the boxes of the parts are given, not the cuts
     bool turns_parts = false;  ///< parts on other ranks than ranks_of_part() says
     Needs needs = Needs::scatter;
     int num_steps = 4;
@@ -30,9 +31,9 @@ inline std::string text_of(const NeighbourCase& input) {
            std::to_string(input.num_parts) + ", radius " + std::to_string(input.radius) +
            ", travel " + std::to_string(input.travel) + ", radii " +
            std::to_string(input.has_radii) + ", periodic " + std::to_string(input.is_periodic) +
-           ", lattice " + std::to_string(input.has_lattice) + ", turned " +
-           std::to_string(input.turns_parts) + ", needs " +
-           std::to_string(static_cast<int>(input.needs));
+           ", lattice " + std::to_string(input.has_lattice) + ", boxes " +
+           std::to_string(input.has_boxes) + ", turned " + std::to_string(input.turns_parts) +
+           ", needs " + std::to_string(static_cast<int>(input.needs));
 }
 
 /// Points of a rank that drift in the unit cube.
@@ -70,9 +71,16 @@ class NeighbourRun {
         return options;
     }
 
+    Neighbours neighbours() const {
+        if (!input_.has_boxes) return Neighbours(cuts_, MPI_COMM_WORLD, options());
+        std::vector<Box> boxes;
+        for (Part part = 0; part < cuts_.num_parts; ++part) boxes.push_back(box_of(cuts_, part));
+        return Neighbours(boxes, input_.dimension, MPI_COMM_WORLD, options());
+    }
+
     /// Steps, each compared with the collective functions. Returns the first difference.
     std::string run() {
-        Neighbours neighbours(cuts_, MPI_COMM_WORLD, options());
+        Neighbours neighbours = this->neighbours();
         std::string fault;
         for (int step = 0; step < input_.num_steps && fault.empty(); ++step) {
             if (step > 0) drift(step);

@@ -35,6 +35,22 @@ TEST(Neighbours, find_the_points_and_ghosts_of_the_collective_functions) {
         ASSERT_EQ(NeighbourRun<double>(input).run(), "") << test::text_of(input);
 }
 
+TEST(Neighbours, find_the_same_by_the_boxes_of_the_parts) {
+    for (NeighbourCase input : cases()) {
+        input.has_boxes = true;
+        ASSERT_EQ(NeighbourRun<double>(input).run(), "") << test::text_of(input);
+    }
+    for (const int num_parts : {1, num_ranks() / 2 + 1, 3 * num_ranks() + 1})
+        for (const bool turns_parts : {false, true}) {
+            const NeighbourCase input{.num_parts = num_parts,
+                                      .is_periodic = num_parts > 1,
+                                      .has_boxes = true,
+                                      .turns_parts = turns_parts,
+                                      .needs = Needs::symmetric};
+            ASSERT_EQ(NeighbourRun<double>(input).run(), "") << test::text_of(input);
+        }
+}
+
 TEST(Neighbours, take_floats) {
     NeighbourCase input{.dimension = 3, .is_periodic = true};
     EXPECT_EQ(NeighbourRun<float>(input).run(), "");
@@ -78,6 +94,7 @@ NeighbourCase random_case(unsigned seed) {
     input.has_radii = one_of(false, true);
     input.is_periodic = one_of(false, true);
     input.has_lattice = input.travel > 0.3 && one_of(false, false, true);
+    input.has_boxes = !input.has_lattice && one_of(false, true);
     input.turns_parts = one_of(false, false, true);
     input.needs = one_of(Needs::scatter, Needs::scatter, Needs::gather, Needs::symmetric);
     input.num_steps = 3;

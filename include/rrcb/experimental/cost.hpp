@@ -59,10 +59,11 @@ class CostModel {
     ///
     /// @param seconds of this rank's own work; use processor time if ranks share cores
     /// @param columns this rank's number for each column, from 0 to 1e100
+    /// @param largest as Controller::Step::largest
     /// If a rank gave other numbers, too many or too few, throws the same Error on every rank, one
     /// call later, and in every later call. Cost: a small reduction, which overlaps with the next
     /// step, and a fit on rank 0; no memory is allocated.
-    RRCB_API void step(double seconds, std::span<const double> columns);
+    RRCB_API void step(double seconds, std::span<const double> columns, double* largest = nullptr);
 
     /// Returns the seconds that one unit of each column costs, learned from the steps so far; later
     /// steps count more. A column without a cost has 0. Not collective; bit-identical on every

@@ -20,6 +20,7 @@ foreach(program IN ITEMS examples/quick_start/main.cpp examples/loop/main.cpp
                         examples/tutorial/step1.cpp examples/tutorial/step2.cpp
                         examples/tutorial/step3.cpp examples/tutorial/step4.cpp
                         examples/tutorial/step5.cpp
+                        examples/mpm/step/loop_mpi.cpp
                         tests/mpi/groups_test.cpp)
   read_flat(${ROOT}/${program} source)
   string(APPEND compiled "${source}")

@@ -1,5 +1,7 @@
 #include "balancers/balancers_mpi.hpp"
 
+#include "parallel/points.hpp"
+
 #include <rrcb/balance.hpp>
 #include <rrcb/paper.hpp>
 
@@ -32,11 +34,6 @@ void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
     }
 }
 
-rrcb::Points points_of(mpm::Positions positions) {
-    const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
-    return rrcb::Points(std::span(columns).first(static_cast<std::size_t>(positions.dimension)));
-}
-
 /// Returns the closed box of a part. Points on a cut at a face of cells belong to the part above
 /// it. The box below therefore ends slightly before the cut, and does not touch the cells beyond
 /// it.
@@ -55,7 +52,7 @@ mpm::Decomposition decomposition_of(rrcb::Balance& balance, bool on_faces) {
         decomposition.boxes.push_back(closed_box(balance.cuts, part, on_faces));
     decomposition.local_owners = std::move(balance.parts);
     decomposition.owners = [cuts = balance.cuts](mpm::Positions at, std::span<int> owners) {
-        rrcb::assign(cuts, points_of(at), owners);
+        rrcb::assign(cuts, mpm::points_of(at), owners);
     };
     return decomposition;
 }
@@ -65,7 +62,7 @@ mpm::Balancer paper_balancer(bool of_all_points) {
     rrcb::PaperOptions options;
     if (of_all_points) options.domain = rrcb::PaperDomain::points;
     return [options](mpm::Positions positions, MPI_Comm comm) {
-        rrcb::Balance balance = rrcb::balance_as_in_paper(points_of(positions), comm, options);
+        rrcb::Balance balance = rrcb::balance_as_in_paper(mpm::points_of(positions), comm, options);
         return decomposition_of(balance, false);
     };
 }
@@ -79,7 +76,7 @@ mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weig
     const auto last = std::make_shared<rrcb::Balance>();
     return [options, weights, reuses_cuts, last](mpm::Positions positions, MPI_Comm comm) {
         const std::vector<double> weight = weights ? weights() : std::vector<double>();
-        rrcb::Points points = points_of(positions);
+        rrcb::Points points = mpm::points_of(positions);
         points.weights = weight;
         if (!reuses_cuts) last->cuts = {};
         rrcb::balance_into(*last, points, comm, options, last->cuts);

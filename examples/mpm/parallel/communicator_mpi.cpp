@@ -19,12 +19,14 @@ void fail_together(const std::string& text, MPI_Comm comm) {
     if (first < size_of(comm)) throw std::runtime_error(broadcast(text, comm, first));
 }
 
-void in_memory(const std::function<void()>& work, const std::string& place, MPI_Comm comm) {
+void together(const std::function<void()>& work, const std::string& place, MPI_Comm comm) {
     std::string text;
     try {
         work();
     } catch (const std::bad_alloc&) {
         text = place + " need more memory than there is; take larger cells or more machines";
+    } catch (const std::runtime_error& error) {
+        text = error.what();
     }
     fail_together(text, comm);
 }

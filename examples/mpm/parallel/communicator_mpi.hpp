@@ -28,8 +28,8 @@ std::string broadcast(std::string text, MPI_Comm comm, int from = 0);
 /// lowest such rank. Collective.
 void fail_together(const std::string& text, MPI_Comm comm);
 
-/// Calls `work`, which is not collective. If any rank runs out of memory, throws std::runtime_error
-/// that names `place` on all ranks. Collective.
-void in_memory(const std::function<void()>& work, const std::string& place, MPI_Comm comm);
+/// Calls `work`, which is not collective. Throws std::runtime_error on all ranks if any rank throws
+/// it, or runs out of memory; then the text names `place`. Collective.
+void together(const std::function<void()>& work, const std::string& place, MPI_Comm comm);
 
 }  // namespace mpm

@@ -9,7 +9,7 @@ Column Particles::add_column(std::string_view name) {
     const auto found = std::ranges::find(names_, name);
     if (found != names_.end()) return static_cast<Column>(found - names_.begin());
     names_.emplace_back(name);
-    columns_.emplace_back(size_, 0.0);
+    columns_.emplace_back(size(), 0.0);
     return columns_.size() - 1;
 }
 
@@ -27,13 +27,12 @@ Column Particles::find_column(std::string_view name) const {
 
 void Particles::append(std::span<const double> rows) {
     const std::size_t width = columns_.size();
-    const std::size_t num_new = rows.size() / width;
+    const std::size_t num_new = rows.size() / width, begin = size();
     for (std::size_t c = 0; c < width; ++c) {
         std::vector<double>& column = columns_[c];
-        column.resize(size_ + num_new);
-        for (std::size_t i = 0; i < num_new; ++i) column[size_ + i] = rows[i * width + c];
+        column.resize(begin + num_new);
+        for (std::size_t i = 0; i < num_new; ++i) column[begin + i] = rows[i * width + c];
     }
-    size_ += num_new;
 }
 
 void Particles::copy_row(std::size_t point, std::span<double> row) const {
@@ -41,20 +40,19 @@ void Particles::copy_row(std::size_t point, std::span<double> row) const {
 }
 
 void Particles::remove(std::span<const std::size_t> points) {
-    std::size_t last = size_;
+    std::size_t last = size();
     // Starts with the last point, so that all points behind `last` have been removed already.
     for (std::size_t k = points.size(); k-- > 0;) {
         --last;
         for (std::vector<double>& column : columns_) column[points[k]] = column[last];
     }
-    size_ = last;
-    for (std::vector<double>& column : columns_) column.resize(size_);
+    for (std::vector<double>& column : columns_) column.resize(last);
 }
 
 void Particles::reorder(std::span<const std::size_t> order) {
-    scratch_.resize(size_);
+    scratch_.resize(size());
     for (std::vector<double>& column : columns_) {
-        for (std::size_t i = 0; i < size_; ++i) scratch_[i] = column[order[i]];
+        for (std::size_t i = 0; i < scratch_.size(); ++i) scratch_[i] = column[order[i]];
         column.swap(scratch_);
     }
 }

@@ -99,59 +99,6 @@ class Recorder {
     std::optional<mpm::ProbeTable> probes_;
 };
 
-/// Decides when to rebalance: before the first step, and then either every `every` steps or when it
-/// pays. A restart keeps the division in its file.
-class Schedule {
-  public:
-    /// Collective over `comm`. `every` and `learns_cost` are as in Arguments.
-    Schedule(int every, bool learns_cost, std::int64_t first_step, MPI_Comm comm)
-        : every_(every), first_step_(first_step) {
-        constexpr int num_columns = 4;
-        if (every == 0) controller_.emplace(comm);
-        if (!learns_cost) return;
-        if (controller_)
-            model_.emplace(*controller_, num_columns);
-        else
-            model_.emplace(comm, num_columns);
-    }
-
-    /// Returns the weights of the points for the balance that follows.
-    std::vector<double> weights(const mpm::Simulation& simulation) {
-        return model_->weights(model_->uses_costs() ? simulation.point_columns()
-                                                    : std::vector<double>());
-    }
-
-    std::string report() const { return model_ ? model_->report() : ""; }
-
-    /// Collective; call it once before each step.
-    void rebalance_if_due(mpm::Simulation& simulation, const mpm::Balancer& balancer) {
-        const std::int64_t step = simulation.step_count();
-        if (step == first_step_ && step > 0) return;
-        if (step > 0) record(simulation);
-        if (step > 0 && !(controller_ ? controller_->due() : step % every_ == 0)) return;
-        // The ranks have synchronized in the previous step, so this time does not include waiting
-        // for others.
-        const double start = MPI_Wtime();
-        simulation.rebalance(balancer);
-        if (controller_) controller_->rebalanced({.cost = MPI_Wtime() - start});
-    }
-
-  private:
-    void record(const mpm::Simulation& simulation) {
-        const double seconds = simulation.work_seconds();
-        if (model_)
-            model_->step(seconds, simulation.work_columns());
-        else if (controller_)
-            controller_->step(
-                {.load = seconds, .weight = static_cast<double>(simulation.positions().size())});
-    }
-
-    int every_;
-    std::int64_t first_step_;
-    std::optional<rrcb::Controller> controller_;
-    std::optional<rrcb::experimental::CostModel> model_;
-};
-
 /// Prints the share that is done and the time left: about once a second on a terminal, otherwise
 /// one line for each tenth.
 class Progress {
@@ -180,19 +127,33 @@ class Progress {
     double begin_ = MPI_Wtime(), shown_ = begin_ - 1;
 };
 
+/// Whether to rebalance before the next step: before the first one, and then each so many steps, or
+/// when it pays if `every` is 0. A restart keeps the division that it finds.
+bool is_due(const mpm::Simulation& simulation, std::int64_t first_step, int every) {
+    const std::int64_t step = simulation.step_count();
+    if (step == first_step) return step == 0;
+    return every > 0 ? step % every == 0 : simulation.due();
+}
+
 void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Arguments& arguments,
               Recorder& recorder, MPI_Comm comm) {
-    Schedule schedule(arguments.every, arguments.learns_cost, simulation.step_count(), comm);
-    const auto weights = [&] { return schedule.weights(simulation); };
+    rrcb::experimental::CostModel* const costs =
+        arguments.learns_cost ? &simulation.learn_costs() : nullptr;
+    const auto weights = [&] {
+        return costs->weights(costs->uses_costs() ? simulation.point_columns()
+                                                  : std::vector<double>());
+    };
     const auto new_balancer = [&] {
         return make_balancer(arguments.balancer, scene,
-                             arguments.learns_cost ? PointWeights(weights) : PointWeights());
+                             costs != nullptr ? PointWeights(weights) : PointWeights());
     };
     std::optional<mpm::Balancer> balancer = new_balancer();
+    const std::int64_t first_step = simulation.step_count();
     Progress progress(simulation.time(), arguments.end_time);
     for (bool is_last = false; !is_last;) {
         is_last = !(simulation.time() < arguments.end_time);
-        if (balancer && !is_last) schedule.rebalance_if_due(simulation, *balancer);
+        if (balancer && !is_last && is_due(simulation, first_step, arguments.every))
+            simulation.rebalance(*balancer);
         // A restart does not know the earlier cuts. For the same results this run forgets them when
         // it writes a state.
         if (recorder.record(simulation, is_last)) balancer = new_balancer();
@@ -200,8 +161,7 @@ void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Argume
         if (is_last) break;
         simulation.step();
     }
-    if (mpm::rank_of(comm) == 0 && arguments.learns_cost)
-        std::printf("%s\n", schedule.report().c_str());
+    if (mpm::rank_of(comm) == 0 && costs != nullptr) std::printf("%s\n", costs->report().c_str());
 }
 
 void print_end(const mpm::Simulation& simulation, const Arguments& arguments, double seconds) {

@@ -39,10 +39,20 @@ void Simulation::write_state(const std::string& path) const {
 }
 
 void Simulation::step() {
-    model_->step();
+    model_->num_sent += static_cast<std::int64_t>(model_->turn(nullptr));
 }
 std::size_t Simulation::rebalance(const Balancer& balancer) {
-    return model_->rebalance(balancer);
+    const std::size_t num_sent = model_->turn(&balancer);
+    model_->num_sent += static_cast<std::int64_t>(num_sent);
+    return num_sent;
+}
+bool Simulation::due() const {
+    return model_->controller.due();
+}
+rrcb::experimental::CostModel& Simulation::learn_costs() {
+    constexpr int num_columns = 4;
+    if (!model_->costs) model_->costs.emplace(model_->controller, num_columns);
+    return *model_->costs;
 }
 double Simulation::time() const {
     return model_->time;

@@ -1,4 +1,5 @@
 #include "parallel/communicator_mpi.hpp"
+#include "parallel/points.hpp"
 #include "step/stepper.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace mpm {
 
 namespace {
 
-constexpr const char* first_line = "mpm state 3";
+constexpr const char* first_line = "mpm state 4";
 
 void write(std::ostream& file, const std::vector<double>& values) {
     const auto count = static_cast<std::int64_t>(values.size());
@@ -69,10 +70,10 @@ std::vector<double> Stepper<D>::state_scene() const {
     return scene;
 }
 
-/// Returns the time and the numbers of effects, which are the same on all ranks.
+/// Returns the time, the speeds and the numbers of effects, which are the same on all ranks.
 template <int D>
-std::vector<double> Stepper<D>::state_numbers() const {
-    std::vector<double> numbers{time, time_step, max_speed, static_cast<double>(num_steps)};
+std::vector<double> Stepper<D>::state_numbers(double speed) const {
+    std::vector<double> numbers{time, time_step, max_speed, speed, static_cast<double>(num_steps)};
     for (const double* number : stages_.kept) numbers.push_back(*number);
     return numbers;
 }
@@ -95,6 +96,7 @@ void Stepper<D>::write_state(const std::string& path) const {
         append(box.lower, boxes);
         append(box.upper, boxes);
     }
+    const double speed = speed_of_all(speed_);
     bool is_good = true;
     // The ranks write one after another.
     for (int rank = 0; rank < size_of(comm_); ++rank) {
@@ -103,7 +105,7 @@ void Stepper<D>::write_state(const std::string& path) const {
         std::ofstream file(path, rank == 0 ? std::ios::binary : std::ios::binary | std::ios::app);
         if (rank == 0) {
             file << state_names() << '\n';
-            for (const auto& part : {state_scene(), state_numbers(), boxes}) write(file, part);
+            for (const auto& part : {state_scene(), state_numbers(speed), boxes}) write(file, part);
         }
         write(file, state_section());
         is_good = static_cast<bool>(file.flush());
@@ -135,7 +137,7 @@ void Stepper<D>::load_state(const std::string& path) {
     std::getline(file, names);
     if (!file || !names.starts_with(first_line))
         throw std::runtime_error("is no state that this program wrote");
-    const std::vector<double> scene = read(file), numbers = read(file), own = state_numbers();
+    const std::vector<double> scene = read(file), numbers = read(file), own = state_numbers(0);
     if (names != state_names() || scene != state_scene() || numbers.size() != own.size())
         throw std::runtime_error(
             "is the state of another scene, of another grid, or of other bodies, materials, "
@@ -160,8 +162,9 @@ void Stepper<D>::load_state(const std::string& path) {
     time = numbers[0];
     time_step = numbers[1];
     max_speed = numbers[2];
-    num_steps = static_cast<std::int64_t>(numbers[3]);
-    for (std::size_t k = 0; k < stages_.kept.size(); ++k) *stages_.kept[k] = numbers[4 + k];
+    start_speed_ = speed_ = numbers[3];
+    num_steps = static_cast<std::int64_t>(numbers[4]);
+    for (std::size_t k = 0; k < stages_.kept.size(); ++k) *stages_.kept[k] = numbers[5 + k];
 }
 
 template <int D>
@@ -173,6 +176,7 @@ void Stepper<D>::read_state(const std::string& path) {
         error = path + ": " + fault.what();
     }
     fail_together(error, comm_);
+    neighbours_.emplace(boxes_of(decomposition), D, comm_, travel_);
 }
 
 template void Stepper<2>::write_state(const std::string&) const;

@@ -1,5 +1,6 @@
 #include "boundaries/boundaries.hpp"
 #include "parallel/communicator_mpi.hpp"
+#include "parallel/points.hpp"
 #include "particles/vectors.hpp"
 #include "step/stepper.hpp"
 
@@ -15,12 +16,6 @@ namespace {
 constexpr double tolerated_runs = 1.2;
 /// The number of cells that points may move before the patch is fitted to them again.
 constexpr double slack = 1;
-
-MPI_Comm duplicate(MPI_Comm comm) {
-    MPI_Comm own = MPI_COMM_NULL;
-    MPI_Comm_dup(comm, &own);
-    return own;
-}
 
 /// Returns the smallest and the largest of some numbers. Compares two at a time.
 std::array<double, 2> extent_of(std::span<const double> numbers) {
@@ -55,14 +50,13 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
 
 template <int D>
 Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm)
-    : Model(scene),
+    : Model(scene, comm),
       scene_(scene),
       ground_(with_ground(scene)),
-      comm_(duplicate(comm)),
       rule_(rule_for(scene)),
       transfers_(make_transfers<D>(scene_.shape_function, rule_.least_weight, particles)),
       fingerprint_(points.fingerprint),
-      ownership_(ground_.grid, scene_.walls, comm_) {
+      strays_(ground_.grid, scene_.walls) {
     build_materials();
     stages_ = build_stages<D>(scene_, ground_, rule_.wave_speed, particles);
     add_images<D>(ground_, stages_);
@@ -70,18 +64,21 @@ Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
     num_points = points.num_points;
+    // Nodes of a box reach one cell and the margin beyond it.
+    travel_.travel = 2 * (1 + patch_.margin) * ground_.grid.spacing;
     divide_by(slabs(points.box, size_of(comm_)));
+    neighbours_.emplace(boxes_of(decomposition), D, comm_, travel_);
     const auto place = [&] {
         place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
         for (const auto& prepare : stages_.preparations) prepare(particles);
     };
-    in_memory(place, "bodies: the points", comm_);
-    in_memory([&] { fit_patch(); }, "domain: the cells", comm_);
-    in_memory([&] { sort(); }, "bodies: the points", comm_);
+    together(place, "bodies: the points", comm_);
+    together([&] { fit_patch(); }, "domain: the cells", comm_);
+    together([&] { sort(); }, "bodies: the points", comm_);
     for (const double mass : particles[motion_.mass])
         lightest_point_ = std::min(lightest_point_, mass);
     MPI_Allreduce(MPI_IN_PLACE, &lightest_point_, 1, MPI_DOUBLE, MPI_MIN, comm_);
-    max_speed = ownership_.agree(fastest_point()).max_speed;
+    max_speed = start_speed_ = speed_ = speed_of_all(fastest_point());
     set_time_step();
 }
 
@@ -92,8 +89,32 @@ void Stepper<D>::build_materials() {
         materials_.push_back(build_material<D>(material, particles));
 }
 
-/// Adopts a decomposition. The neighbours are kept unless a box begins or ends in another cell.
-/// Call fit_patch() once the points have been moved.
+/// Returns the owners of this rank's points. Collective: throws std::runtime_error on all ranks if
+/// some rank does not get them.
+template <int D>
+std::vector<int> Stepper<D>::owners_by(const Decomposition& next) const {
+    std::vector<int> owners = next.local_owners;
+    std::string fault;
+    try {
+        if (owners.empty()) {
+            owners.resize(particles.size(), -1);
+            next.owners(positions(), owners);
+        }
+        const auto num_ranks = static_cast<std::size_t>(size_of(comm_));
+        if (owners.size() != particles.size() || next.boxes.size() != num_ranks ||
+            std::ranges::any_of(
+                owners, [&](int owner) { return static_cast<std::size_t>(owner) >= num_ranks; }))
+            throw std::runtime_error("");
+    } catch (const std::exception&) {
+        fault =
+            "the decomposition named no owner of some point: it must give one box per rank and a "
+            "rank for every position in the grid";
+    }
+    fail_together(fault, comm_);
+    return owners;
+}
+
+/// Adopts a decomposition. Not collective: find the neighbours and fit the patch afterwards.
 template <int D>
 void Stepper<D>::divide_by(Decomposition next) {
     decomposition = std::move(next);
@@ -102,9 +123,7 @@ void Stepper<D>::divide_by(Decomposition next) {
     ranges.reserve(decomposition.boxes.size());
     for (const Box& box : decomposition.boxes)
         ranges.push_back(nodes_of<D>(ground_.grid, box, patch_.margin));
-    if (ranges == ranges_) return;
-    ranges_ = std::move(ranges);
-    ghosts_.emplace(ranges_, comm_);
+    ghosts_.emplace(ranges, rank_of(comm_));
     ghosts_->number(patch_);
 }
 
@@ -126,17 +145,29 @@ void Stepper<D>::fit_patch() {
     ghosts_->number(patch_);
 }
 
-/// Returns whether the patch covers the points from number `first` on.
+/// Fits the patch to the points after a rebalance. Collective.
 template <int D>
-bool Stepper<D>::fits_patch(std::size_t first) const {
-    const Positions at = positions();
-    for (std::size_t p = first; p < particles.size(); ++p)
-        if (!contains(home_, at[p])) return false;
-    return true;
+void Stepper<D>::fit_to_box(std::size_t num_new) {
+    const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_of(comm_))];
+    const auto fit = [&] {
+        if (!are_inside<D>(box, particles, motion_))
+            throw std::runtime_error(
+                "the decomposition gave a point to a rank whose box does not hold it");
+        fit_patch();
+    };
+    together(fit, "domain: the cells", comm_);
+    sort_if_needed(num_new);
+}
+
+/// Fits the patch to the points after a step if some of them have got to where it has no nodes.
+template <int D>
+void Stepper<D>::fit_to_points(std::size_t num_new) {
+    if (has_outgrown_ || (num_new > 0 && !are_inside<D>(home_, particles, motion_))) fit_patch();
+    sort_if_needed(num_new);
 }
 
 template <int D>
-void Stepper<D>::advance_nodes() {
+void Stepper<D>::points_to_nodes() {
     transfers_->find_runs(particles, patch_, runs_);
     if (num_sorted_runs_ == 0) num_sorted_runs_ = runs_.size();
     transfers_->p2g(particles, runs_, stages_.volume_change, patch_);
@@ -145,18 +176,20 @@ void Stepper<D>::advance_nodes() {
         transfers_->scatter(particles, stages_.fields[f].column, runs_, patch_, patch_.fields[f]);
     }
     for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
-    work.pause();
-    ghosts_->sum(patch_);
-    work.resume();
+}
+
+template <int D>
+void Stepper<D>::move_nodes() {
     const StepTime now{time, time_step};
     for (const auto& effect : stages_.forces) effect.kernel(patch_, now);
     for (const auto& effect : stages_.constraints) effect.kernel(patch_, now);
-    fastest_node_ = move_nodes(patch_, time_step, lightest_point_);
+    fastest_node_ = mpm::move_nodes(patch_, time_step, lightest_point_);
     for (const auto& effect : stages_.moved) effect.kernel(patch_, now);
 }
 
 template <int D>
-void Stepper<D>::advance_points() {
+void Stepper<D>::nodes_to_points() {
+    worked_points = static_cast<double>(particles.size());
     PointBlock<D> block{0, 0, 0, time, time_step, gradients_.get()};
     std::size_t run = 0;
     for (; block.begin < particles.size(); block.begin = block.end) {
@@ -207,6 +240,18 @@ double Stepper<D>::fastest_point() const {
     return std::sqrt(std::max(largest[0], largest[1]));
 }
 
+/// Speed of the fastest point or node of this rank in this step.
+template <int D>
+double Stepper<D>::fastest() {
+    return speed_ = std::max(fastest_point(), fastest_node_);
+}
+
+template <int D>
+double Stepper<D>::speed_of_all(double mine) const {
+    MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_MAX, comm_);
+    return mine;
+}
+
 template <int D>
 void Stepper<D>::set_time_step() {
     time_step = rule_.courant_number * scene_.grid.spacing / (rule_.wave_speed + max_speed);
@@ -214,15 +259,23 @@ void Stepper<D>::set_time_step() {
     if (time < scene_.end_time) time_step = std::min(time_step, scene_.end_time - time);
 }
 
-/// Computes the largest speed of all ranks and sends the leavers. Collective. Returns the number of
-/// points that have arrived; they are the last ones.
+/// Ends a step. The next time step is computed from the largest speed in the step before this one.
 template <int D>
-std::size_t Stepper<D>::migrate_leavers(double speed) {
-    const Agreement agreement = ownership_.agree(speed);
-    max_speed = agreement.max_speed;
-    const auto& owners = ownership_.leavers().owners;
-    num_sent += std::ssize(owners) - std::ranges::count(owners, nobody);
-    return migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_);
+void Stepper<D>::end_step(double speed_before) {
+    std::string fault;
+    try {
+        has_outgrown_ = strays_.remove<D>(home_, motion_, time + time_step, particles);
+    } catch (const std::runtime_error& error) {
+        fault = error.what();
+    }
+    // An effect that reduces its sums must find all ranks.
+    if (!stages_.ends.empty()) fail_together(fault, comm_);
+    if (!fault.empty()) neighbours_->fail(fault);
+    for (const auto& effect : stages_.ends) effect.kernel({time, time_step}, comm_);
+    time += time_step;
+    ++num_steps;
+    max_speed = speed_before < 0 ? start_speed_ : speed_before;
+    set_time_step();
 }
 
 template <int D>
@@ -240,35 +293,6 @@ void Stepper<D>::sort_if_needed(std::size_t num_arrived) {
     if (runs <= tolerated_runs * static_cast<double>(num_sorted_runs_)) return;
     fit_patch();
     sort();
-}
-
-template <int D>
-void Stepper<D>::step() {
-    work.restart();
-    advance_nodes();
-    advance_points();
-    work.pause();
-    worked_points = static_cast<double>(particles.size());
-    for (const auto& effect : stages_.ends) effect.kernel({time, time_step}, comm_);
-    time += time_step;
-    ++num_steps;
-    ownership_.find_leavers<D>(decomposition, home_, particles, motion_, time,
-                               ghosts_->neighbours());
-    const std::size_t arrived = migrate_leavers(std::max(fastest_point(), fastest_node_));
-    if (ownership_.has_outgrown() || !fits_patch(particles.size() - arrived)) fit_patch();
-    sort_if_needed(arrived);
-    set_time_step();
-}
-
-template <int D>
-std::size_t Stepper<D>::rebalance(const Balancer& balancer) {
-    Decomposition next = balancer(positions(), comm_);
-    ownership_.find_reassigned(next, positions(), ghosts_->neighbours());
-    const std::size_t arrived = migrate_leavers(max_speed);
-    divide_by(std::move(next));
-    in_memory([&] { fit_patch(); }, "domain: the cells", comm_);
-    sort_if_needed(arrived);
-    return ownership_.leavers().points.size();
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <stdexcept>
 
 namespace mpm::test {
@@ -168,6 +169,27 @@ TEST(Decomposition, refuses_an_owner_that_one_rank_gets_wrong_on_every_rank) {
     }),
                  std::runtime_error);
     simulation.step();
+}
+
+TEST(Decomposition, shows_a_point_without_a_position_to_every_rank) {
+    Simulation simulation(coarse_slope(), MPI_COMM_WORLD);
+    simulation.step();
+    // The ends of a row of ranks are as far from each other as ranks get.
+    Particles& points = const_cast<Particles&>(simulation.particles());
+    if (rank_of(MPI_COMM_WORLD) == 0)
+        points.data(points.find_column("velocity_x"))[0] = std::nan("");
+    // The tests trap operations with NaN.
+    std::fenv_t traps;
+    std::feholdexcept(&traps);
+    std::string text;
+    try {
+        for (int step = 0; step < 2 * size_of(MPI_COMM_WORLD); ++step) simulation.step();
+    } catch (const std::runtime_error& error) {
+        text = error.what();
+    }
+    std::fesetenv(&traps);
+    EXPECT_NE(text.find("has no finite position: x = "), std::string::npos) << text;
+    EXPECT_NE(text.find("lower the Courant number"), std::string::npos) << text;
 }
 
 TEST(Slabs, divide_the_longest_extent_equally) {

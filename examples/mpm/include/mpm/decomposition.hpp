@@ -13,14 +13,15 @@ namespace mpm {
 ///
 /// In two dimensions the boxes have the bounds 0 along the third axis. The closed boxes cover the
 /// grid and overlap at most in their faces. A point on a face may belong to either side. It keeps
-/// its owner until it has left the owner's closed box.
+/// its owner until it has left the owner's closed box, and then belongs to the first box that
+/// contains it.
 struct Decomposition {
     /// One box per rank, the same on every rank.
     std::vector<Box> boxes;
 
     /// Writes the owner of each position, which is a rank whose closed box contains it. Not
-    /// collective. The simulation calls it for points that have left their box. After a rebalance
-    /// without `local_owners` it calls it for all points.
+    /// collective. The simulation calls it at its start. After a rebalance without `local_owners`
+    /// it calls it for all points.
     std::function<void(Positions, std::span<int>)> owners;
 
     /// Optional: the owners of the positions passed to the balancer, in their order. Some balancers

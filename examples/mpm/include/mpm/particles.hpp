@@ -28,11 +28,11 @@ class Particles {
     Column find_column(std::string_view name) const;
     const std::vector<std::string>& column_names() const { return names_; }
 
-    std::size_t size() const { return size_; }
+    std::size_t size() const { return columns_.empty() ? 0 : columns_.front().size(); }
+    /// All columns, for calls that move points to other ranks.
+    std::vector<std::vector<double>>& columns() { return columns_; }
     double* data(Column column) { return columns_[column].data(); }
-    std::span<const double> operator[](Column column) const {
-        return {columns_[column].data(), size_};
-    }
+    std::span<const double> operator[](Column column) const { return columns_[column]; }
     /// Returns a column by its name. Kernels of a step use indices, which are faster.
     std::span<const double> operator[](std::string_view name) const {
         return (*this)[find_column(name)];
@@ -51,7 +51,6 @@ class Particles {
     std::vector<std::string> names_;
     std::vector<std::vector<double>> columns_;
     std::vector<double> scratch_;
-    std::size_t size_ = 0;
 };
 
 /// The columns that every scene has. Two-dimensional scenes have the first two of each triple.

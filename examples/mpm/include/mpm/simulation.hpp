@@ -1,5 +1,7 @@
 #pragma once
 
+#include <rrcb/experimental/cost.hpp>
+
 #include <mpi.h>
 #include <mpm/decomposition.hpp>
 #include <mpm/particles.hpp>
@@ -58,6 +60,13 @@ class Simulation {
     /// owner's box.
     std::size_t rebalance(const Balancer& balancer);
 
+    /// Returns whether a rebalance before the next step pays. rrcb::Controller finds that from the
+    /// steps and rebalances so far. The result is the same on all ranks.
+    bool due() const;
+    /// Learns from now on what points cost, by work_columns(). Collective; call it before the first
+    /// step. The returned model has the weights for the balancer.
+    rrcb::experimental::CostModel& learn_costs();
+
     /// Writes the complete state of the simulation to a file. Collective; rank 0 writes. Numbers
     /// have the byte order of the machine.
     void write_state(const std::string& path) const;
@@ -66,8 +75,9 @@ class Simulation {
     double time_step() const;  ///< length of the next step, s
     std::int64_t step_count() const;
     std::int64_t num_points() const;  ///< on all ranks at the start
-    double max_speed()
-        const;  ///< largest speed of any point, and of any node in the last step, m/s
+    /// Returns the speed from which time_step() is computed, m/s: that of the fastest point or node
+    /// in the step before the last one, because the reduction overlaps with a step.
+    double max_speed() const;
     /// Returns the processor time that this rank has spent on its own nodes and points in the last
     /// step, s. It excludes communication, which includes waiting for other ranks.
     double work_seconds() const;

@@ -148,9 +148,8 @@ void prepare(const Given& given, Options& options, Contribution& mine, Decision&
 
 /// Refines the cuts by counts of all ranks, or only gives the points their parts by unchanged cuts.
 /// Collective.
-SettledCuts settle(const Given& given, const Options& options, const Box& here, Decision& decision,
-                   const Report& report, Settlement& settlement, SettledCuts&& made,
-                   Participant& self) {
+SettledCuts settle(const Given& given, const Box& here, Decision& decision, const Report& report,
+                   Settlement& settlement, SettledCuts&& made, Participant& self) {
     const Verdict& verdict = decision.verdict;
     const bool may_keep = verdict.kept_imbalance < not_kept;
     const bool counts = may_keep || given.previous;
@@ -201,7 +200,7 @@ void keep(const Given& given, const Options& options, Decision& decision, Balanc
 
 /// Gives every rank all cuts, after many ranks have found them, and the weights of all parts.
 /// Collective: two reductions.
-void complete_cuts(Balance& result, const Options& options, Participant& self) {
+void complete_cuts(Balance& result, Participant& self) {
     join_cuts(result.cuts.tree, self);
     if (result.report.details.num_points == 0) return result.report.part_weights.clear();
     std::vector<double>& weights = result.report.part_weights;
@@ -232,14 +231,13 @@ Balance make_anew(const Given& given, Participant& self) {
     if (is_kept) {
         decision.cuts = std::move(made.cuts);
     } else {
-        made = settle(given, options, here, decision, result.report, *settlement, std::move(made),
-                      self);
+        made = settle(given, here, decision, result.report, *settlement, std::move(made), self);
         take(std::move(made), options.imbalance_tolerance, result);
         is_kept = verdict.kept_imbalance < not_kept && keeps_after_all(decision, options, result);
         if (is_kept) decision.cuts = std::move(result.cuts);
     }
     if (is_kept) keep(given, options, decision, result, self);
-    if (verdict.answer == Answer::totals) complete_cuts(result, options, self);
+    if (verdict.answer == Answer::totals) complete_cuts(result, self);
     self.attempt([&] {
         const bool has_points = result.report.details.num_points > 0;
         if (given.previous && !has_points) result.cuts = fitted(*given.previous, options);

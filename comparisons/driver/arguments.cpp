@@ -47,6 +47,7 @@ const std::map<std::string, std::string>& documentation() {
         {"from", "steps of the scene before the simulations begin, all from one state; 0"},
         {"every",
          "steps between rebalances, or auto (default): when they pay; or several by commas"},
+        {"record", "steps between the records of a simulation in history.csv"},
         {"cost", "learned: simulations compare learned costs of points with counting; count"},
         {"repeats", "timed calls of each method; 6"},
         {"seed", "of the cloud and the order of turns; 1"},
@@ -135,6 +136,7 @@ void check_combination(const Texts& texts) {
     needs("steps", is_scene, "--scene only; remove it");
     needs("from", is_scene, "--scene only; remove it");
     needs("every", is_scene, "--scene only; remove it");
+    needs("record", is_scene, "--scene only; remove it");
     needs("cost", is_scene, "--scene only; remove it");
 }
 
@@ -202,6 +204,7 @@ Arguments read_arguments(int argc, char** argv) {
                        {{"PARTS", Lists::parts}, {"EXPORT", Lists::exports}, {"ALL", Lists::all}});
     read_integer(texts, "steps", arguments.steps, 1, many);
     read_integer(texts, "from", arguments.from, 0, many);
+    read_integer(texts, "record", arguments.record_every, 1, many);
     if (texts.given("every")) arguments.every = read_intervals(texts["every"]);
     read_choice<Cost>(texts, "cost", arguments.cost,
                       {{"count", Cost::count}, {"learned", Cost::learned}});

@@ -40,7 +40,8 @@ struct Arguments : MeasurementPlan {
     int steps = 0;  ///< number of steps of the simulation; 0: until the end of the scene
     int from = 0;   ///< number of steps of the scene before the simulations begin
     std::vector<int> every = {0};  ///< steps between rebalances; 0: a controller decides
-    Cost cost = Cost::count;  ///< `learned` adds simulations that weigh points by learned costs
+    int record_every = 0;     ///< steps between records of a simulation; 0: as many as a file holds
+    Cost cost = Cost::count;  ///< `learned` adds simulations that weigh points by their costs
     std::string out = "comparisons/out";
     Only only = Only::all;
     bool data = true;     ///< write the points and boxes that pictures show

@@ -53,6 +53,9 @@ class PhaseLog {
     /// Returns the work and network time of the last phase if there are `num_ranks` ranks, in s.
     double last_s(int num_ranks) const;
 
+    /// Returns the processor time outside MPI of this rank in each phase, in s.
+    const std::vector<double>& work_s() const { return work_s_; }
+
     /// Returns the cost. Collective over `comm`, all ranks of which have recorded the same phases.
     PathCost cost(MPI_Comm comm) const;
 

@@ -4,6 +4,7 @@
 #include <mpm/scene.hpp>
 
 #include <string>
+#include <vector>
 
 namespace comparisons {
 
@@ -19,5 +20,9 @@ void check_scene(const std::string& name_or_file);
 /// Shipped scenes are read from their files. Throws Failure on every rank with the message of
 /// mpm::read_scene.
 mpm::Scene choose_scene(const std::string& name_or_file, bool quick, MPI_Comm comm);
+
+/// Instructions of a step of a scene for a unit of each of mpm::Simulation::work_columns(), as
+/// `comparisons/studies/run work` finds them; those of the slope for a file. Not collective.
+std::vector<double> unit_costs(const std::string& name_or_file);
 
 }  // namespace comparisons

@@ -9,6 +9,8 @@
 #include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
+#include <sched.h>
+
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -35,6 +37,7 @@ std::vector<SimulationRounds> contenders(const Arguments& arguments, int every) 
         const Method method = read_method("rrcb-arrays");
         all.push_back({"count", {}, method, Cost::count, every});
         all.push_back({"learned", {}, method, Cost::learned, every});
+        all.push_back({"known", {}, method, Cost::known, every});
     }
     if (arguments.every.size() > 1)
         for (SimulationRounds& rounds : all) rounds.method += " every " + interval_text(every);
@@ -84,6 +87,32 @@ void share_failure(SimulationRun& run, MPI_Comm comm) {
     if (has_failed && rank_of(comm) != 0) run.error = "it failed on rank 0";
 }
 
+/// Binds each rank to another core in each turn, so that no rank is always on a slow core. Its
+/// destructor lets the rank use all cores again.
+class CoreRota {
+  public:
+    explicit CoreRota(MPI_Comm comm) : rank_(rank_of(comm)) {
+        sched_getaffinity(0, sizeof(all_), &all_);
+        for (int core = 0; core < CPU_SETSIZE; ++core)
+            if (CPU_ISSET(core, &all_)) cores_.push_back(core);
+    }
+    CoreRota(const CoreRota&) = delete;
+    CoreRota& operator=(const CoreRota&) = delete;
+    ~CoreRota() { sched_setaffinity(0, sizeof(all_), &all_); }
+
+    void bind(int turn) const {
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(cores_[static_cast<std::size_t>(rank_ + turn) % cores_.size()], &one);
+        sched_setaffinity(0, sizeof(one), &one);
+    }
+
+  private:
+    int rank_;
+    cpu_set_t all_{};
+    std::vector<int> cores_;
+};
+
 /// Runs one simulation of each contender that has not failed. The snapshots are those of the first
 /// contender in the first round.
 void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPlan& plan,
@@ -104,14 +133,18 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
                                  weights);
         };
         plans[next].every = rounds.every;
+        const bool differs = rounds.balanced_by && varies_with_seed(*rounds.balanced_by);
         if (!rounds.has_failed() && (!rounds.is_serial || rank_of(comm) == 0))
             simulations[next] = std::make_unique<TimedSimulation>(
                 plans[next], make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr),
-                rounds.is_serial ? MPI_COMM_SELF : comm, rounds.cost);
+                rounds.is_serial ? MPI_COMM_SELF : comm, rounds.cost,
+                round == 0 || differs ? nullptr : &rounds.runs.back());
     }
     // The turns are long enough that most steps find their points in the cache.
     constexpr int turn = 50;
+    const CoreRota cores(comm);
     for (int done = 0; done < plan.num_steps; done += turn) {
+        cores.bind(round + done / turn);
         const auto number = static_cast<std::uint64_t>(done / turn);
         for (const std::size_t next : drawn_order(all.size(), seed, number))
             if (simulations[next]) simulations[next]->advance(turn);
@@ -144,6 +177,10 @@ int steps_of_failure(MPI_Comm comm) {
     mpm::Scene scene = choose_scene("slope", false, comm);
     scene.end_time = end_of_failure_s;
     return steps_to_end(scene, comm);
+}
+
+void add_work(Row& row, const std::string& name, const StepWork& work) {
+    row.add(name, work.all).add(name + "_path", work.path);
 }
 
 void add_cost(Row& row, const std::string& phase, const PathCost& cost) {
@@ -181,6 +218,10 @@ Row round_row(const SimulationPlan& plan, int num_ranks, const SimulationRounds&
     add_cost(row, "step", run.step_cost);
     add_cost(row, "balance", run.balance_cost);
     add_cost(row, "decide", run.decide_cost);
+    add_work(row, "counted", run.counted);
+    add_work(row, "counted_at_rest", run.counted_at_rest);
+    add_work(row, "least_s", run.least_s);
+    add_work(row, "least_at_rest_s", run.least_at_rest_s);
     return row.add("critical_path_s", critical_path_s(run))
         .add("rebalances", run.rebalances)
         .add("moved_fraction", run.moved_fraction)
@@ -197,7 +238,10 @@ Row history_row(const std::string& method, const LoadRecord& record, std::size_t
         .add("lu_percent", nine_digits(rrcb::load_unbalance_percent(record.points)[part]))
         .add("imbalance", nine_digits(rrcb::imbalance(record.points)))
         .add("moved_fraction", nine_digits(record.moved_fraction))
-        .add("seconds", nine_digits(record.seconds[part]));
+        .add("runs", record.columns[1][part])
+        .add("nodes", record.columns[2][part])
+        .add("shared_nodes", record.columns[3][part])
+        .add("work", nine_digits(record.columns[4][part]));
 }
 
 }  // namespace
@@ -210,8 +254,11 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
                      : arguments.scene == "slope" && arguments.only != Only::simulations
                          ? steps_of_failure(comm)
                          : steps_to_end(plan.scene, comm);
-    plan.record_every = record_interval(plan.num_steps, num_runs, comm);
+    plan.record_every = arguments.record_every > 0
+                            ? arguments.record_every
+                            : record_interval(plan.num_steps, num_runs, comm);
     plan.seed = arguments.seed;
+    plan.unit_costs = unit_costs(arguments.scene);
     return plan;
 }
 
@@ -286,7 +333,7 @@ std::string history_csv(std::span<const SimulationRounds> methods) {
                 rows.push_back(history_row(rounds.method, record, part));
         }
     }
-    return csv(history_row({}, {.points = {1}, .seconds = {0}}, 0), rows);
+    return csv(history_row({}, {.points = {1}, .columns = {5, std::vector<double>(1)}}, 0), rows);
 }
 
 void print_round(std::ostream& out, const RoundsDone& done,

@@ -8,6 +8,11 @@
 #include <limits>
 #include <numeric>
 
+/// A step whose columns are recorded, under a name by which Callgrind finds it.
+extern "C" __attribute__((noinline)) void rrcb_recorded_step(mpm::Simulation& simulation) {
+    simulation.step();
+}
+
 namespace comparisons {
 
 namespace {
@@ -70,6 +75,16 @@ void note_state(SimulationRun& run, const mpm::Simulation& simulation, MPI_Comm 
 
 }  // namespace
 
+StepWork step_work(std::span<const double> of_steps, MPI_Comm comm) {
+    std::vector<double> most(of_steps.begin(), of_steps.end());
+    StepWork work{std::accumulate(most.begin(), most.end(), 0.0), 0};
+    MPI_Allreduce(MPI_IN_PLACE, &work.all, 1, MPI_DOUBLE, MPI_SUM, comm);
+    MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX,
+                  comm);
+    work.path = std::accumulate(most.begin(), most.end(), 0.0);
+    return work;
+}
+
 double critical_path_s(const SimulationRun& run) {
     double sum = 0;
     for (const PathCost* cost : {&run.step_cost, &run.balance_cost, &run.decide_cost})
@@ -78,24 +93,25 @@ double critical_path_s(const SimulationRun& run) {
 }
 
 TimedSimulation::TimedSimulation(const SimulationPlan& plan, const BalancerMaker& make_balancer,
-                                 Observer observe, MPI_Comm comm, Cost cost)
-    : plan_(plan), observe_(std::move(observe)), comm_(comm) {
+                                 Observer observe, MPI_Comm comm, Cost cost,
+                                 const SimulationRun* repeated)
+    : plan_(plan), observe_(std::move(observe)), comm_(comm), cost_(cost), repeated_(repeated) {
     MPI_Comm_size(comm, &num_ranks_);
-    balancer_ = make_balancer(cost == Cost::learned ? PointWeights([this] { return weights(); })
-                                                    : PointWeights());
+    balancer_ = make_balancer(cost == Cost::count ? PointWeights()
+                                                  : PointWeights([this] { return weights(); }));
     unless_failed(run_, [&] {
         simulation_ = plan.state.empty()
                           ? std::make_unique<mpm::Simulation>(plan.scene, comm)
                           : std::make_unique<mpm::Simulation>(plan.scene, plan.state, comm);
-        if (balancer_) start_controller(cost);
+        if (balancer_) start_controller();
         run_.num_points = simulation_->num_points();
         observe_(0, *simulation_);
     });
 }
 
-void TimedSimulation::start_controller(Cost cost) {
+void TimedSimulation::start_controller() {
     if (plan_.every == 0) controller_.emplace(comm_);
-    if (cost == Cost::count) return;
+    if (cost_ != Cost::learned) return;
     const auto num_columns = static_cast<int>(simulation_->work_columns().size());
     if (controller_)
         model_.emplace(*controller_, num_columns);
@@ -103,9 +119,23 @@ void TimedSimulation::start_controller(Cost cost) {
         model_.emplace(comm_, num_columns);
 }
 
+/// Of a unit of each column in this rebalance; empty: points are counted.
+std::vector<double> TimedSimulation::costs() const {
+    if (repeated_) return repeated_->plan.at(run_.plan.size()).costs;
+    if (cost_ == Cost::known) return plan_.unit_costs;
+    return model_ && model_->uses_costs() ? model_->costs() : std::vector<double>();
+}
+
 std::vector<double> TimedSimulation::weights() {
-    return model_->weights(model_->uses_costs() ? simulation_->point_columns()
-                                                : std::vector<double>());
+    if (model_) model_->weights({});  // its guard asks which weights were in use
+    const std::vector<double> of_unit = costs();
+    if (of_unit.empty()) return {};
+    const std::vector<double> rows = simulation_->point_columns();
+    std::vector<double> weights(rows.size() / of_unit.size());
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] = std::inner_product(of_unit.begin(), of_unit.end(),
+                                        rows.data() + i * of_unit.size(), 0.0);
+    return weights;
 }
 
 void TimedSimulation::advance(int num_steps) {
@@ -117,32 +147,35 @@ void TimedSimulation::advance(int num_steps) {
 
 void TimedSimulation::advance_one() {
     if (balancer_ && is_due()) rebalance();
-    if (steps_done_ % plan_.record_every == 0) record_load();
+    const bool is_recorded = steps_done_ % plan_.record_every == 0;
+    if (is_recorded) record_load();
     loads_.push_back(static_cast<double>(simulation_->positions().x.size()));
-    run_.step_s += timed([&] { simulation_->step(); }, steps_, comm_);
-    record_step();
+    const auto step = [&] { is_recorded ? rrcb_recorded_step(*simulation_) : simulation_->step(); };
+    run_.step_s += timed(step, steps_, comm_);
+    record_step(is_recorded);
     observe_(++steps_done_, *simulation_);
 }
 
 void TimedSimulation::record_load() {
-    const double mean = seconds_since_record_ / std::max(1, steps_since_record_);
     const auto count = static_cast<double>(simulation_->positions().x.size());
-    run_.history.push_back({simulation_->step_count(), simulation_->time(), gathered(count, comm_),
-                            moved_lately_, gathered(mean, comm_)});
-    seconds_since_record_ = 0;
-    steps_since_record_ = 0;
+    run_.history.push_back(
+        {simulation_->step_count(), simulation_->time(), gathered(count, comm_), moved_lately_});
 }
 
 /// Records the step that has just been done.
-void TimedSimulation::record_step() {
-    const double seconds = steps_.last_s(num_ranks_);
-    seconds_since_record_ += seconds;
-    ++steps_since_record_;
+void TimedSimulation::record_step(bool is_recorded) {
+    const std::vector<double> columns = simulation_->work_columns();
+    counted_.push_back(
+        std::inner_product(columns.begin(), columns.end(), plan_.unit_costs.begin(), 0.0));
+    if (is_recorded) {
+        std::vector<std::vector<double>>& all = run_.history.back().columns;
+        for (const double column : columns) all.push_back(gathered(column, comm_));
+        all.push_back(gathered(counted_.back(), comm_));
+    }
     if (!model_ && !controller_) return;
-    undecided_.seconds += seconds;
+    undecided_.seconds += steps_.last_s(num_ranks_);
     undecided_.points += loads_.back();
     if (model_) {
-        const std::vector<double> columns = simulation_->work_columns();
         undecided_.columns.resize(columns.size());
         std::ranges::transform(undecided_.columns, columns, undecided_.columns.begin(),
                                std::plus());
@@ -159,6 +192,10 @@ void TimedSimulation::record_step() {
 }
 
 bool TimedSimulation::is_due() const {
+    if (repeated_) {
+        const std::size_t number = run_.plan.size();
+        return number < repeated_->plan.size() && repeated_->plan[number].step == steps_done_;
+    }
     if (!controller_) return steps_done_ % plan_.every == 0;
     return steps_done_ == 0 || controller_->due();
 }
@@ -166,6 +203,7 @@ bool TimedSimulation::is_due() const {
 void TimedSimulation::rebalance() {
     std::uint64_t moved = 0;
     run_.balance_s += timed([&] { moved = simulation_->rebalance(*balancer_); }, balances_, comm_);
+    run_.plan.push_back({steps_done_, costs()});
     MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_UINT64_T, MPI_SUM, comm_);
     if (controller_) controller_->rebalanced({.cost = balances_.last_s(num_ranks_)});
     const auto num_points = static_cast<double>(std::max<std::int64_t>(1, run_.num_points));
@@ -192,6 +230,14 @@ SimulationRun TimedSimulation::result() const {
         note_state(run, *simulation_, comm_);
         note_loads(run);
         run.step_cost = steps_.cost(comm_);
+        run.work_s = steps_.work_s();
+        if (repeated_)
+            std::ranges::transform(run.work_s, repeated_->work_s, run.work_s.begin(),
+                                   [](double one, double other) { return std::min(one, other); });
+        run.counted = step_work(counted_, comm_);
+        run.counted_at_rest = step_work(at_rest(counted_), comm_);
+        run.least_s = step_work(run.work_s, comm_);
+        run.least_at_rest_s = step_work(at_rest(run.work_s), comm_);
         run.balance_cost = balances_.cost(comm_);
         run.decide_cost = decisions_.cost(comm_);
     });

@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,8 @@ struct SimulationPlan {
     int record_every = 1;    ///< steps between records of the load
     std::uint64_t seed = 1;  ///< for the order of turns
     std::string state{};     ///< file of the first state; empty: the start of the scene
+    /// Instructions of a step for a unit of each of mpm::Simulation::work_columns().
+    std::vector<double> unit_costs = {1, 0, 0, 0};
 };
 
 /// The number of points on every rank in a step, after its rebalance if it had one.
@@ -36,7 +39,20 @@ struct LoadRecord {
     std::vector<double> points;  ///< per part
     double moved_fraction = 0;   ///< share of the points moved by the last rebalance; 0 before the
                                  ///< first
-    std::vector<double> seconds{};  ///< per part, of a step: mean since the previous record
+    /// Each of mpm::Simulation::work_columns(), and then the instructions, per part.
+    std::vector<std::vector<double>> columns{};
+};
+
+/// A rebalance of a run, which another run can repeat.
+struct Rebalance {
+    int step = 0;
+    std::vector<double> costs;  ///< weight of a unit of each column; empty: each point weighs 1
+};
+
+/// Work in the steps of a run.
+struct StepWork {
+    double all = 0;   ///< of all ranks
+    double path = 0;  ///< of the busiest rank of each step
 };
 
 /// The cost of a complete simulation with one method. It is the same on every rank.
@@ -60,7 +76,22 @@ struct SimulationRun {
     PathCost balance_cost;
     PathCost decide_cost;
     std::vector<LoadRecord> history;
+    std::vector<Rebalance> plan;  ///< when it was rebalanced
+    std::vector<double> work_s;   ///< of this rank in each step
+    StepWork counted;             ///< instructions, by unit costs
+    StepWork counted_at_rest;     ///< in the first twentieth of the steps
+    StepWork least_s;             ///< of each rank and step the least of all equal runs
+    StepWork least_at_rest_s;
 };
+
+/// Sums the work of the ranks in their steps. Collective over `comm`.
+StepWork step_work(std::span<const double> of_steps, MPI_Comm comm);
+
+/// Returns the first twentieth of the steps, in which the points of the slope are at rest.
+template <typename Steps>
+auto at_rest(const Steps& steps) {
+    return std::span(steps).first(steps.size() / 20);
+}
 
 /// Returns the seconds of the run if every rank has a core of its own: the time of the slowest rank
 /// in each step and rebalance, plus the time of the network.
@@ -69,8 +100,9 @@ double critical_path_s(const SimulationRun& run);
 /// Called before the first step and after every step.
 using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
 
-/// The weight of a point: one, or the seconds that the point is estimated to take.
-enum class Cost { count, learned };
+/// The weight of a point: one, the seconds that the point is estimated to take, or its instructions
+/// by the unit costs of the plan.
+enum class Cost { count, learned, known };
 
 /// Returns the balancer of a method for points with these weights, or nullopt for no rebalancing.
 using BalancerMaker = std::function<std::optional<mpm::Balancer>(const PointWeights&)>;
@@ -89,8 +121,10 @@ inline BalancerMaker without_weights(std::optional<mpm::Balancer> balancer) {
 /// that fails records the reason and does not advance further. The plan must outlive the object.
 class TimedSimulation {
   public:
+    /// With `repeated`, which must outlive it, it is rebalanced as in that run.
     TimedSimulation(const SimulationPlan& plan, const BalancerMaker& make_balancer,
-                    Observer observe, MPI_Comm comm, Cost cost = Cost::count);
+                    Observer observe, MPI_Comm comm, Cost cost = Cost::count,
+                    const SimulationRun* repeated = nullptr);
     TimedSimulation(const TimedSimulation&) = delete;
     TimedSimulation& operator=(const TimedSimulation&) = delete;
 
@@ -102,9 +136,10 @@ class TimedSimulation {
 
   private:
     void advance_one();
-    void start_controller(Cost cost);
+    void start_controller();
     void record_load();
-    void record_step();
+    void record_step(bool is_recorded);
+    std::vector<double> costs() const;
     std::vector<double> weights();
     bool is_due() const;
     void rebalance();
@@ -114,6 +149,8 @@ class TimedSimulation {
     std::optional<mpm::Balancer> balancer_;
     Observer observe_;
     MPI_Comm comm_;
+    Cost cost_;
+    const SimulationRun* repeated_;
     int num_ranks_ = 1;
     std::unique_ptr<mpm::Simulation> simulation_;
     std::optional<rrcb::Controller> controller_;
@@ -123,14 +160,13 @@ class TimedSimulation {
     PhaseLog balances_;
     PhaseLog decisions_{Waits::in_the_next};  ///< the controller reduces during the next step
     std::vector<double> loads_;               ///< number of points on this rank in each step
+    std::vector<double> counted_;             ///< instructions of this rank in each step
     struct {
         double seconds = 0;
         double points = 0;
         std::vector<double> columns;
     } undecided_;              ///< sums over the steps not yet passed to the controller
     double moved_lately_ = 0;  ///< share of the points moved by the last rebalance
-    double seconds_since_record_ = 0;
-    int steps_since_record_ = 0;
     int steps_done_ = 0;
 };
 

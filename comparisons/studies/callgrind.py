@@ -42,11 +42,11 @@ def run(command: list[str], ranks: int, function: str, folder: Path) -> tuple[st
                           stdin=subprocess.DEVNULL, env={**os.environ, **EVEN})  # fmt: skip
     if done.returncode:
         sys.exit(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
-    files: dict[str, list[tuple[int, Path]]] = {}
+    files: dict[int, list[tuple[int, Path]]] = {}
     for path in folder.glob("calls.*.*"):
         _, process, part = path.name.split(".")
-        files.setdefault(process, []).append((int(part), path))
-    return done.stdout, [[path for _, path in sorted(parts)] for parts in files.values()]
+        files.setdefault(int(process), []).append((int(part), path))
+    return done.stdout, [[path for _, path in sorted(parts)] for _, parts in sorted(files.items())]  # mpirun starts them in order
 
 
 def own_instructions(path: Path) -> Counter[str]:

@@ -54,15 +54,16 @@ def _draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
     axes.grid(True, axis="y")
 
 
-def draw_seconds(axes: Axes, history: pd.DataFrame) -> None:
-    """Draws the time of each rank in a step as mean of each window; a dashed line is the mean of the ranks."""
-    times, seconds = (values[..., 1:] for values in per_part(history, "seconds"))
+def draw_work(axes: Axes, history: pd.DataFrame) -> None:
+    """Draws the counted work of each rank in a step as mean of each window; a dashed line is the mean of the ranks."""
+    times, work = per_part(history, "work")
     windows = _windows(len(times))
     lengths = np.diff([*windows, len(times)])
-    means = 1e3 * np.add.reduceat(seconds, windows, axis=1) / lengths
+    means = 1e-6 * np.add.reduceat(work, windows, axis=1) / lengths
     for part, of_part in enumerate(means):
         axes.plot(times[windows], of_part, color=plot.PART_COLOURS[part % len(plot.PART_COLOURS)],
-                  linewidth=0.9)  # fmt: skip
-    axes.plot(times[windows], means.mean(axis=0), color="black", linestyle="--", linewidth=0.9)
+                  linewidth=0.9, label=f"rank {part}")  # fmt: skip
+    axes.plot(times[windows], means.mean(axis=0), color="black", linestyle="--", linewidth=0.9, label="mean")
+    axes.set_ylim(bottom=0)
     axes.set_xlabel(TIME)
     axes.grid(True, axis="y")

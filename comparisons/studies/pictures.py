@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import plot
-from history import draw_history, draw_seconds
+from history import draw_history, draw_work
 from matplotlib.figure import Figure
 from results import Results
 
@@ -70,22 +70,23 @@ def are_near_others(points: pd.DataFrame) -> np.ndarray:
 
 def draw_unbalance(results: Results) -> Figure | None:
     """The largest load unbalance of a part during the simulation, as the worst step of each window of steps.
-    Simulations with learned costs are left out, because they balance the time and not the points."""
-    return draw_history({name: of for name, of in results.histories().items() if name != "learned"})
+    Simulations with weights are left out, because they balance the time and not the points."""
+    return draw_history({name: of for name, of in results.histories().items() if name not in ("learned", "known")})
 
 
 def draw_rank_times(results: Results) -> Figure | None:
-    """The time of each rank in a step during the simulation, with counted points and with points that weigh their
-    learned costs. The dashed line is the mean of the ranks."""
+    """The counted work of each rank in a step during the simulation, with counted points, with points that weigh their
+    learned costs, and with known costs. The dashed line is the mean of the ranks."""
     histories = results.histories()
-    if not {"count", "learned"} <= histories.keys():
+    names = [name for name in ("count", "learned", "known") if name in histories]
+    if not names:
         return None
-    figure, grid = plot.panels(1, 2, 10, 3.6, sharex=True, sharey=True)
-    for axes, method in zip(grid[0], ("count", "learned")):
-        draw_seconds(axes, histories[method])
+    figure, grid = plot.panels(1, len(names), 3.6 * len(names), 3.6, sharex=True, sharey=True)
+    for axes, method in zip(grid[0], names):
+        draw_work(axes, histories[method])
         axes.set_title(method)
-    grid[0, 0].set_ylabel("time of a step [ms]")
-    return figure
+    grid[0, 0].set_ylabel("counted work of a step [M instructions]")
+    return plot.legend_above(figure, grid[0, 0])
 
 
 PICTURES = {

@@ -21,8 +21,9 @@ DEFINITIONS = (
     "imbalance: heaviest part / mean part. time: slowest rank, median of the repeats. speed-up: Zoltan RCB's"
     " time / this method's. bytes and messages: of one call over all ranks. moved: weight that changes rank. ghosts:"
     " copies of points that parts need from others, the price of their shape. table.csv has more columns. gain"
-    " kept: of what ideal balance without cost would gain; of even time: of what even times of all ranks without messages would"
-    " gain. count, learned: rrcb-arrays, whose points weigh 1 or the seconds that they cost. wall: by the"
+    " kept: of what ideal balance without cost would gain; of even work: of what even counted work of all ranks would"
+    " gain in the steps. count, learned: rrcb-arrays, whose points weigh 1 or the seconds that they cost; known: weights by"
+    " counted instructions. wall: by the"
     " clock. In brackets: intervals of 95 %; if the interval of a ratio contains 1, the two methods are"
     " not told apart."
 )
@@ -72,7 +73,7 @@ def _add_simulations(report: Report, results: Results) -> None:
         cost_sentence(results.rounds),
     ):
         report.text(text)
-    report.table("What a step still pays: the slowest rank over the mean", paid_table(results.rounds))
+    report.table("What a step still pays: the busiest rank over the mean", paid_table(results.rounds))
 
 
 # --- tables, in which every cell is a text ---
@@ -128,7 +129,7 @@ def simulation_table(runs: pd.DataFrame, rounds: pd.DataFrame) -> pd.DataFrame:
             "speed-up over none": [_ratio(v, m == "none") for v, m in zip(speeds, runs["method"])],
             f"speed-up over {ZOLTAN}": [_ratio(v, m == ZOLTAN) for v, m in zip(as_zoltan, runs["method"])],
             "gain kept %": _numbers(100 * runs["gain_kept"], ".1f"),
-            "of even time %": _numbers(100 * runs["gain_kept_time"], ".1f"),
+            "of even work %": _numbers(100 * runs["gain_kept_work"], ".1f"),
             "rebalances": _numbers(runs["rebalances"], ".0f"),
             "moved %": _numbers(100 * runs["moved_fraction"], ".1f"),
             "wall s": _texts(runs, "wall_s", digits),
@@ -260,13 +261,18 @@ def _ghosts(rows: pd.DataFrame) -> str:
 
 
 def cost_sentence(rounds: pd.DataFrame) -> str:
-    """Describes the gain of learned costs of points compared with counting them."""
-    if (time := paired(rounds, rounds["critical_path_s"], "learned", "count")) is None:
+    """Describes the gain of learned and of known costs of points compared with counting them."""
+    names = ("learned", "known")
+    times = [paired(rounds, rounds["critical_path_s"], name, "count") for name in names]
+    if None in times:
         return ""
-    uneven = [of_method(rounds, uneven_work(rounds), method).text(3) for method in ("learned", "count")]
+    works = [paired(rounds, rounds["counted_path"], name, "count").text(3) for name in names]
+    uneven = [of_method(rounds, uneven_work(rounds), name).text(3) for name in ("count", *names)]
     return (
-        f"With weights from learned costs the critical path took {time.text(2)} times that of counting"
-        f" points{_doubt(time)}; the slowest rank of a step took {uneven[0]} times the mean, by counting {uneven[1]}."
+        f"Compared with counting points, the busiest ranks of the steps do {works[0]} of the counted work with learned"
+        f" costs and {works[1]} with known ones; the busiest rank of a step does {', '.join(uneven)} times the mean"
+        f" (counting, learned, known). By the clock the critical path takes {times[0].text(2)}{_doubt(times[0])} and"
+        f" {times[1].text(2)}{_doubt(times[1])} times as long."
     )
 
 
@@ -276,15 +282,21 @@ def work_sentence(rounds: pd.DataFrame) -> str:
         return ""
     zero = Value(0, 0, 0)
     doubt = "" if slope.is_apart(zero) else f" ({NOT_TOLD_APART} from 0)"
-    return f"Among balanced runs 1 % more points on the fullest rank made the steps {slope.text(2)} % longer{doubt}."
+    text = f"Among balanced runs 1 % more points on the fullest rank added {slope.text(2)} % of counted work to the steps"
+    return f"{text}{doubt}."
 
 
 def paid_table(rounds: pd.DataFrame) -> pd.DataFrame:
-    """Returns the losses that remain in a step with each method, in percent."""
+    """Returns the losses that remain in a step with each method, in percent. Seconds are the least of all rounds. While
+    the points are at rest, the seconds exceed the counted work by what the cores of the machine differ."""
     total = rounds["critical_path_s"]
+    is_last = rounds["round"] == rounds.groupby("method")["round"].transform("max")
     columns = {
         "uneven points %": uneven_points(rounds) - 1,
-        "uneven time %": uneven_work(rounds) - 1,
+        "uneven work, counted %": uneven_work(rounds) - 1,
+        "uneven seconds %": uneven_work(rounds, "least_s").where(is_last) - 1,
+        "work at rest, counted %": uneven_work(rounds, "counted_at_rest") - 1,
+        "seconds at rest %": uneven_work(rounds, "least_at_rest_s").where(is_last) - 1,
         "rebalances, of all %": balancing(rounds) / total,
         "deciding, of all %": (rounds["decide_path_s"] + rounds["decide_network_s"]) / total,
     } | {

@@ -19,7 +19,7 @@ MEDIANS = (
     " step_work_s step_path_s step_root_s step_network_s"
     " step_messages step_bytes balance_messages balance_bytes"
     " balance_work_s balance_path_s balance_root_s balance_network_s"
-    " decide_s decide_work_s decide_path_s decide_root_s decide_network_s"
+    " decide_s decide_work_s decide_path_s decide_root_s decide_network_s counted counted_path"
 ).split()
 
 
@@ -55,10 +55,10 @@ def _add_interval(rows: pd.DataFrame, name: str, values: object) -> None:
 
 def _compare_with_none(rows: pd.DataFrame, rounds: pd.DataFrame) -> None:
     """Adds the speed-up over "none", from pairs of runs. Also adds two shares of the possible gain that is realized.
-    The first assumes free rebalancing and steps as short as with the best method. The second assumes in addition
-    that the least work of any method is distributed evenly, without messages."""
+    The first assumes free rebalancing and steps as short as with the best method. The second is the gain of counted
+    work in the steps, compared with the least work of any method distributed evenly."""
     names = [f"speed_up_critical_path{end}" for end in ("", "_low", "_high")]
-    rows[[*names, "ideal_speed_up", "gain_kept", "gain_kept_time"]] = np.nan
+    rows[[*names, "ideal_speed_up", "gain_kept", "gain_kept_work"]] = np.nan
     if "none" not in rows.index:
         return
     for method in rows.index:
@@ -70,9 +70,9 @@ def _compare_with_none(rows: pd.DataFrame, rounds: pd.DataFrame) -> None:
     rows["ideal_speed_up"] = longest / shortest
     if longest > shortest:
         rows["gain_kept"] = (longest - rows["critical_path_s"]) / (longest - shortest)
-    even = rows["step_work_s"].min() / rounds["ranks"].iloc[0]
+    longest, even = rows["counted_path"]["none"], rows["counted"].min() / rounds["ranks"].iloc[0]
     if longest > even:
-        rows["gain_kept_time"] = (longest - rows["critical_path_s"]) / (longest - even)
+        rows["gain_kept_work"] = (longest - rows["counted_path"]) / (longest - even)
 
 
 def _close_fixed_imbalances(rows: pd.DataFrame, of_method: object) -> None:
@@ -115,7 +115,7 @@ def paired(
 
 
 def of_method(rounds: pd.DataFrame, values: pd.Series, method: str) -> Value:
-    return median_of(values[rounds["method"] == method])
+    return median_of(values[rounds["method"] == method].dropna())
 
 
 def balancing(rounds: pd.DataFrame) -> pd.Series:
@@ -128,15 +128,16 @@ def uneven_points(rounds: pd.DataFrame) -> pd.Series:
     return rounds["path_points"] * rounds["ranks"] / (rounds["points"] * rounds["steps"])
 
 
-def uneven_work(rounds: pd.DataFrame) -> pd.Series:
-    """Returns the measured time of the slowest rank of a step divided by the mean."""
-    return rounds["step_path_s"] * rounds["ranks"] / rounds["step_work_s"]
+def uneven_work(rounds: pd.DataFrame, work: str = "counted") -> pd.Series:
+    """Returns the work of the busiest rank of a step divided by the mean. `work` is "counted", or "least_s" for the
+    least seconds of equal runs, or "counted_at_rest" or "least_at_rest_s" for the first twentieth of the steps."""
+    return rounds[f"{work}_path"] * rounds["ranks"] / rounds[work]
 
 
 def slope_of_work(rounds: pd.DataFrame) -> Value | None:
-    """Returns by how many percent the steps are longer if the fullest rank has 1 % more points. It is the slope of a
-    line through the balanced methods of a round, as median over the rounds. The run without balancing is left out,
-    because its points are also distributed differently."""
+    """Returns by how many percent the counted work of the steps grows if the fullest rank has 1 % more points. It is the
+    slope of a line through the balanced methods of a round, as median over the rounds. The run without balancing is
+    left out, because its points are also distributed differently."""
     slopes = []
     for _, simulated in rounds[rounds["rebalances"] > 0].groupby("round"):
         points, work = uneven_points(simulated), uneven_work(simulated)

@@ -15,6 +15,7 @@ SimulationRun run_of(double step_s) {
     run.num_points = 1000;
     run.wall_s = 50;
     run.step_cost = {4 * step_s, 0.75 * step_s, 0, 0.25 * step_s};
+    run.counted = {10 * step_s, 3 * step_s};
     run.balance_cost = {2.5, 0.5, 0.25, 0.125};
     run.mean_imbalance = 1.5;
     run.moved_fraction = 0.25;
@@ -35,20 +36,23 @@ std::vector<SimulationRounds> two_methods() {
 TEST(SimulationRounds, have_a_row_for_each_run) {
     SimulationPlan plan{.scene = {}, .num_steps = 6};
     plan.scene.name = "slope";
-    EXPECT_EQ(rounds_csv(plan, 4, two_methods()),
-              "method,round,seed,ranks,points,steps,every,scene,wall_s,balance_s,decide_s,step_s,"
-              "mean_imbalance,worst_imbalance,front_x_m,moved_m,mass_kg,path_points,"
-              "step_work_s,step_path_s,step_root_s,step_network_s,step_messages,step_bytes,"
-              "balance_work_s,balance_path_s,balance_root_s,balance_network_s,balance_messages,"
-              "balance_bytes,decide_work_s,decide_path_s,decide_root_s,decide_network_s,"
-              "decide_messages,decide_bytes,critical_path_s,rebalances,moved_fraction,error\n"
-              "fast,1,7,4,1000,6,3,slope,50,0,0,0,1.5,1,,0,0,0,32,6,0,2,0,0,"
-              "2.5,0.5,0.25,0.125,0,0,0,0,0,0,0,0,8.625,8,0.25,\n"
-              "fast,2,,4,1000,6,3,slope,50,0,0,0,1.5,1,,0,0,0,64,12,0,4,0,0,"
-              "2.5,0.5,0.25,0.125,0,0,0,0,0,0,0,0,16.625,8,0.25,\n"
-              "broken,1,,4,1000,6,auto,slope,50,0,0,0,1.5,1,,0,0,0,4,0.75,0,0.25,0,0,"
-              "2.5,0.5,0.25,0.125,0,0,0,0,0,0,0,0,1.625,8,0.25,\n"
-              "broken,2,,4,0,6,auto,slope,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,no balance today\n");
+    EXPECT_EQ(
+        rounds_csv(plan, 4, two_methods()),
+        "method,round,seed,ranks,points,steps,every,scene,wall_s,balance_s,decide_s,step_s,"
+        "mean_imbalance,worst_imbalance,front_x_m,moved_m,mass_kg,path_points,"
+        "step_work_s,step_path_s,step_root_s,step_network_s,step_messages,step_bytes,"
+        "balance_work_s,balance_path_s,balance_root_s,balance_network_s,balance_messages,"
+        "balance_bytes,decide_work_s,decide_path_s,decide_root_s,decide_network_s,"
+        "decide_messages,decide_bytes,counted,counted_path,counted_at_rest,counted_at_rest_path,"
+        "least_s,least_s_path,least_at_rest_s,least_at_rest_s_path,critical_path_s,rebalances,"
+        "moved_fraction,error\n"
+        "fast,1,7,4,1000,6,3,slope,50,0,0,0,1.5,1,,0,0,0,32,6,0,2,0,0,"
+        "2.5,0.5,0.25,0.125,0,0,0,0,0,0,0,0,80,24,0,0,0,0,0,0,8.625,8,0.25,\n"
+        "fast,2,,4,1000,6,3,slope,50,0,0,0,1.5,1,,0,0,0,64,12,0,4,0,0,"
+        "2.5,0.5,0.25,0.125,0,0,0,0,0,0,0,0,160,48,0,0,0,0,0,0,16.625,8,0.25,\n"
+        "broken,1,,4,1000,6,auto,slope,50,0,0,0,1.5,1,,0,0,0,4,0.75,0,0.25,0,0,"
+        "2.5,0.5,0.25,0.125,0,0,0,0,0,0,0,0,10,3,0,0,0,0,0,0,1.625,8,0.25,\n"
+        "broken,2,,4,0,6,auto,slope,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,no balance today\n");
 }
 
 TEST(SimulationRounds, on_rank_0_alone_have_one_rank) {

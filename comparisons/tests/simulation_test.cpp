@@ -330,15 +330,23 @@ TEST(Simulation, several_intervals_take_part_in_the_same_rounds) {
 
 TEST(Simulation, learned_costs_are_compared_with_counting) {
     const std::vector<SimulationRounds> methods = quick_scene("zoltan-rcb", 1, Cost::learned);
-    ASSERT_EQ(methods.size(), 5U);
+    ASSERT_EQ(methods.size(), 6U);
     EXPECT_EQ(methods[2].method, "count");
     EXPECT_EQ(methods[3].method, "learned");
+    EXPECT_EQ(methods[4].method, "known");
     for (const SimulationRounds& rounds : methods) {
         ASSERT_EQ(rounds.runs.front().error, "") << rounds.method;
         const std::vector<LoadRecord>& history = rounds.runs.front().history;
         ASSERT_EQ(history.size(), 4U) << rounds.method;
-        EXPECT_EQ(history[0].seconds.front(), 0) << rounds.method;
-        for (const double seconds : history[1].seconds) EXPECT_GT(seconds, 0) << rounds.method;
+        const std::vector<double> costs = unit_costs("slope");
+        for (const LoadRecord& record : history)
+            for (std::size_t part = 0; part < record.points.size(); ++part) {
+                double work = 0;
+                for (std::size_t j = 0; j < costs.size(); ++j)
+                    work += costs[j] * record.columns[j][part];
+                EXPECT_DOUBLE_EQ(record.columns[0][part], record.points[part]) << rounds.method;
+                EXPECT_DOUBLE_EQ(record.columns[4][part], work) << rounds.method;
+            }
     }
 }
 

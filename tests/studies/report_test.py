@@ -23,7 +23,7 @@ ROUNDS = [
     run
     for i, noise in enumerate(NOISE)
     for run in (
-        simulated("none", i, 2 * noise, rebalances=0, path_points=4000, step_path_s=1.58),
+        simulated("none", i, 2 * noise, rebalances=0, path_points=4000, counted_path=1.58),
         simulated("zoltan-rcb", i, noise * (1 + 0.01 * (-1) ** i), balance_path_s=0.5),
         simulated("rrcb", i, noise),
         simulated("rrcb-exact", i, 0.5 * noise),
@@ -97,16 +97,18 @@ class SentenceTest(FolderTest):
 
     def test_work_follows_points_by_the_slope_through_balanced_methods(self) -> None:
         balanced = [("a", 2500, 1.1), ("b", 2550, 1.12), ("c", 2600, 1.14)]
-        rounds = [simulated(m, i, 1, path_points=n, step_path_s=s) for i in range(6) for m, n, s in balanced]
+        rounds = [simulated(m, i, 1, path_points=n, counted_path=s) for i in range(6) for m, n, s in balanced]
         # Of 2 and 4 % more points 2 and 4 % of a second more; a run that does not balance has no say.
         text = report.work_sentence(pd.DataFrame(rounds + ROUNDS[::4]))
-        self.assertIn("made the steps 1.00 % longer.", text)
+        self.assertIn("added 1.00 % of counted work to the steps.", text)
         self.assertEqual(report.work_sentence(pd.DataFrame(ROUNDS)), "")
 
     def test_a_step_pays_for_uneven_points_and_time(self) -> None:
         paid = report.paid_table(pd.DataFrame(ROUNDS)).set_index("method")
-        self.assertEqual(paid.loc["none", ["uneven points %", "uneven time %"]].tolist(), ["60.00", "58.00"])
-        self.assertEqual(paid.loc["rrcb", ["uneven points %", "uneven time %"]].tolist(), ["0.00", "10.00"])
+        self.assertEqual(paid.loc["none", ["uneven points %", "uneven work, counted %"]].tolist(), ["60.00", "58.00"])
+        names = [f"{name} %" for name in ("uneven points", "uneven work, counted", "uneven seconds",
+                                          "work at rest, counted", "seconds at rest")]  # fmt: skip
+        self.assertEqual(paid.loc["rrcb", names].tolist(), ["0.00", "10.00", "20.00", "5.00", "15.00"])
 
     def test_counts_give_the_gain_on_any_machine(self) -> None:
         counted = report.counted_table(self.results(ROWS, ROUNDS).runs).set_index("method")

@@ -44,8 +44,11 @@ class SummaryTest(unittest.TestCase):
         self.assertEqual(rows["speed_up_critical_path"].tolist(), [1, 8 / 5, 8 / 12])
         self.assertEqual(rows["ideal_speed_up"].tolist(), [2] * 3)  # 12 / 6 in the median
         self.assertEqual(rows["gain_kept"].tolist(), [0, (12 - 7.5) / (12 - 6), -1])
-        # All have the work of one second on one rank.
-        self.assertEqual(rows["gain_kept_time"].tolist(), [0, 4.5 / 11, -6 / 11])
+
+    def test_keeps_of_even_work_what_is_counted(self) -> None:
+        counts = {"none": 8, "fast": 3, "slow": 5}  # of the busiest ranks; four ranks do 2 each
+        rows = summary([r | {"counted": 8, "counted_path": counts[r["method"]], "ranks": 4} for r in RUNS])
+        self.assertEqual(rows["gain_kept_work"].tolist(), [0, 5 / 6, 3 / 6])
 
     def test_keeps_no_gain_where_there_is_none(self) -> None:
         rows = summary([run("none", 1, 3), run("idle", 1, 3, 1)])

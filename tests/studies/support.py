@@ -40,7 +40,8 @@ def simulated(method: str, number: int, path: float, **more: object) -> dict:
     return dict.fromkeys(names.split(), 1) | dict.fromkeys(decisions.split(), 0) | {
         "method": method, "round": number, "seed": None, "ranks": 4, "points": 1000, "steps": 10,
         "every": "auto", "critical_path_s": path, "step_work_s": 4, "step_path_s": 1.1,
-        "path_points": 2500, "balance_path_s": 0.1, "balance_network_s": 0.1, "rebalances": 2,
+        "path_points": 2500, "counted": 4, "counted_path": 1.1, "counted_at_rest": 4, "counted_at_rest_path": 1.05,
+        "least_s": 4, "least_s_path": 1.2, "least_at_rest_s": 4, "least_at_rest_s_path": 1.15, "balance_path_s": 0.1, "balance_network_s": 0.1, "rebalances": 2,
         "moved_fraction": 0.125, "error": None, "scene": "slope", "step_messages": 60,
         "step_bytes": 48_000, "balance_messages": 20, "balance_bytes": 3_000,
     } | more  # fmt: skip

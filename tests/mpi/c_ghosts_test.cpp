@@ -218,9 +218,9 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     expect_refused(rrcb_ghosts_accumulate(ghosts, 1, no_columns, nullptr), "columns is null");
     expect_refused(rrcb_ghosts_fetch(nullptr, 0, nullptr, nullptr), "ghosts is null");
     if (num_ranks() > 1) {
-        rrcb_transfer_options options = RRCB_TRANSFER_OPTIONS_INIT;
-        options.max_bytes = is_last_rank() ? std::size_t{1} << 20 : 1 << 21;
-        expect_refused(rrcb_ghosts_fetch(ghosts, 0, nullptr, &options), "TransferOptions");
+        rrcb_transfer_options limits = RRCB_TRANSFER_OPTIONS_INIT;
+        limits.max_bytes = is_last_rank() ? std::size_t{1} << 20 : 1 << 21;
+        expect_refused(rrcb_ghosts_fetch(ghosts, 0, nullptr, &limits), "TransferOptions");
     }
 }
 

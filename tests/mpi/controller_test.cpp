@@ -58,10 +58,11 @@ TEST(Controller, returns_the_largest_number_of_the_step_before) {
         double number = 10 * step + rank();
         if (step == 4 && rank() == 0) number = std::nan("");
         model.step(1, std::array{1.0}, step == 3 ? nullptr : &number);
-        if (step == 0 || step == 4)
+        if (step == 0 || step == 4) {
             EXPECT_EQ(number, -infinity);
-        else if (step != 3)
+        } else if (step != 3) {
             EXPECT_EQ(number, step == 5 ? infinity : 10 * (step - 1) + num_ranks() - 1);
+        }
     }
 }
 
@@ -157,7 +158,7 @@ TEST(Controller, refuses_bad_loads_and_costs_of_one_rank_on_all) {
 TEST(Controller, names_the_lowest_of_the_ranks_with_bad_input) {
     const int lowest = std::min(1, num_ranks() - 1);
     Controller controller(MPI_COMM_WORLD);
-    EXPECT_FALSE(controller.step({.load = rank() < lowest ? 1 : -1}));
+    EXPECT_FALSE(controller.step({.load = rank() < lowest ? 1. : -1.}));
     expect_error(controller, "rank " + std::to_string(lowest) +
                                  ": the load, the points or a column of a step are negative, NaN "
                                  "or infinite; give a finite number of at least 0");

@@ -151,13 +151,14 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].has_failed()) continue;
-        SimulationRun& run = all[i].runs.emplace_back();
+        SimulationRun run;  // a result may read the runs of earlier rounds
         if (simulations[i]) run = simulations[i]->result();
         if (all[i].is_serial) share_failure(run, comm);
         const std::optional<Method>& method = all[i].balanced_by;
         if (method && varies_with_seed(*method))
             run.seed = method->seed() + static_cast<unsigned>(round);
         if (round > 0) run.history.clear();
+        all[i].runs.push_back(std::move(run));
     }
 }
 

@@ -21,8 +21,6 @@
 
 namespace rrcb {
 
-struct Participant;
-
 /// Distances within which ranks are neighbours, and the ranks of the parts. They must be the same
 /// on every rank.
 struct NeighbourOptions {
@@ -362,9 +360,6 @@ class Neighbours {
   private:
     friend struct detail::NeighbourAccess;
     struct State;
-
-    void open(const NeighbourOptions& options, std::uint64_t bits_of_parts,
-              const char* name_of_parts, Participant& self);
 
     // The functions above for columns without their types. When columns migrate, the results are
     // their own arrays; when ghosts are fetched, the results are the arrays of the ghosts; of

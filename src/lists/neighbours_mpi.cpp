@@ -64,7 +64,7 @@ Neighbours::Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& 
                                          mpi::size_of(self.comm));
         bits = bits_of(cuts);
     });
-    open(options, bits, "the tree of cuts", self);
+    detail::NeighbourAccess::open(*this, options, bits, "the tree of cuts", self);
 }
 
 Neighbours::Neighbours(std::span<const Box> boxes, int dimension, MPI_Comm comm,
@@ -76,23 +76,25 @@ Neighbours::Neighbours(std::span<const Box> boxes, int dimension, MPI_Comm comm,
                                          mpi::rank_of(self.comm), mpi::size_of(self.comm));
         bits = bits_of(boxes, dimension);
     });
-    open(options, bits, "the boxes", self);
+    detail::NeighbourAccess::open(*this, options, bits, "the boxes", self);
 }
 
-void Neighbours::open(const NeighbourOptions& options, std::uint64_t bits_of_parts,
-                      const char* name_of_parts, Participant& self) {
+void detail::NeighbourAccess::open(Neighbours& neighbours, const NeighbourOptions& options,
+                                   std::uint64_t bits_of_parts, const char* name_of_parts,
+                                   Participant& self) {
+    const std::unique_ptr<Neighbours::State>& state = neighbours.state_;
     std::vector<int> near;
     std::uint64_t bits_of_ranks = 0;
     std::uint64_t bits_of_box = 0;
     self.attempt([&] {
-        near = state_->territory.near_ranks();
+        near = state->territory.near_ranks();
         if (options.ranks_of_parts) bits_of_ranks = hash_of(*options.ranks_of_parts);
-        if (options.periodic) bits_of_box = state_->territory.images()->hash();
+        if (options.periodic) bits_of_box = state->territory.images()->hash();
     });
     std::vector<int> ranks = mutual(near, self);
     self.attempt([&] {
-        state_->open(std::move(ranks), self.log);
-        detail::StampAccess::ranks(state_->ghosts.stamp) = self.group();
+        state->open(std::move(ranks), self.log);
+        StampAccess::ranks(state->ghosts.stamp) = self.group();
     });
     agree(self, {{name_of_parts, bits_of_parts},
                  shared("the cutoff", options.cutoff),

@@ -40,6 +40,9 @@ struct detail::NeighbourAccess {
                     std::span<const SumColumn> columns) {
         neighbours.sum_columns(shared, columns);
     }
+    /// Finds the neighbours by the parts of the state, and opens the exchange. Collective.
+    static void open(Neighbours& neighbours, const NeighbourOptions& options,
+                     std::uint64_t bits_of_parts, const char* name_of_parts, Participant& self);
     /// Begins a call and fails at once, on this rank and on the neighbours. Throws Error.
     static void fail(Neighbours& neighbours, CallName call, const Failure& failure);
 };

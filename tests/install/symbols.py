@@ -86,7 +86,7 @@ def declared_in(headers):
         text = bare(Path(header).read_text())
         classes |= set(re.findall(r"\bclass\s+(?:\w+_API\s+)?(\w+)", text))
         for scope, statement in statements(text):
-            statement = re.sub(r"\b(public|private|protected):", "", statement).strip()
+            statement = re.sub(r"\b(public|private|protected):|\[\[\w+\]\]", "", statement).strip()
             if scope and not scope.startswith("rrcb"):
                 continue
             match = re.match(r"[\w:&*<>,\s]*?(operator=|~?\w+)\s*\(", statement)

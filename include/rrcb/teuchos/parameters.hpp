@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rrcb/export.h>
 #include <rrcb/options.hpp>
 
 #include <Teuchos_ParameterList.hpp>

@@ -13,7 +13,7 @@ namespace rrcb {
 namespace {
 
 constexpr std::uint64_t magic = 0x5252434273746174;  // "RRCBstat"
-constexpr std::uint64_t newest_format = 1;
+constexpr std::uint64_t newest_format = 2;
 
 /// Words of the head.
 enum Head : std::size_t { mark, format, kind_of_state, num_words, checksum, head_size };
@@ -77,6 +77,10 @@ SavedState::SavedState(std::span<const std::byte> bytes, StateKind kind)
     if (!words_.empty() && words_[mark] == reversed(magic))
         std::ranges::transform(words_, words_.begin(), reversed);
     check_head(words_, bytes.size(), kind);
+}
+
+bool SavedState::has_format(std::uint64_t number) const {
+    return words_[format] >= number;
 }
 
 void SavedState::exchange(std::uint64_t& word) {

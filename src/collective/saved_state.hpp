@@ -43,6 +43,10 @@ class SavedState {
         require_count(static_cast<std::uint64_t>(value), most);
     }
 
+    /// Returns whether the state has the words that a format has added: 1 is that of version 0.2,
+    /// and 2 adds the numbers that the steps of a controller hand on.
+    bool has_format(std::uint64_t number) const;
+
     /// Returns the number of words still to be read. When writing, returns SIZE_MAX.
     std::size_t num_left() const { return reads_ ? words_.size() - next_ : SIZE_MAX; }
 

@@ -33,9 +33,15 @@ void Controller::State::set_own_numbers(std::span<const double> numbers) {
 
 void Controller::State::store(SavedState& state) {
     std::span record(message_->all.data(), StepMessage::num_doubles);
+    const bool has_numbers = state.has_format(2);
+    if (!has_numbers) {
+        record.back() = none_offered;
+        record = record.first(record.size() - 1);
+    }
     state.each(has_started_, record, is_due, counts_points, least_imbalance_, num_points_,
                total_weight_, num_rebalances_, num_heeded_, rule_, num_followed_, root_asks_,
-               num_to_skip_, largest_);
+               num_to_skip_);
+    if (has_numbers) state.each(largest_);
 }
 
 void Controller::State::resume() {

@@ -24,7 +24,7 @@ struct StepRecord {
     double bad_input = 0;  ///< code_of() the bad input; the maximum is that of the lowest rank
     double num_rebalances = 0;
     double minus_num_rebalances = 0;
-    double offered = none_offered;  ///< number that the caller gave
+    double offered = none_offered;  ///< number that the caller gave; must stay the last field
 };
 
 /// Returns the code of invalid input. Lower ranks have larger codes.

@@ -204,7 +204,7 @@ TEST(Restart, refuses_what_is_truncated_foreign_newer_or_changed) {
     longer.push_back({});
     expect_refused(longer, "pass all bytes");
     Bytes newer = good;
-    set_word(newer, 1, 2);
+    set_word(newer, 1, 1000);
     expect_refused(newer, "newer RRCB");
     Bytes changed = good;
     changed.back() ^= std::byte{1};

@@ -58,7 +58,7 @@ class Bins {
     double width_ = 0;          ///< width of a bin
     double bins_a_length_ = 0;  ///< 1 / width_, if that is finite
     double sure_ = 0;           ///< if a value is nearer than this to the middle of a bin, in bins,
-                       ///< round-off cannot put it into another bin
+                                ///< round-off cannot put it into another bin
     std::int64_t lower_rank_ = 0;    ///< rank of `lower` among all doubles in ascending order
     std::uint64_t num_doubles_ = 0;  ///< number of doubles in the bracket
     std::uint64_t doubles_a_bin_ = 1;

@@ -42,8 +42,8 @@ struct CutSearch {
     std::int32_t coincident = 0;  ///< set at the end; 1: the target is among inseparable points
     double found_below = 0;  ///< set at the end: weight of the node below the cut, without points
                              ///< to be divided
-    double lot_below = 0;  ///< set at the end: weight of points to be divided that belongs below
-                           ///< the cut
+    double lot_below = 0;    ///< set at the end: weight of points to be divided that belongs below
+                             ///< the cut
 };
 
 /// Allowed numbers of points below a cut, so that each side has at least one point for each of its

@@ -1,11 +1,13 @@
 #include "lists/quiet_boxes.hpp"
 
 #include "arithmetic/infinity.hpp"
+#include "arithmetic/vector_clones.hpp"
 #include "cuts/tree.hpp"
 #include "lists/periodic_images.hpp"
 #include "passes/point_layout.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -58,6 +60,28 @@ bool is_inside(const Layout& x, LocalIndex i, const Box& box) {
     return true;
 }
 
+/// Returns whether all points of a block are in an open box. Has no branches, so that the compiler
+/// compares several points at a time. In columns that costs less than half of a test of each point.
+template <int Dimension, class Scalar>
+RRCB_VECTOR_CLONES bool are_inside(const ColumnLayout<Dimension, Scalar>& x, LocalIndex first,
+                                   LocalIndex last, const Box& box) {
+    std::int64_t outside = 0;
+    for (int a = 0; a < Dimension; ++a) {
+        const double lower = box.lower[a];
+        const double upper = box.upper[a];
+        for (LocalIndex i = first; i < last; ++i)
+            outside |= static_cast<std::int64_t>(!(x(i, a) > lower)) |
+                       static_cast<std::int64_t>(!(x(i, a) < upper));
+    }
+    return outside == 0;
+}
+
+/// Other layouts gain nothing from a test of all points, so each point is tested.
+template <class Layout>
+bool are_inside(const Layout&, LocalIndex, LocalIndex, const Box&) {
+    return false;
+}
+
 }  // namespace
 
 QuietBoxes::QuietBoxes(std::span<const Box> homes, double radius, int dimension,
@@ -90,6 +114,7 @@ LocalIndex QuietBoxes::list_outside(const Points& points, LocalIndex first, Loca
     return visit_layout(points, [&](const auto& x) {
         LocalIndex number = 0;
         const Box front = boxes_.front();
+        if (are_inside(x, first, last, front)) return LocalIndex{0};
         for (LocalIndex i = first; i < last; ++i)
             if (!is_inside(x, i, front)) outside[number++] = i;
         for (const Box& box : std::span(boxes_).subspan(1)) {

@@ -36,7 +36,7 @@ class CostMatrix {
     std::span<double> numbers() { return std::span(numbers_).first(size_ * size_); }
 
   private:
-    std::array<double, most_cost_columns * most_cost_columns> numbers_{};
+    std::array<double, std::size_t{most_cost_columns} * most_cost_columns> numbers_{};
     std::size_t size_;
 };
 

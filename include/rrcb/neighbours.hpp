@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/detail/step_columns.hpp>
 #include <rrcb/ghosts.hpp>
 #include <rrcb/transfer.hpp>
 
@@ -45,8 +46,8 @@ struct SharedEntries {
                                    ///< order of ranks
     /// Indices of these entries: for the first rank, then for the second, ... Both ranks of a pair
     /// must list the same entries in the same order.
-    /// A rank lists no_entry for an entry that it does not hold: it adds nothing to the sum and
-    /// does not get it.
+    /// A rank lists the largest LocalIndex for an entry that it does not hold: it adds nothing to
+    /// the sum and does not get it.
     std::vector<LocalIndex> indices;
 };
 
@@ -70,102 +71,7 @@ GhostArrays<Arrays...> ghosts_of(Arrays&... arrays) {
 }
 
 namespace detail {
-
 struct NeighbourAccess;
-
-/// Stands for an entry that this rank does not hold, in SharedEntries.
-inline constexpr LocalIndex no_entry = static_cast<LocalIndex>(-1);
-
-/// Several arrays in a vector, each of which is a column.
-template <class Array>
-concept ArrayList = std::ranges::range<Array> &&
-    requires(std::ranges::range_reference_t<Array> one) {
-    one.resize(0);
-};
-
-/// Calls make(column) for each column and for each array of a list. Returns the results: an array,
-/// or a vector if there is a list.
-template <class Make, class... Columns>
-auto for_each_column(Make&& make, Columns&&... columns) {
-    using Result = std::common_type_t<decltype(make(std::declval<std::vector<double>&>()))>;
-    if constexpr ((ArrayList<Columns> || ...)) {
-        std::vector<Result> all;
-        const auto add = [&]<class Values>(Values&& values) {
-            if constexpr (ArrayList<Values>)
-                for (auto& one : values) all.push_back(make(one));
-            else
-                all.push_back(make(std::forward<Values>(values)));
-        };
-        (add(std::forward<Columns>(columns)), ...);
-        return all;
-    } else {
-        return std::array<Result, sizeof...(Columns)>{make(std::forward<Columns>(columns))...};
-    }
-}
-
-/// Adds the values of a column to the values of some points.
-using AddValues = void(std::span<const LocalIndex> points, std::size_t components,
-                       const void* values, void* sums);
-
-/// A column of points, and the column of their ghosts that is added to it. The result of `points`
-/// is written.
-struct SumColumn {
-    ByteColumn ghosts;
-    ByteColumn points;
-    AddValues* add;
-};
-
-template <class T>
-void add_values(std::span<const LocalIndex> points, std::size_t components, const void* values,
-                void* sums) {
-    add_each(points, components, static_cast<const T*>(values), static_cast<T*>(sums));
-}
-
-inline Points positions_of(const Points& points) {
-    return points;
-}
-
-template <Scalar T>
-Points positions_of(const Column<T>& column) {
-    return Points(column.values, static_cast<int>(column.components));
-}
-
-/// Returns a column without its type. Only a writable column has a result.
-template <class Values>
-ByteColumn any_column(const Values& values) {
-    const Column view = column(column(values));
-    using T = std::remove_cv_t<typename decltype(view.values)::element_type>;
-    return {reinterpret_cast<const std::byte*>(view.values.data()),
-            view.values.size(),
-            kind_of<T>,
-            sizeof(T),
-            view.components,
-            nullptr,
-            nullptr};
-}
-
-/// As byte_column(); the array may have a fixed size.
-template <class Array>
-ByteColumn writable_column(const WritableColumn<Array>& view) {
-    return byte_column(view);
-}
-template <WritableArray Array>
-ByteColumn writable_column(Array&& array) {
-    return byte_column(column(array));
-}
-
-/// As writable_column(), for an array that can be resized.
-template <class Array>
-ByteColumn resizable_column(const WritableColumn<Array>& view) {
-    static_assert(
-        requires { view.array->resize(0); }, "give a vector: points come and go");
-    return byte_column(view);
-}
-template <WritableArray Array>
-ByteColumn resizable_column(Array&& array) {
-    return resizable_column(column(array));
-}
-
 }  // namespace detail
 
 /// The ranks near this one, for the exchanges in each step of a simulation. A call sends one
@@ -178,7 +84,7 @@ ByteColumn resizable_column(Array&& array) {
 ///     neighbours.fetch(rrcb::ghosts_of(ghost_x), column(x, 3));
 ///     neighbours.accumulate(column(ghost_f, 3), column(f, 3));
 ///
-/// A neighbour is a rank with a part whose distance from a part of this rank is at most max(radius,
+/// A neighbour is a rank with a part whose distance from a part of this rank is at most max(cutoff,
 /// travel). Every rank must make the same calls in the same order. If a call fails on a rank, it
 /// also fails on its neighbours, the next call on their neighbours, and so on. All ranks throw its
 /// text, at the latest in the next collective call, and none waits for a rank that has failed. If

@@ -56,6 +56,10 @@ class Controller {
         /// Give it with measured loads. If it is the number of points although there are weights,
         /// the load is not smoothed.
         std::optional<double> weight{};
+        /// A number of this rank, such as the speed of its fastest point, or null. step() replaces
+        /// it by the largest number of any rank in the step before, -infinity if there was none:
+        /// the reduction of this step overlaps with what follows. NaN counts as infinity.
+        double* largest = nullptr;
     };
 
     /// Records a step; returns due().

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/detail/step_columns.hpp>
 #include <rrcb/ghosts.hpp>
 #include <rrcb/transfer.hpp>
 
@@ -8,9 +9,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <span>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -42,6 +46,8 @@ struct SharedEntries {
                                    ///< order of ranks
     /// Indices of these entries: for the first rank, then for the second, ... Both ranks of a pair
     /// must list the same entries in the same order.
+    /// A rank lists the largest LocalIndex for an entry that it does not hold: it adds nothing to
+    /// the sum and does not get it.
     std::vector<LocalIndex> indices;
 };
 
@@ -65,72 +71,7 @@ GhostArrays<Arrays...> ghosts_of(Arrays&... arrays) {
 }
 
 namespace detail {
-
 struct NeighbourAccess;
-
-/// Adds the values of a column to the values of some points.
-using AddValues = void(std::span<const LocalIndex> points, std::size_t components,
-                       const void* values, void* sums);
-
-/// A column of points, and the column of their ghosts that is added to it. The result of `points`
-/// is written.
-struct SumColumn {
-    ByteColumn ghosts;
-    ByteColumn points;
-    AddValues* add;
-};
-
-template <class T>
-void add_values(std::span<const LocalIndex> points, std::size_t components, const void* values,
-                void* sums) {
-    add_each(points, components, static_cast<const T*>(values), static_cast<T*>(sums));
-}
-
-inline Points positions_of(const Points& points) {
-    return points;
-}
-
-template <Scalar T>
-Points positions_of(const Column<T>& column) {
-    return Points(column.values, static_cast<int>(column.components));
-}
-
-/// Returns a column without its type. Only a writable column has a result.
-template <class Values>
-ByteColumn any_column(const Values& values) {
-    const Column view = column(column(values));
-    using T = std::remove_cv_t<typename decltype(view.values)::element_type>;
-    return {reinterpret_cast<const std::byte*>(view.values.data()),
-            view.values.size(),
-            kind_of<T>,
-            sizeof(T),
-            view.components,
-            nullptr,
-            nullptr};
-}
-
-/// As byte_column(); the array may have a fixed size.
-template <class Array>
-ByteColumn writable_column(const WritableColumn<Array>& view) {
-    return byte_column(view);
-}
-template <WritableArray Array>
-ByteColumn writable_column(Array&& array) {
-    return byte_column(column(array));
-}
-
-/// As writable_column(), for an array that can be resized.
-template <class Array>
-ByteColumn resizable_column(const WritableColumn<Array>& view) {
-    static_assert(
-        requires { view.array->resize(0); }, "give a vector: points come and go");
-    return byte_column(view);
-}
-template <WritableArray Array>
-ByteColumn resizable_column(Array&& array) {
-    return resizable_column(column(array));
-}
-
 }  // namespace detail
 
 /// The ranks near this one, for the exchanges in each step of a simulation. A call sends one
@@ -143,7 +84,7 @@ ByteColumn resizable_column(Array&& array) {
 ///     neighbours.fetch(rrcb::ghosts_of(ghost_x), column(x, 3));
 ///     neighbours.accumulate(column(ghost_f, 3), column(f, 3));
 ///
-/// A neighbour is a rank with a part whose distance from a part of this rank is at most max(radius,
+/// A neighbour is a rank with a part whose distance from a part of this rank is at most max(cutoff,
 /// travel). Every rank must make the same calls in the same order. If a call fails on a rank, it
 /// also fails on its neighbours, the next call on their neighbours, and so on. All ranks throw its
 /// text, at the latest in the next collective call, and none waits for a rank that has failed. If
@@ -160,6 +101,21 @@ class Neighbours {
     /// another communicator, or lack of memory. Cost: a pass over the parts, one pass of counts,
     /// and a reduction.
     RRCB_API Neighbours(const Cuts& cuts, MPI_Comm comm, const NeighbourOptions& options);
+    /// Finds the neighbours by the boxes of any balancer. Collective.
+    ///
+    ///     rrcb::Neighbours neighbours(boxes, 3, comm, {.travel = t});  // a box for each rank
+    ///
+    /// A point in a closed box of its rank stays there, also on a face. Otherwise it moves to the
+    /// first part near this rank whose box contains it. Boxes may thus overlap; a point in none of
+    /// them is an error of migrate(), so that no ghost is missed.
+    /// @param boxes     of all parts; open sides are +-infinity, a box with lower above upper is
+    /// empty. Parts have ranks as described at ranks_of_part(), or NeighbourOptions::ranks_of_parts
+    /// @param dimension of the points, 1 to 3
+    /// @param comm      of the ranks with points
+    /// @param options   as above
+    /// Throws Error as above, and for bounds that are NaN. Cost: as above, for a list of the boxes.
+    RRCB_API Neighbours(std::span<const Box> boxes, int dimension, MPI_Comm comm,
+                        const NeighbourOptions& options);
     /// Frees the memory. Does not communicate.
     RRCB_API ~Neighbours();
     /// Takes over the state of another object, which may then only be destroyed or assigned to. Not
@@ -178,23 +134,21 @@ class Neighbours {
     /// places at the end; places left over are filled from the end. All other points keep their
     /// indices. Coincident points that a cut divides stay on their rank.
     /// @param positions column of positions, which moves too, or Points in arrays of `columns`
-    /// @param columns   different vectors, or column(vector, components)
+    /// @param columns   different vectors, or column(vector, components), or a vector of vectors
+    /// @return the number of arriving points
     /// Throws Error as described above: for a point in a part of no neighbour, which all arrays
     /// still contain, or columns that differ between ranks. Unless memory or MPI fails, no point is
-    /// lost or doubled. Cost: a few comparisons for each point, and a look-up for each that has
-    /// left.
+    /// lost or doubled. Cost: a few comparisons for each point, a look-up for each that has left.
     template <class Positions, class... Columns>
-    void migrate(Positions&& positions, Columns&&... columns) {
-        const std::array<detail::ByteColumn, sizeof...(Columns)> others{
-            detail::resizable_column(std::forward<Columns>(columns))...};
-        if constexpr (std::is_same_v<std::remove_cvref_t<Positions>, Points>) {
-            migrate_columns(positions, others);
-        } else {
-            std::array<detail::ByteColumn, 1 + sizeof...(Columns)> all{
-                detail::resizable_column(std::forward<Positions>(positions))};
-            for (std::size_t k = 0; k < others.size(); ++k) all[k + 1] = others[k];
-            migrate_columns(detail::positions_of(column(positions)), all);
-        }
+    LocalIndex migrate(Positions&& positions, Columns&&... columns) {
+        const auto resizable = []<class Values>(Values&& values) {
+            return detail::resizable_column(std::forward<Values>(values));
+        };
+        if constexpr (std::is_same_v<std::remove_cvref_t<Positions>, Points>)
+            return migrate_columns(positions, detail::for_each_column(resizable, columns...));
+        else
+            return migrate_columns(detail::positions_of(column(positions)),
+                                   detail::for_each_column(resizable, positions, columns...));
     }
 
     /// Finds the points that other ranks need as ghosts, as the function ghost_plan() does. They
@@ -279,16 +233,27 @@ class Neighbours {
     /// Exchanges messages with all neighbours.
     ///
     /// Values are added in ascending order of ranks. If every two ranks that have an entry list it
-    /// for each other, all get bit-identical sums.
+    /// for each other, all get bit-identical sums. An entry that is 0 in all columns of a rank is
+    /// not sent, so lists may contain many entries that only few points reach.
     /// @param shared  lists of entries in common with neighbours
-    /// @param columns writable numbers: one entry, or `components`, for each node
+    /// @param columns writable numbers: one entry, or `components`, for each node; or a vector of
+    /// vectors
     /// Throws Error as described above, and for ranks that are not neighbours or whose lists differ
     /// in length.
     template <class... Columns>
     void sum(const SharedEntries& shared, Columns&&... columns) {
-        sum_columns(shared,
-                    std::array<detail::SumColumn, sizeof...(Columns)>{summed_alone(columns)...});
+        const auto summed = []<class Values>(Values&& values) { return summed_alone(values); };
+        sum_columns(shared, detail::for_each_column(summed, columns...));
     }
+
+    /// Fails on this rank with a text of yours, as a call that fails: the other ranks throw it,
+    /// too. Not collective.
+    ///
+    ///     if (!is_finite(x)) neighbours.fail("the time step is too long");
+    ///
+    /// @param text of the Error
+    /// Throws Error.
+    [[noreturn]] RRCB_API void fail(const std::string& text);
 
     /// Returns the lists of find_ghosts() with a stamp: `send` and `send_indices`, and
     /// after the first fetch() also `receive` and `shifts`. They are valid until the next call. Not
@@ -305,8 +270,8 @@ class Neighbours {
     // The functions above for columns without their types. When columns migrate, the results are
     // their own arrays; when ghosts are fetched, the results are the arrays of the ghosts; of
     // shared entries only `points` is used.
-    RRCB_API void migrate_columns(const Points& positions,
-                                  std::span<const detail::ByteColumn> columns);
+    RRCB_API LocalIndex migrate_columns(const Points& positions,
+                                        std::span<const detail::ByteColumn> columns);
     RRCB_API void find_ghosts_of(const Points& points,
                                  const std::optional<std::span<const double>>& radii);
     RRCB_API void fetch_columns(std::span<const detail::ByteColumn> columns);

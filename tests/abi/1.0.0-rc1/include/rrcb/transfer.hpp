@@ -232,4 +232,16 @@ void transfer_in_place(const Plan& plan, MPI_Comm comm, const WritableColumn<Vec
     detail::move_in_place(plan, each, comm);
 }
 
+/// Moves points along a plan within several vectors in a vector. Collective; otherwise as above.
+///
+/// @param plan    of the points of this rank
+/// @param comm    of the plan, or a congruent one
+/// @param columns a vector of numbers for each column
+template <class T>
+void transfer_in_place(const Plan& plan, MPI_Comm comm, std::vector<std::vector<T>>& columns) {
+    std::vector<detail::ByteColumn> each;
+    for (std::vector<T>& values : columns) each.push_back(detail::byte_column(column(values)));
+    detail::move_in_place(plan, each, comm);
+}
+
 }  // namespace rrcb

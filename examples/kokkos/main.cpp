@@ -5,10 +5,14 @@
 #include <rrcb/points.hpp>
 #include <rrcb/transfer.hpp>
 
+#include <Kokkos_Sort.hpp>
+
 #include <cstdio>
 #include <numeric>
 
 using Positions = Kokkos::View<double* [2], Kokkos::LayoutRight>;
+using Ranks = Kokkos::View<int*>;
+using ByRank = Kokkos::BinOp1D<Ranks>;
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
@@ -26,19 +30,22 @@ int main(int argc, char** argv) {
 
         const Kokkos::DefaultExecutionSpace exec;
         const auto balance = rrcb::experimental::balance(exec, x, MPI_COMM_WORLD);
-        const auto by_rank = rrcb::experimental::points_by_rank(exec, balance, rank, num_ranks);
+        const Ranks ranks = rrcb::experimental::destinations(exec, balance, rank, num_ranks);
         // The positions are packed by rank on the device, and exchanged in the memory of the host.
+        Kokkos::BinSort<Ranks, ByRank> by_rank(ranks, ByRank(num_ranks, 0, num_ranks));
+        by_rank.create_permute_vector();
         const Positions sorted("sorted", x.extent(0));
-        const auto order = by_rank.order;
+        const auto order = by_rank.get_permute_vector();
         Kokkos::parallel_for(
             x.extent(0), KOKKOS_LAMBDA(const int i) {
                 for (int a = 0; a < 2; ++a) sorted(i, a) = x(order(i), a);
             });
         const auto leaving = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sorted);
+        const auto counts =
+            Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), by_rank.get_bin_count());
         std::vector<int> sent(num_ranks), starts(num_ranks + 1), got(num_ranks),
             ends(num_ranks + 1);
-        for (const rrcb::RankCount& to : by_rank.counts)
-            sent[to.rank] = 2 * static_cast<int>(to.count);
+        for (int to = 0; to < num_ranks; ++to) sent[to] = 2 * counts(to);
         MPI_Alltoall(sent.data(), 1, MPI_INT, got.data(), 1, MPI_INT, MPI_COMM_WORLD);
         std::partial_sum(sent.begin(), sent.end(), starts.begin() + 1);
         std::partial_sum(got.begin(), got.end(), ends.begin() + 1);

@@ -9,5 +9,5 @@ using Result = rrcb::experimental::KokkosBalance<Device::memory_space>;
 template void rrcb::experimental::balance_into(Result&, const Device&, const Positions&,
                                                const Weights&, MPI_Comm, const rrcb::Options&,
                                                const rrcb::Cuts&);
-template auto rrcb::experimental::points_by_rank(const Device&, const Result&, int, int)
-    -> rrcb::experimental::KokkosPointsByRank<Device::memory_space>;
+template auto rrcb::experimental::destinations(const Device&, const Result&, int, int)
+    -> Kokkos::View<int*, Device::memory_space>;

@@ -7,7 +7,7 @@
 namespace rrcb::test {
 namespace {
 
-TEST(Plan, lists_points_by_rank) {
+TEST(Destinations, are_those_of_plan) {
     for (const int num_parts : {1, 2, 7, 40}) {
         const Cloud cloud = lattice_cloud(20000, 2, 3 + rank(), false);
         experimental::KokkosBalance<Memory> balance{cuts_through(cloud, num_parts, 4), {}, {}, {}};
@@ -16,33 +16,17 @@ TEST(Plan, lists_points_by_rank) {
                              balance.parts);
         const std::vector<Part> parts = on_host(balance.parts);
         const Plan expected = plan(parts, num_parts, MPI_COMM_WORLD);
-        const experimental::KokkosPointsByRank<Memory> found =
-            experimental::points_by_rank(Device(), balance, rank(), num_ranks());
         std::vector<int> ranks(cloud.count(), rank());
         for (std::size_t k = 0; k < expected.export_indices.size(); ++k)
             ranks[expected.export_indices[k]] = expected.export_ranks[k];
-        EXPECT_EQ(on_host(found.ranks), ranks);
         EXPECT_EQ(on_host(experimental::destinations(Device(), balance, rank(), num_ranks())),
                   ranks);
-        std::vector<LocalIndex> order(cloud.count());
-        std::iota(order.begin(), order.end(), LocalIndex{0});
-        std::ranges::stable_sort(order, {}, [&](LocalIndex i) { return ranks[i]; });
-        EXPECT_EQ(on_host(found.order), order);
-        LocalIndex sum = 0;
-        for (const RankCount& to : found.counts) {
-            EXPECT_EQ(std::ranges::count(ranks, to.rank), to.count);
-            sum += to.count;
-        }
-        EXPECT_EQ(sum, cloud.count());
     }
 }
 
-TEST(Plan, of_no_points_is_empty) {
+TEST(Destinations, of_no_points_are_none) {
     const experimental::KokkosBalance<Memory> balance{{.dimension = 2, .tree = {}}, {}, {}, {}};
-    const experimental::KokkosPointsByRank<Memory> found =
-        experimental::points_by_rank(Device(), balance, rank(), num_ranks());
-    EXPECT_TRUE(found.counts.empty());
-    EXPECT_EQ(found.order.extent(0), 0u);
+    EXPECT_EQ(experimental::destinations(Device(), balance, rank(), num_ranks()).extent(0), 0u);
 }
 
 TEST(Assign, numbers_dealt_parts_and_refuses_others) {

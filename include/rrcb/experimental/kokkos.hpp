@@ -5,7 +5,6 @@
 
 #include <mpi.h>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -118,17 +117,6 @@ void assign(const Execution& exec, const Cuts& cuts, const Views& x,
     passes.renumber(numbers);
 }
 
-/// Destinations of this rank's points.
-template <class MemorySpace>
-struct KokkosPointsByRank {
-    Kokkos::View<int*, MemorySpace> ranks{};         ///< of each point, in the form that Cabana's
-                                                     ///< Distributor takes
-    Kokkos::View<LocalIndex*, MemorySpace> order{};  ///< points sorted by rank, ascending for each
-                                                     ///< rank
-    std::vector<RankCount> counts{};  ///< number of points for each rank that gets some, including
-                                      ///< this one
-};
-
 /// Returns for each point the rank that gets it, in the form that Cabana::Distributor takes. Not
 /// collective.
 ///
@@ -156,23 +144,6 @@ Kokkos::View<int*, MemorySpace> destinations(const Execution& exec,
         KOKKOS_LAMBDA(const std::int64_t i) { ranks(i) = table(parts(i)); });
     device.fence();
     return ranks;
-}
-
-/// Lists points by the rank that gets their part, as plan() does on the host. Not collective.
-///
-/// @param exec      as for balance()
-/// @param balance   of the points of this rank
-/// @param rank      as for destinations()
-/// @param num_ranks as for destinations()
-/// Throws Error as destinations(), which takes less memory and time if you need no lists.
-template <detail::KokkosSpace Execution, class MemorySpace>
-KokkosPointsByRank<MemorySpace> points_by_rank(const Execution& exec,
-                                               const KokkosBalance<MemorySpace>& balance, int rank,
-                                               int num_ranks) {
-    const auto ranks = destinations(exec, balance, rank, num_ranks);
-    detail::Device<Execution, MemorySpace> device(exec);
-    const auto order = device.template allocate<LocalIndex>(ranks.extent(0));
-    return {ranks, order, detail::list_by_rank(device, num_ranks, ranks, order)};
 }
 
 }  // namespace rrcb::experimental

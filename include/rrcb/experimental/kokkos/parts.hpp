@@ -4,11 +4,9 @@
 #include <rrcb/detail/passes.hpp>
 #include <rrcb/experimental/kokkos/points.hpp>
 #include <rrcb/experimental/kokkos/sums.hpp>
-#include <rrcb/plan.hpp>
 
 #include <bit>
 #include <cstring>
-#include <utility>
 
 namespace rrcb::detail {
 
@@ -227,53 +225,6 @@ std::vector<Box> boxes_of_parts(Device& device, const Positions& x, const Part* 
             boxes[p].upper[a] = -std::bit_cast<double>(in_order(found[p][dimension + a]));
         }
     return boxes;
-}
-
-/// Fills `order` with the points sorted by rank, each list in ascending order. Returns the lengths
-/// of the lists. A thread for each block of points counts them first, and lists them in a second
-/// run. Ends with a fence.
-template <class Device, class Ranks, class Order>
-std::vector<RankCount> list_by_rank(Device& device, int num_ranks, const Ranks& ranks,
-                                    const Order& order) {
-    const auto count = static_cast<std::int64_t>(ranks.extent(0));
-    // With this length the places need less memory than the points.
-    const std::int64_t length =
-        std::max<std::int64_t>({256, num_ranks, device.block_length(count, 1)});
-    const std::int64_t num_blocks = count / length + 1;
-    const auto num_places = static_cast<std::size_t>(num_blocks * num_ranks);
-    const auto places = device.template lend<std::int64_t>(num_places);  // [block][rank]
-    Kokkos::deep_copy(device.exec(), places, 0);
-    const auto lock = lock_scratch<typename Device::Execution>();
-    for (const bool lists : {false, true}) {
-        Kokkos::parallel_for(
-            "rrcb::list_by_rank", device.range(num_blocks),
-            KOKKOS_LAMBDA(const std::int64_t block) {
-                for (std::int64_t i = block * length; i < (block + 1) * length && i < count; ++i) {
-                    const std::int64_t place = places(block * num_ranks + ranks(i))++;
-                    if (lists) order(place) = static_cast<LocalIndex>(i);
-                }
-            });
-        if (lists) break;
-        Kokkos::parallel_scan(
-            "rrcb::places", device.range(num_places),
-            KOKKOS_LAMBDA(const std::int64_t k, std::int64_t& before, const bool is_final) {
-                std::int64_t& place = places(k % num_blocks * num_ranks + k / num_blocks);
-                const std::int64_t number = place;
-                if (is_final) place = before;
-                before += number;
-            });
-    }
-    // Now each place in the last block is the end of a list.
-    const auto first = num_places - static_cast<std::size_t>(num_ranks);
-    std::vector<RankCount> lengths;
-    std::int64_t before = 0;
-    for (const std::int64_t end :
-         device.copy_out(Kokkos::subview(places, std::pair(first, num_places)))) {
-        const int rank = static_cast<int>(lengths.size());
-        lengths.push_back({rank, static_cast<LocalIndex>(end - std::exchange(before, end))});
-    }
-    std::erase_if(lengths, [](const RankCount& to) { return to.count == 0; });
-    return lengths;
 }
 
 }  // namespace rrcb::detail

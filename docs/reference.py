@@ -15,7 +15,7 @@ import reference_python
 CPP = ("points", "options", "tree_shape", "balance", "cuts", "plan", "transfer", "ghosts", "neighbours",
        "groups", "remap", "quality", "part_sizes", "controller", "restart", "error", "version", "paper",
        "teuchos/parameters", "teuchos/zoltan_parameters", "experimental/cost", "experimental/join_keys",
-       "experimental/verify", "experimental/kokkos", "experimental/kokkos/passes")
+       "experimental/verify", "experimental/kokkos")
 C = ("rrcb", "c/points", "c/balancer", "c/plan", "c/ghosts", "c/neighbours", "c/groups", "c/controller",
      "c/quality", "zoltan/rrcb_zoltan", "zoltan/optional_functions", "experimental/cost", "experimental/join_keys")
 FORTRAN = ("rrcb.f90", "types.f90", "balancers.F90", "ghosts.f90", "arrays.F90", "neighbours.f90", "groups.f90",

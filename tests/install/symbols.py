@@ -14,7 +14,7 @@ TYPE_DATA = re.compile(r"(typeinfo|typeinfo name|vtable) for rrcb::(\w+)$")
 
 # What rrcb/experimental declares, and what its headers call of rrcb/detail.
 EXPERIMENTAL = re.compile(r"rrcb::experimental::|rrcb_(cost_model_|join_keys|ghosts_verify)"
-                          r"|rrcb::(PointPasses|balance\(rrcb::PointPasses|(num_cells|cell_box)\()")
+                          r"|rrcb::(PointPasses|balance\(rrcb::PointPasses|(num_cells|cell_box|summary_of)\()")
 
 # What has no body in the library.
 ELSEWHERE = re.compile(r"(template|using|typedef|static_assert|constexpr|inline|friend)\b"

@@ -286,12 +286,12 @@ TEST(Passes, read_a_view_of_each_axis) {
     const auto x = Kokkos::subview(view, Kokkos::ALL, 0);
     const auto y = Kokkos::subview(view, Kokkos::ALL, 1);
     using Axes = std::array<std::remove_const_t<decltype(x)>, 2>;
-    experimental::KokkosPasses<Device, Axes, WeightView> passes(Device(), Axes{x, y}, {});
+    detail::KokkosPasses<Device, Axes, WeightView> passes(Device(), Axes{x, y}, {});
     const PointSample sample = passes.sample(100);
     for (std::size_t i = 0; i < 100; ++i)
         EXPECT_EQ(sample.positions[i], cloud.points().position(i));
     const auto shorter = Kokkos::subview(x, std::pair<int, int>(0, 99));
-    experimental::KokkosPasses<Device, Axes, WeightView> uneven(Device(), Axes{x, shorter}, {});
+    detail::KokkosPasses<Device, Axes, WeightView> uneven(Device(), Axes{x, shorter}, {});
     EXPECT_EQ(error_of([&] { uneven.summary(true); }),
               "coordinate arrays must all have the same length");
 }
@@ -299,8 +299,8 @@ TEST(Passes, read_a_view_of_each_axis) {
 TEST(Passes, refuse_no_axes_and_four) {
     for (const int dimension : {0, 4}) {
         const Kokkos::View<double**, Memory> x("x", 10, dimension);
-        experimental::KokkosPasses<Device, Kokkos::View<double**, Memory>, WeightView> passes(
-            Device(), x, {});
+        detail::KokkosPasses<Device, Kokkos::View<double**, Memory>, WeightView> passes(Device(), x,
+                                                                                        {});
         EXPECT_EQ(error_of([&] { passes.summary(true); }),
                   "positions have 1 to 3 axes, not " + std::to_string(dimension));
     }

@@ -99,7 +99,7 @@ auto view_of(const Cloud& cloud) {
 template <class T, class Layout>
 auto passes_of(const Cloud& cloud) {
     const auto view = view_of<T, Layout>(cloud);
-    return experimental::KokkosPasses<Device, std::remove_const_t<decltype(view)>, WeightView>(
+    return detail::KokkosPasses<Device, std::remove_const_t<decltype(view)>, WeightView>(
         Device(), view, on_device(cloud.weights));
 }
 

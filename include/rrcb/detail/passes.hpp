@@ -37,6 +37,12 @@ struct PointSummary {
     }
 };
 
+/// Returns the summary of points on the host. Not collective.
+///
+/// Throws Error if the arrays do not fit together, or for illegal weights or coordinates; the text
+/// contains the first of them and their number.
+RRCB_API PointSummary summary_of(const Points& points);
+
 /// Some points of one rank.
 struct PointSample {
     std::vector<Vector> positions;  ///< 0 beyond the dimension

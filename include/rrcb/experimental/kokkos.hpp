@@ -5,34 +5,20 @@
 
 #include <mpi.h>
 
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
-
-namespace rrcb::detail {
-
-template <class Execution>
-concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
-
-template <class T>
-concept KokkosView = Kokkos::is_view<T>::value;
-
-template <class Views>
-concept KokkosPoints = Kokkos::is_view<typename ViewOf<Views>::Type>::value;
-
-}  // namespace rrcb::detail
 
 namespace rrcb::experimental {
 
 /// Result of a call with views. Cuts and report are on the host, and are the same on every rank.
 template <class MemorySpace>
 struct KokkosBalance {
-    Cuts cuts;                                 ///< between the parts, for look-ups
-    Report report;                             ///< measured imbalance and statistics
-    Kokkos::View<Part*, MemorySpace> parts{};  ///< parts of this rank's points, in the memory of
-                                               ///< the points
-    KokkosMemory<MemorySpace> memory{};        ///< reused by balance_into()
+    Cuts cuts;                                   ///< between the parts, for look-ups
+    Report report;                               ///< measured imbalance and statistics
+    Kokkos::View<Part*, MemorySpace> parts{};    ///< parts of this rank's points, in the memory of
+                                                 ///< the points
+    detail::KokkosMemory<MemorySpace> memory{};  ///< reused by balance_into()
 };
 
 /// Replaces a result as balance() would, and reuses its memory on the device. Collective.
@@ -54,7 +40,7 @@ void balance_into(KokkosBalance<detail::MemoryOf<Views>>& result, const Executio
                   const Views& x, const Weights& weights, MPI_Comm comm,
                   const Options& options = {}, const Cuts& previous = {}) {
     result.parts = {};
-    KokkosPasses<Execution, Views, Weights> passes(exec, x, weights, result.memory);
+    detail::KokkosPasses<Execution, Views, Weights> passes(exec, x, weights, result.memory);
     Balance on_host = balance(static_cast<PointPasses&>(passes), comm, options, previous);
     result = {std::move(on_host.cuts), std::move(on_host.report), passes.device_parts(),
               passes.memory()};
@@ -104,8 +90,8 @@ template <detail::KokkosSpace Execution, detail::KokkosPoints Views>
 void assign(const Execution& exec, const Cuts& cuts, const Views& x,
             const Kokkos::View<Part*, detail::MemoryOf<Views>>& parts) {
     assign(cuts, Points({}, cuts.dimension), std::span<Part>());  // checks the cuts
-    using Memory = detail::MemoryOf<Views>;
-    KokkosPasses<Execution, Views, Kokkos::View<double*, Memory>> passes(exec, x, {}, {parts, {}});
+    using NoWeights = Kokkos::View<double*, detail::MemoryOf<Views>>;
+    detail::KokkosPasses<Execution, Views, NoWeights> passes(exec, x, {}, {parts, {}});
     detail::require_on_device(passes.dimension() == cuts.dimension,
                               "positions must have the dimension of the cuts");
     detail::require_on_device(parts.extent(0) == passes.count(),

@@ -27,6 +27,9 @@ inline void require_kokkos() {
                       "Kokkos::finalize() after all calls with views");
 }
 
+template <class Execution>
+concept KokkosSpace = Kokkos::is_execution_space<Execution>::value;
+
 /// True for execution spaces that run on the host.
 template <class Execution>
 inline constexpr bool runs_on_host =
@@ -43,11 +46,10 @@ std::unique_lock<std::mutex> lock_scratch() {
 
 /// An instance of an execution space, and memory that the steps of a call share. Views of this
 /// memory are valid until the next fence.
-template <class Space, class MemorySpace>
+template <class Space, class Memory>
 class Device {
   public:
     using Execution = Space;
-    using Memory = MemorySpace;
     template <class T>
     using Lent = Kokkos::View<T*, Memory, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
@@ -58,16 +60,8 @@ class Device {
     const Execution& exec() const { return exec_; }
     const Kokkos::View<char*, Memory>& memory() const { return memory_; }
 
-    /// Returns a length of blocks with which each worker, a team of `threads`, gets four of the
-    /// blocks of `count` points.
-    std::int64_t block_length(std::int64_t count, int threads) const {
-        const std::int64_t workers = std::max(static_cast<int>(exec_.concurrency()) / threads, 1);
-        return count / (4 * workers) + 1;
-    }
-
     /// Returns the range of indices 0 ... count - 1 for a kernel, with 64 bits.
-    template <class Count>
-    auto range(Count count) const {
+    auto range(std::size_t count) const {
         return Kokkos::RangePolicy<Execution, Kokkos::IndexType<std::int64_t>>(
             exec_, 0, static_cast<std::int64_t>(count));
     }

@@ -5,25 +5,25 @@
 #include <rrcb/experimental/kokkos/points.hpp>
 #include <rrcb/experimental/kokkos/sums.hpp>
 
-#include <algorithm>
-#include <cfloat>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 namespace rrcb::detail {
+
+/// Adds up the weights of all points in one bin.
+template <class W>
+struct AddWeights {
+    static constexpr int fields = 1;
+
+    Weights<W> weights;
+
+    KOKKOS_INLINE_FUNCTION Row<fields> operator()(std::int64_t i) const {
+        return {0, {weights.units(i)}};
+    }
+};
 
 /// A layer of a mesh along an axis, in scaled lengths.
 struct Layer {
     double middle;
-    double side;
+    double per_length;  ///< reciprocal of the side
 };
-
-inline Layer layer_of(const SupportMesh& mesh, const Box& cell, std::size_t axis) {
-    const double lower = cell.lower[axis] * mesh.scale[axis];
-    const double upper = cell.upper[axis] * mesh.scale[axis];
-    return {lower / 2 + upper / 2, upper - lower};
-}
 
 /// The layers of a mesh along an axis, for a kernel, in scaled lengths.
 struct Layers {
@@ -31,7 +31,7 @@ struct Layers {
     double lower;  ///< lower end of the frame
     double per_length;
     std::int32_t number;
-    const Layer* first;  ///< here `side` is the reciprocal of the side
+    const Layer* first;
 
     /// Returns the layer of a coordinate, and writes its offset from the middle in units of the
     /// side.
@@ -40,7 +40,7 @@ struct Layers {
         const double place = (value - lower) * per_length;
         std::int32_t layer = number - 1;
         if (place < number) layer = static_cast<std::int32_t>(place > 0 ? place : 0);
-        offset = (value - first[layer].middle) * first[layer].side;
+        offset = (value - first[layer].middle) * first[layer].per_length;
         offset = offset > -0.5 ? offset : -0.5;
         offset = offset < 0.5 ? offset : 0.5;
         return layer;
@@ -56,7 +56,7 @@ constexpr int fields_of_cell(int dimension, bool weighs) {
 /// the middle of the cell; then the number of points, and their weight if they have weights.
 template <class Positions, class W, bool Weighs>
 struct AddMoments {
-    static constexpr int dimension = Positions::static_dimension;
+    static constexpr int dimension = Positions::dimension;
     static constexpr int fields = fields_of_cell(dimension, Weighs);
 
     Positions x;
@@ -90,9 +90,11 @@ inline std::vector<Layer> layers_of(const SupportMesh& mesh, Layers (&layers)[ma
         layers[a] = {mesh.scale[a], mesh.frame.lower[a] * mesh.scale[a], mesh.cells_per_length[a],
                      static_cast<std::int32_t>(mesh.cells[a]), nullptr};
         for (int k = 0; k < mesh.cells[a]; ++k) {
-            Layer layer = layer_of(mesh, cell_box(mesh, static_cast<LocalIndex>(k) * stride), a);
-            layer.side = layer.side > 0 ? std::min(1 / layer.side, DBL_MAX) : 0;
-            all.push_back(layer);
+            const Box cell = cell_box(mesh, static_cast<LocalIndex>(k) * stride);
+            const double lower = cell.lower[a] * mesh.scale[a];
+            const double upper = cell.upper[a] * mesh.scale[a];
+            all.push_back({lower / 2 + upper / 2,
+                           upper > lower ? std::min(1 / (upper - lower), DBL_MAX) : 0});
         }
         stride *= static_cast<LocalIndex>(mesh.cells[a]);
     }
@@ -124,13 +126,13 @@ std::vector<CellMoments> moments_on(Device& device, const Positions& x, const We
         of.moments.count = static_cast<GlobalCount>(count);
         of.moments.weight = Weighs ? weights.from_units(units) : count;
         for (std::size_t a = 0; a < Rows::dimension; ++a) {
-            const Layer layer = layer_of(mesh, of.box, a);
+            const double lower = of.box.lower[a];
+            const double upper = of.box.upper[a];
+            const double half = upper / 2 - lower / 2;
             const double mean = sum[2 * a] / units;
             const double square = std::ldexp(sum[2 * a + 1], weight_bits - square_bits) / units;
-            of.moments.mean[a] = std::clamp((layer.middle + mean * layer.side) / mesh.scale[a],
-                                            of.box.lower[a], of.box.upper[a]);
-            of.moments.deviation[a] =
-                std::sqrt(std::max(0.0, square - mean * mean)) * layer.side / mesh.scale[a];
+            of.moments.mean[a] = std::clamp(lower / 2 + upper / 2 + 2 * mean * half, lower, upper);
+            of.moments.deviation[a] = 2 * std::sqrt(std::max(0.0, square - mean * mean)) * half;
         }
         cells.push_back(of);
     }

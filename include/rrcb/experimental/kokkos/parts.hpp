@@ -19,14 +19,14 @@ struct TreeNode {
 
     /// Returns true if a position is above the cut or at it, as is_above() on the host.
     template <int Dimension>
-    KOKKOS_INLINE_FUNCTION bool is_above(const Position<Dimension>& p) const {
-        double x = p.x[0];
+    KOKKOS_INLINE_FUNCTION bool is_above(const double (&p)[Dimension]) const {
+        double x = p[0];
         double plane = at[0];
         for (int a = 1; a < Dimension; ++a)
-            if (axis == a) x = p.x[a], plane = at[a];
+            if (axis == a) x = p[a], plane = at[a];
         if (x != plane) return x > plane;
         for (int a = 0; a < Dimension; ++a)
-            if (p.x[a] != at[a]) return p.x[a] > at[a];
+            if (p[a] != at[a]) return p[a] > at[a];
         return true;
     }
 };
@@ -37,9 +37,9 @@ struct Region {
     double upper[max_dimension] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
 
     template <int Dimension>
-    KOKKOS_INLINE_FUNCTION bool contains(const Position<Dimension>& p) const {
+    KOKKOS_INLINE_FUNCTION bool contains(const double (&p)[Dimension]) const {
         for (int a = 0; a < Dimension; ++a)
-            if (!(p.x[a] >= lower[a] && p.x[a] < upper[a])) return false;
+            if (!(p[a] >= lower[a] && p[a] < upper[a])) return false;
         return true;
     }
 };
@@ -50,30 +50,20 @@ struct PackedCuts {
     std::vector<Region> regions{};  ///< for each part, the region whose points remain in the part
                                     ///< wherever each cut ends in its interval
 
-    PackedCuts() = default;
-    /// Packs a complete tree. Without intervals the cuts are final.
-    PackedCuts(const Cuts& cuts, std::span<const Bracket> intervals) {
-        add(cuts, intervals, 0, cuts.num_parts, {});
-    }
-
-  private:
-    void add(const Cuts& cuts, std::span<const Bracket> intervals, std::size_t node, int num_parts,
+    /// Adds the cuts of a complete tree below a node with `num_parts` parts in `region`.
+    void add(const Cuts& cuts, std::span<const Bracket> intervals, int num_parts,
              const Region& region) {
         if (num_parts == 1) return regions.push_back(region);
-        const Cut& cut = cuts.tree[node];
+        const Cut& cut = cuts.tree[nodes.size()];
+        const Bracket& interval = intervals[nodes.size()];
         const int lower_parts = cuts.shape.lower_parts(num_parts);
         nodes.push_back({{cut.at[0], cut.at[1], cut.at[2]}, cut.axis, lower_parts});
         Region below = region;
         Region above = region;
-        if (!intervals.empty()) {
-            double& upper = below.upper[cut.axis];
-            double& lower = above.lower[cut.axis];
-            upper = std::min(upper, intervals[node].lower);
-            lower = std::max(lower, intervals[node].upper);
-        }
-        add(cuts, intervals, node + 1, lower_parts, below);
-        add(cuts, intervals, node + static_cast<std::size_t>(lower_parts), num_parts - lower_parts,
-            above);
+        below.upper[cut.axis] = std::min(region.upper[cut.axis], interval.lower);
+        above.lower[cut.axis] = std::max(region.lower[cut.axis], interval.upper);
+        add(cuts, intervals, lower_parts, below);
+        add(cuts, intervals, num_parts - lower_parts, above);
     }
 };
 
@@ -89,6 +79,7 @@ KOKKOS_INLINE_FUNCTION Part marked(Part part) {
 /// Finds the parts of points, or takes given ones. Marks the open points, and counts the others.
 template <class Positions, class W, bool Weighs>
 struct Assign {
+    static constexpr int dimension = Positions::dimension;
     static constexpr int fields = Weighs ? 2 : 1;  ///< the number of points, and their weight
     // Bins of the rows: points with coordinates that are not finite, open points, then the points
     // of each part.
@@ -109,9 +100,12 @@ struct Assign {
     std::int64_t num_bins() const { return fields * (first + (counts ? num_parts : 0)); }
 
     KOKKOS_INLINE_FUNCTION Row<fields> operator()(std::int64_t i) const {
-        const auto p = x.position(i);
+        double p[dimension];
         bool is_bad = false;
-        for (const double value : p.x) is_bad = is_bad || !is_finite(value);
+        for (int a = 0; a < dimension; ++a) {
+            p[a] = x(i, a);
+            is_bad = is_bad || !is_finite(p[a]);
+        }
         const Part part = finds ? part_of(p) : parts[i];
         const bool is_open = opens != Opens::none && part >= 0 &&
                              regions[part].contains(p) == (opens == Opens::inside);
@@ -123,8 +117,7 @@ struct Assign {
         if (Weighs) row.values[fields - 1] = weights.units(i);
         return row;
     }
-    template <class Position>
-    KOKKOS_INLINE_FUNCTION Part part_of(const Position& p) const {
+    KOKKOS_INLINE_FUNCTION Part part_of(const double (&p)[dimension]) const {
         std::int32_t node = 0;
         Part part = 0;
         for (int below = num_parts; below > 1;) {
@@ -144,7 +137,7 @@ template <bool Weighs, class Device, class Positions, class W>
 std::vector<Part> copy_points(Device& device, const Positions& x, const Weights<W>& weights,
                               const typename Device::template Lent<LocalIndex>& indices,
                               Part* parts, Collected& to) {
-    constexpr int dimension = Positions::static_dimension;
+    constexpr int dimension = Positions::dimension;
     constexpr int width = dimension + (Weighs ? 3 : 2);
     const auto view =
         device.template lend<double>(indices.extent(0) * static_cast<std::size_t>(width));
@@ -196,33 +189,33 @@ KOKKOS_INLINE_FUNCTION std::int64_t in_order(std::int64_t bits) {
 template <class Device, class Positions>
 std::vector<Box> boxes_of_parts(Device& device, const Positions& x, const Part* parts,
                                 int num_parts) {
-    constexpr std::size_t dimension = Positions::static_dimension;
-    using Bounds = std::array<std::int64_t, 2 * dimension>;  // of coordinates, then of negated ones
-    Bounds none;
-    none.fill(std::bit_cast<std::int64_t>(HUGE_VAL));
-    const std::vector<Bounds> empty(static_cast<std::size_t>(num_parts), none);
-    const auto bounds = device.copy_in(empty);
+    constexpr int dimension = Positions::dimension;
+    constexpr int width = 2 * dimension;
+    std::vector<Box> boxes(static_cast<std::size_t>(num_parts));
+    // For each part, the least coordinates and then the least negated coordinates.
+    const std::vector<std::int64_t> none(width * boxes.size(),
+                                         std::bit_cast<std::int64_t>(HUGE_VAL));
+    const auto bounds = device.copy_in(none);
     Kokkos::parallel_for(
         "rrcb::boxes", device.range(x.count), KOKKOS_LAMBDA(const std::int64_t i) {
             if (parts[i] < 0) return;
-            auto* const least = reinterpret_cast<std::int64_t*>(bounds.data() + parts[i]);
+            std::int64_t* const least = bounds.data() + parts[i] * width;
             volatile const std::int64_t* const before = least;
-            for (std::size_t k = 0; k < 2 * dimension; ++k) {
-                const double value = x(i, static_cast<int>(k % dimension));
-                const double bound = k < dimension ? value : -value;
+            for (int k = 0; k < width; ++k) {
+                const double value = k < dimension ? x(i, k) : -x(i, k - dimension);
                 std::int64_t place = 0;
-                memcpy(&place, &bound, sizeof place);
+                memcpy(&place, &value, sizeof place);
                 // For most points these tests save the atomic operation.
                 if (in_order(place) < before[k])
                     Kokkos::atomic_fetch_min(least + k, in_order(place));
             }
         });
-    std::vector<Box> boxes(static_cast<std::size_t>(num_parts));
-    const std::vector<Bounds> found = device.copy_out(bounds);
-    for (std::size_t p = 0; p < found.size(); ++p)
+    const std::vector<std::int64_t> found = device.copy_out(bounds);
+    const auto bound = [&](std::size_t k) { return std::bit_cast<double>(in_order(found[k])); };
+    for (std::size_t p = 0; p < boxes.size(); ++p)
         for (std::size_t a = 0; a < dimension; ++a) {
-            boxes[p].lower[a] = std::bit_cast<double>(in_order(found[p][a]));
-            boxes[p].upper[a] = -std::bit_cast<double>(in_order(found[p][dimension + a]));
+            boxes[p].lower[a] = bound(width * p + a);
+            boxes[p].upper[a] = -bound(width * p + dimension + a);
         }
     return boxes;
 }

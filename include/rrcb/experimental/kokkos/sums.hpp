@@ -2,11 +2,7 @@
 
 #include <rrcb/experimental/kokkos/device.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <type_traits>
-#include <vector>
 
 namespace rrcb::detail {
 
@@ -18,13 +14,6 @@ using Word = std::uint64_t;
 /// bits, a sum can hold 2^40 integers below 2^47.
 inline constexpr int low_bits = 24;
 inline constexpr Word low_mask = (Word{1} << low_bits) - 1;
-
-/// Returns the value of such a sum.
-inline double total_of(Word high, Word low) {
-    high += low >> low_bits;
-    return std::ldexp(static_cast<double>(static_cast<std::int64_t>(high)), low_bits) +
-           static_cast<double>(low & low_mask);
-}
 
 /// Largest number of points that a team adds up in one word per bin: it can hold 2^15 integers
 /// below 2^47.
@@ -43,52 +32,41 @@ struct Row {
     std::int64_t values[Fields];
 };
 
-/// A sum over the points of a team that is one thread.
-struct PlainSum {
-    Word sum;
-
-    KOKKOS_INLINE_FUNCTION void add(Word value) { sum += value; }
-    KOKKOS_INLINE_FUNCTION Word total() const { return sum; }
-};
-
 /// A sum in scratch memory of a device, where threads can add only 32 bits atomically.
 struct HalvedSum {
     std::uint32_t low, high;
 
-    KOKKOS_INLINE_FUNCTION void add(Word value) {
+    KOKKOS_INLINE_FUNCTION void operator+=(Word value) {
         const auto lower = static_cast<std::uint32_t>(value);
         auto upper = static_cast<std::uint32_t>(value >> 32);
         if (lower != 0 && Kokkos::atomic_fetch_add(&low, lower) > UINT32_MAX - lower) ++upper;
         if (upper != 0) Kokkos::atomic_add(&high, upper);
     }
-    KOKKOS_INLINE_FUNCTION Word total() const { return Word{high} << 32 | low; }
+    KOKKOS_INLINE_FUNCTION explicit operator Word() const { return Word{high} << 32 | low; }
 };
 
 /// Sums of integers in bins. They are exact, so that they do not depend on the order.
 template <class Execution, int Fields>
 struct Bins {
-    using Sum = std::conditional_t<runs_on_host<Execution>, PlainSum, HalvedSum>;
+    // On the host, a team is one thread.
+    using Sum = std::conditional_t<runs_on_host<Execution>, Word, HalvedSum>;
 
     Sum* of_block;  ///< null if only the sums over all blocks are used
     Word* of_all;   ///< two words for each bin, the higher bits first
-    Row<Fields> run{Row<Fields>::none, {}};
+    Row<Fields> run{};
 
     /// Adds the row of a point. On a device, consecutive rows of equal bins are first added up in
     /// registers: neighbours in memory are often neighbours in space, and would otherwise wait for
-    /// the same word.
+    /// the same word. The last of them remain in `run`.
     KOKKOS_INLINE_FUNCTION void add(const Row<Fields>& row) {
         if (row.bin == row.none) return;
         if (runs_on_host<Execution>) return add_to_bins(row);
         if (row.bin != run.bin) {
-            finish();
+            add_to_bins(run);
             run = row;
         } else {
             for (int f = 0; f < Fields; ++f) run.values[f] += row.values[f];
         }
-    }
-    /// Adds the last of these rows.
-    KOKKOS_INLINE_FUNCTION void finish() const {
-        if (run.bin != run.none) add_to_bins(run);
     }
     /// Adds a number to the sum over all blocks.
     KOKKOS_INLINE_FUNCTION void add_to_all(std::int64_t bin, std::int64_t value) const {
@@ -97,15 +75,13 @@ struct Bins {
         if (high != 0) Kokkos::atomic_add(&of_all[2 * bin], high);
         if (low != 0) Kokkos::atomic_add(&of_all[2 * bin + 1], low);
     }
-
-  private:
     KOKKOS_INLINE_FUNCTION void add_to_bins(const Row<Fields>& row) const {
         for (int f = 0; f < Fields; ++f) {
             if (row.values[f] == 0) continue;
             if (of_block == nullptr)
                 add_to_all(row.bin + f, row.values[f]);
             else
-                of_block[row.bin + f].add(static_cast<Word>(row.values[f]));
+                of_block[row.bin + f] += static_cast<Word>(row.values[f]);
         }
     }
 };
@@ -134,15 +110,17 @@ void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins
     const int in_block =
         num_bins <= bins_in_scratch(device.exec()) ? static_cast<int>(num_bins) : 0;
     const int bytes = in_block * static_cast<int>(sizeof(Word));
-    // There are enough blocks to occupy the whole device, but a block has at least as many points
-    // as bins.
+    // Each team that runs at a time gets four blocks, but a block has at least as many points as
+    // bins.
+    const int threads = runs_on_host<Execution> ? 1 : 1024;
+    const int workers = std::max(static_cast<int>(device.exec().concurrency()) / threads, 1);
     const std::int64_t length =
-        std::clamp(device.block_length(count, runs_on_host<Execution> ? 1 : 1024),
+        std::clamp(count / (4 * workers) + 1,
                    std::clamp<std::int64_t>(in_block, 1024, most_in_block), most_in_block);
     const int teams = static_cast<int>((count + length - 1) / length);
     if (teams == 0) return;
-    Policy policy(device.exec(), teams, Kokkos::AUTO);
-    if constexpr (runs_on_host<Execution>) policy = Policy(device.exec(), teams, 1);
+    Policy policy = runs_on_host<Execution> ? Policy(device.exec(), teams, 1)
+                                            : Policy(device.exec(), teams, Kokkos::AUTO);
     if (in_block > 0)
         policy.set_scratch_size(scratch_level<Execution>, Kokkos::PerTeam(bytes + 64));
     const auto lock = lock_scratch<Execution>();
@@ -162,10 +140,10 @@ void add_in_bins(const Device& device, std::int64_t count, std::int64_t num_bins
                  i += team.team_size() * run_length)
                 for (int k = 0; k < run_length; ++k)
                     if (i + k < end) bins.add(row(i + k));
-            bins.finish();
+            bins.add_to_bins(bins.run);
             team.team_barrier();
             Kokkos::parallel_for(Kokkos::TeamThreadRange(team, in_block), [&](int bin) {
-                bins.add_to_all(bin, static_cast<std::int64_t>(bins.of_block[bin].total()));
+                bins.add_to_all(bin, static_cast<std::int64_t>(Word(bins.of_block[bin])));
             });
         });
 }
@@ -179,8 +157,11 @@ std::vector<double> sum_in_bins(Device& device, std::int64_t count, std::int64_t
     add_in_bins(device, count, num_bins, sums.data(), row_of);
     const std::vector<Word> words = device.copy_out(sums);
     std::vector<double> totals;
-    for (std::size_t k = 0; k < words.size(); k += 2)
-        totals.push_back(total_of(words[k], words[k + 1]));
+    for (std::size_t k = 0; k < words.size(); k += 2) {
+        const auto high = static_cast<std::int64_t>(words[k] + (words[k + 1] >> low_bits));
+        const auto low = static_cast<double>(words[k + 1] & low_mask);
+        totals.push_back(std::ldexp(static_cast<double>(high), low_bits) + low);
+    }
     return totals;
 }
 

@@ -114,7 +114,7 @@ class DocumentTest(unittest.TestCase):
     def test_choosing_has_the_counts_of_price_csv(self) -> None:
         counts = pd.read_csv(ROOT / "comparisons/price.csv").set_index(["cloud", "dim", "ranks"])
         exact = counts[counts["method"] == price.EXACT]
-        text = (ROOT / "docs/choosing.md").read_text()
+        text = (ROOT / "docs/choosing.md").read_text().partition("| setting | imbalance left")[2]
         methods = {name: price.TOLERANCES[name] for name in ("1.1", "1.01", "1.001", "exact")}
         for name, method in (methods | {"Zoltan's RCB": price.ZOLTAN}).items():
             (row,) = re.findall(rf"^\| {re.escape(name)} \|" + r"([^|]*)\|" * 6, text, re.M)
@@ -126,7 +126,7 @@ class DocumentTest(unittest.TestCase):
                 digits = len(written.partition(".")[2])
                 self.assertEqual(f"{value:.{digits}f}" if written else "", written, (name, row))
         of = counts[counts["method"] == "rrcb"].xs(64, level="ranks")["bytes"] / exact["bytes"].xs(64, level="ranks")
-        self.assertIn(f"1.01 sends {of.median():.2f} of exact's bytes, at worst {of.max():.2f}.", text)
+        self.assertIn(f"1.01 sends {of.median():.2f} of exact's bytes, at worst {of.max():.2f}.", " ".join(text.split()))
 
 
 if __name__ == "__main__":

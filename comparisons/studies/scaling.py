@@ -33,14 +33,15 @@ CHILDREN = 7  # per rank in a tree of radix 8
 RANK_CELLS, CENTRAL_CELLS = 16, 8192  # cells of a rank, and the largest number passed on
 NS_PER_POINT, NS_PER_LOOK, NS_PER_CELL = 20, 2, 50  # moments and assignment; a count; a merge
 POINT_BYTES = 16  # in 2-D
-TERMS = {"1": lambda p: 1.0, "log": log2, "root": sqrt, "ranks": float, "ranks^1.5": lambda p: p**1.5}  # of bytes
+TERMS = {"1": lambda p: 1.0, "log": log2, "root": sqrt, "ranks": float, "ranks log": lambda p: p * log2(p)}
 ZOLTAN, JAGGED = "zoltan-rcb", "zoltan2-mj"
 NAMES = {name: name for name in (ZOLTAN, JAGGED)}  # names of the driver
 NAMES |= {name: f"{name}[mesh=4]" for name in ("rrcb", "rrcb-exact")}
 LEVELS = ("1", "log")
-GROWTHS = {  # of what follows from the method; the growth of bytes is chosen by the error of the fit
-    ZOLTAN: {"collectives": LEVELS, "messages": LEVELS},
-    JAGGED: {"collectives": LEVELS, "messages": ("1",)},
+# Of what follows from the method: at each level a point moves at most once. All others are chosen by the error of the fit.
+GROWTHS = {
+    ZOLTAN: {"collectives": LEVELS, "messages": LEVELS, "point bytes": LEVELS},
+    JAGGED: {"collectives": LEVELS, "messages": ("1",), "point bytes": LEVELS},
     "rrcb": {"collectives": ("1",), "messages": ("1",)},
     "rrcb-exact": {"collectives": ("1",), "messages": LEVELS},
 }
@@ -107,20 +108,21 @@ def _counts(name: str, row: object, calls: pd.DataFrame) -> dict[str, float]:
 
 
 def fit(counts: pd.DataFrame, column: str, terms: tuple[str, ...]) -> dict[str, float]:
-    """Returns the coefficients of the terms, at least 0, fitted to minimize the relative error."""
+    """Returns the coefficients of the terms, fitted to minimize the relative error."""
     counted = counts[column].to_numpy(float)
     table = np.array([[TERMS[term](ranks) for term in terms] for ranks in counts["ranks"]])
     scale = np.maximum(counted, 1)
     found = np.linalg.lstsq(table / scale[:, None], counted / scale, rcond=None)[0]
-    return dict(zip(terms, np.maximum(found, 0)))
+    return dict(zip(terms, found))
 
 
 def fits(name: str, counts: pd.DataFrame, column: str) -> list[dict[str, float]]:
     """Returns the fit with the smallest largest error, and then those that are as good. Fits of bytes have any one or two
-    terms, all others the terms of the method."""
+    terms with positive coefficients, all others the terms of the method."""
     if terms := GROWTHS[name].get(column):
-        return [fit(counts, column, terms)]
+        return [{term: max(factor, 0) for term, factor in fit(counts, column, terms).items()}]
     found = [fit(counts, column, terms) for number in (1, 2) for terms in combinations(TERMS, number)]
+    found = [of for of in found if min(of.values()) >= 0]
     errors = [error_of(of, counts, column) for of in found]
     order = sorted(range(len(found)), key=errors.__getitem__)
     return [found[k] for k in order if errors[k] <= AS_GOOD * errors[order[0]] + 1e-9]

@@ -41,15 +41,17 @@ class ScalingTest(unittest.TestCase):
         (found,) = scaling.fits("zoltan2-mj", counts, "bytes")
         self.assertEqual([*found], ["1", "ranks"])
         self.assertAlmostEqual(scaling.at(found, 1024), 300 + 102400)
-        # As counted of multijagged on 16 to 64 ranks: twice the least error does not tell three growths apart.
-        counted = pd.DataFrame({"ranks": [16, 32, 64], "bytes": [4584.0, 8580.0, 16794.0]})
+        # As counted of multijagged: twice the least error does not tell five growths apart.
+        ranks, bytes_each = [2, 3, 4, 8, 16, 32, 64], [496.0, 970.7, 1560.0, 2896.0, 4584.0, 8580.0, 16794.0]
+        counted = pd.DataFrame({"ranks": ranks, "bytes": bytes_each})
         found = scaling.fits("zoltan2-mj", counted, "bytes")
-        self.assertEqual([[*of] for of in found], [["1", "ranks"], ["log", "ranks"], ["root", "ranks"]])
-        columns = {name: COUNTS[name].to_list()[:3] for name in ("collectives", "messages", "point bytes", "root bytes")}
+        self.assertEqual([[*of] for of in found], [["log", "ranks log"], ["log", "ranks"], ["root", "ranks"], ["ranks"],
+                                                   ["root", "ranks log"]])  # fmt: skip
+        columns = dict.fromkeys(("collectives", "messages", "point bytes", "root bytes"), [1.0] * len(ranks))
         paths = scaling.all_paths({"zoltan2-mj": counted.assign(**columns)}, scaling.Machine(), VIRTUAL)
         row = paths.iloc[-1]
         self.assertLess(row["low_s"], row["model_s"])
-        self.assertEqual(row["model_s"], row["high_s"])
+        self.assertLess(row["model_s"], row["high_s"])
         cells = scaling.time_table(paths)[-1]
         self.assertEqual(cells[:2], ["1,048,576", "many ranks"])
         self.assertRegex(cells[2], r"^\d+ \[\d+, \d+\]$")

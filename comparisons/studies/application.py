@@ -7,14 +7,12 @@ divided by the time of a step that is even over the ranks, of which the least of
 
 from __future__ import annotations
 
-import argparse
-import sys
 from pathlib import Path
 
 import pandas as pd
 import plot
-from document import Report, show
-from driver import COMPARE, OUT, ROOT, Driver, build
+from document import Report
+from driver import ROOT, Driver, driver_of, options
 from matplotlib.figure import Figure
 from price import EVERY
 from results import read
@@ -91,33 +89,22 @@ def report(out: Path) -> None:
     found = Report("What a tolerance costs whole runs", out)
     found.picture("application.png", " ".join(draw.__doc__.split()))
     for scene, rows in scenes.items():
-        show(scene, table_of(rows))
-        found.table(scene, table_of(rows))
+        found.table(scene, table_of(rows), is_shown=True)
         if slope := slope_of_work(once(read(out / scene / "simulation_runs.csv"))):
-            text = f"{scene}: 1 % more points on the fullest rank add {slope.text(2)} % of counted work to the steps."
-            found.text(text)
-            print(f"\n{text}")
+            found.say(f"{scene}: 1 % more points on the fullest rank add {slope.text(2)} % of counted work to the steps.")
     found.text(" ".join(__doc__.split("\n\n")[1].split()))
     found.write(next(out.glob("*/run.txt"), out))
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(prog="comparisons/studies/run application", description=__doc__,
-                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
-    parser.add_argument("--out", type=Path, default=OUT / "application", help="folder of the results")
+def main() -> None:
+    parser = options("application", __doc__, "20 steps of coarse scenes")
     parser.add_argument("--repeats", type=int, default=1, help="equal runs, of whose steps the least seconds count")
     parser.add_argument("--keep", action="store_true", help="report what is in the folder")
-    parser.add_argument("--quick", action="store_true", help="20 steps of coarse scenes")
-    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     given = parser.parse_args()
-    given.out.mkdir(parents=True, exist_ok=True)
     if not given.keep:
-        if not given.driver:
-            build("rrcb_compare")
-        measure(Driver(given.out, given.driver or COMPARE, given.quick), given.repeats)
+        measure(driver_of(given), given.repeats)
     report(given.out)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

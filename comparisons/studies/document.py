@@ -20,14 +20,21 @@ class Report:
         """Adds a paragraph unless the text is empty."""
         self.blocks += [text] * bool(text)
 
+    def say(self, text: str) -> None:
+        """Adds a paragraph and prints it."""
+        self.text(text)
+        print(f"\n{text}")
+
     def picture(self, name: str, caption: str) -> None:
         """Adds a picture if the file exists."""
         if (self.folder / name).exists():
             self.text(f"![{caption.split('. ')[0].rstrip('.')}]({name})\n\n*{caption}*")
 
-    def table(self, caption: str, rows: pd.DataFrame) -> None:
-        """Adds a table unless it has no rows."""
+    def table(self, caption: str, rows: pd.DataFrame, is_shown: bool = False) -> None:
+        """Adds a table unless it has no rows. Also prints it if `is_shown`; its cells must then be texts."""
         if len(rows):
+            if is_shown:
+                show(caption, rows)
             self.text(f"**{caption}**\n\n{markdown_table([list(rows), *rows.values.tolist()])}")
 
     def write(self, record: Path) -> None:

@@ -1,7 +1,8 @@
-"""Configures, builds and runs the comparison driver, rrcb_compare, for the studies."""
+"""The options that all studies have, and the programs that they build and run, above all rrcb_compare."""
 
 from __future__ import annotations
 
+import argparse
 import subprocess
 import sys
 from functools import cache
@@ -40,6 +41,26 @@ def on_ranks(ranks: int, program: Path, *arguments: str, **how) -> subprocess.Co
     return subprocess.run(command, stdin=subprocess.DEVNULL, **how)
 
 
+def options(study: str, text: str, quick: str = "", command: str = "") -> argparse.ArgumentParser:
+    """Returns a parser of the options that all studies have. Without a text on it there is no --quick."""
+    parser = argparse.ArgumentParser(prog=command or f"comparisons/studies/run {study}", description=text,
+                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
+    parser.add_argument("--out", type=Path, default=OUT / study, help=f"folder of the results; comparisons/out/{study}")
+    parser.add_argument("--driver", type=Path, help="a program in the folder of those to run, which are not built then")
+    if quick:
+        parser.add_argument("--quick", action="store_true", help=quick)
+    return parser
+
+
+def prepare(given: argparse.Namespace, *targets: str, multijagged: bool = False) -> Path:
+    """Makes the folder of the results, and builds the programs unless --driver is given. Returns the first program."""
+    given.out.mkdir(parents=True, exist_ok=True)
+    if given.driver:
+        return given.driver.with_name(targets[0])
+    build(*targets, multijagged=multijagged)
+    return PROGRAMS / targets[0]
+
+
 class Driver:
     """Runs one build of the driver. Each run has its own folder below `out`."""
 
@@ -55,3 +76,8 @@ class Driver:
         if found.returncode:
             sys.exit(f"rrcb_compare {' '.join(words)}\n{found.stdout}{found.stderr}")
         return self.out / name
+
+
+def driver_of(given: argparse.Namespace, *targets: str, multijagged: bool = False) -> Driver:
+    program = prepare(given, COMPARE.name, *targets, multijagged=multijagged)
+    return Driver(given.out, program, given.quick)

@@ -12,14 +12,12 @@ Writes flows.csv, a row for each flow, number of parts and policy, and calls_PAR
 
 from __future__ import annotations
 
-import argparse
-import sys
 from pathlib import Path
 
 import pandas as pd
 from document import markdown_table
-from driver import OUT, PROGRAMS, build, on_ranks
-from results import read_all
+from driver import options, prepare
+from results import printed
 
 RUN = ["flow", "dim", "parts", "policy"]
 FACTORS = (1, 10)  # H
@@ -31,11 +29,7 @@ QUICK = "rod,drops"
 
 def follow(program: Path, out: Path, parts: int, flows: str, policies: str) -> pd.DataFrame:
     """Returns a row for each flow, policy and call."""
-    file, ranks = out / f"calls_{parts}.csv", min(parts, MOST_RANKS)
-    print(f"rrcb_flows {parts} {flows} on {ranks} ranks", file=sys.stderr, flush=True)
-    with file.open("w") as rows:
-        on_ranks(ranks, program, str(parts), flows, policies, stdout=rows, check=True)
-    return read_all(file)
+    return printed(min(parts, MOST_RANKS), program, str(parts), flows, policies, file=out / f"calls_{parts}.csv")
 
 
 def ratio_name(factor: float, radius: str) -> str:
@@ -80,19 +74,12 @@ def traffic_table(rows: pd.DataFrame) -> list[list[str]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="comparisons/studies/run flows", description=__doc__,
-                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
-    parser.add_argument("--out", type=Path, default=OUT / "flows", help="folder of the results")
-    parser.add_argument("--quick", action="store_true", help=f"the flows {QUICK} on 4 parts")
+    parser = options("flows", __doc__, f"the flows {QUICK} on 4 parts")
     parser.add_argument("--flows", help="names by commas; all")
     parser.add_argument("--parts", help="numbers by commas; 4,16")
     parser.add_argument("--policies", default="all", help="names by commas; all")
-    parser.add_argument("--driver", type=Path, help="a program beside rrcb_flows, which is not built then")
     given = parser.parse_args()
-    given.out.mkdir(parents=True, exist_ok=True)
-    if not given.driver:
-        build("rrcb_flows")
-    program = (given.driver.parent if given.driver else PROGRAMS) / "rrcb_flows"
+    program = prepare(given, "rrcb_flows")
     flows = given.flows or (QUICK if given.quick else "all")
     numbers = given.parts or ("4" if given.quick else "4,16")
     rows = summary(pd.concat(

@@ -5,15 +5,11 @@ With --loads it instead counts the loads of parts whose sizes are corrected for 
 
 from __future__ import annotations
 
-import argparse
-import sys
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 from document import markdown_table
-from driver import OUT, PROGRAMS, build, on_ranks
-from results import read_all
+from driver import options, prepare
+from results import printed
 
 CASE = ["cloud", "dim", "parts"]
 BASE = "zoltan-rcb"
@@ -63,32 +59,19 @@ def load_table(rows: pd.DataFrame) -> list[list[str]]:
     return lines
 
 
-def count(program: Path, file: Path, *words: str, ranks: int = 1) -> pd.DataFrame:
-    print("rrcb_ghosts", *words, file=sys.stderr, flush=True)
-    with file.open("w") as rows:
-        on_ranks(ranks, program, *words, stdout=rows, check=True)
-    return read_all(file)
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=OUT / "ghosts", help="folder of the results")
-    parser.add_argument("--quick", action="store_true", help="few points, one seed")
+    parser = options("ghosts", __doc__, "few points, one seed")
     parser.add_argument("--loads", action="store_true", help="correct part sizes by ghosts, on 8, 16 and 32 ranks")
-    parser.add_argument("--driver", type=Path, help="a program beside rrcb_ghosts, which is not built then")
     given = parser.parse_args()
-    given.out.mkdir(parents=True, exist_ok=True)
-    if not given.driver:
-        build("rrcb_ghosts")
-    program = (given.driver.parent if given.driver else PROGRAMS) / "rrcb_ghosts"
+    program = prepare(given, "rrcb_ghosts")
     quick = ["--quick"] * given.quick
     if given.loads:
-        found = [count(program, given.out / f"loads_{ranks}.csv", "loads", *quick, ranks=ranks)
-                 for ranks in ((8,) if given.quick else LOAD_RANKS)]  # fmt: skip
+        found = [printed(ranks, program, "loads", *quick, file=given.out / f"loads_{ranks}.csv")
+                 for ranks in LOAD_RANKS[: 1 if given.quick else None]]  # fmt: skip
         print(markdown_table(load_table(pd.concat(found))))
         return
     print("Ghosts over those of zoltan-rcb\n")
-    print(markdown_table(table(ratios(count(program, given.out / "clouds.csv", "clouds", *quick)))))
+    print(markdown_table(table(ratios(printed(1, program, "clouds", *quick, file=given.out / "clouds.csv")))))
 
 
 if __name__ == "__main__":

@@ -6,14 +6,13 @@ from __future__ import annotations
 import argparse
 import re
 import shutil
-import sys
 from pathlib import Path
 
 import pandas as pd
 import plot
 from claims import claim_table
-from document import Report, shared_cores, show, write_between
-from driver import COMPARE, OUT, ROOT, Driver, build
+from document import Report, shared_cores, write_between
+from driver import ROOT, Driver, driver_of, options
 from methods import RCB, STANDARD, WINNERS, setting_of
 from paper_figures import CAPTIONS, CHART_K, FINEST, draw_all, grid_table, speed_ups
 from results import Results, measurements, read, sound
@@ -121,13 +120,9 @@ def write_page(out: Path, claims: pd.DataFrame) -> None:
             shutil.copy(figure, ROOT / "docs/figures")
 
 
-def main() -> int:
+def main() -> None:
     arguments = _read_arguments()
-    out = arguments.out
-    out.mkdir(parents=True, exist_ok=True)
-    if not arguments.driver:
-        build("rrcb_compare")
-    driver = Driver(out, arguments.driver or COMPARE, arguments.quick)
+    driver, out = driver_of(arguments), arguments.out
     for part in arguments.only:
         PARTS[part](driver)
     plot.use_style()
@@ -136,28 +131,21 @@ def main() -> int:
     claims = claim_table(out)
     for caption, rows in (("What the paper says", claims), ("Table 1: by processes", rank_table(out)),
                           ("Figure 5: its settings", grid_table(out))):  # fmt: skip
-        report.table(caption, rows)
-        if len(rows):
-            show(caption, rows)
+        report.table(caption, rows, is_shown=True)
     for name in draw_all(out):
         report.picture(name, CAPTIONS[name])
     report.write(out / "snapshots/run.txt")
     if arguments.page:
         write_page(out, claims)
-    return 0
 
 
 def _read_arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="comparisons/paper", description=__doc__)
-    parser.add_argument("--out", type=Path, default=OUT / "paper",
-                        help="folder of the results; comparisons/out/paper")  # fmt: skip
+    parser = options("paper", __doc__, "a small run of everything", "comparisons/paper")
     usual = [part for part in PARTS if part != "grid"]
     parser.add_argument("--only", type=_parts, default=usual, metavar="LIST",
                         help=f"what to measure, by commas: {', '.join(PARTS)}; all but grid. The rest is read from"
                         " the folder.")  # fmt: skip
     parser.add_argument("--page", action="store_true", help="write docs/design/paper.md, its counts and figures")
-    parser.add_argument("--quick", action="store_true", help="a small run of everything")
-    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     return parser.parse_args()
 
 
@@ -169,4 +157,4 @@ def _parts(text: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

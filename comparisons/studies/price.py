@@ -7,16 +7,14 @@ The time that a step takes for a point is measured in the simulation of a slope,
 
 from __future__ import annotations
 
-import argparse
-import sys
 from math import inf
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import plot
-from document import CORES, Report, show
-from driver import COMPARE, OUT, Driver, build, has_multijagged
+from document import CORES, Report
+from driver import Driver, driver_of, has_multijagged, options
 from intervals import ONE, Value, in_digits, mean_of, median_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -291,42 +289,30 @@ def report(out: Path) -> None:
     for name, make in pictures.items():
         found.picture(name, " ".join(make.__doc__.split()))
     for caption, table in tables.items():
-        found.table(caption, table)
-        show(caption, table)
+        found.table(caption, table, is_shown=True)
     if timed:
         again = noise_of(out)
         verdict = (
             "too few runs to tell" if not again.has_interval else "not told apart" if not again.is_apart(ONE)
             else "told apart from itself: do not believe the times"
         )  # fmt: skip
-        text = f"A/A: Zoltan's RCB over itself {again.text(3)}, {verdict}. A step takes {step_ns.text(1)} ns a point."
-        found.text(text)
-        print(f"\n{text}")
+        found.say(f"A/A: Zoltan's RCB over itself {again.text(3)}, {verdict}. A step takes {step_ns.text(1)} ns a point.")
     found.write(next(out.glob("*/run.txt"), out))
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(prog="comparisons/run --price", description=__doc__,
-                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
-    parser.add_argument("--out", type=Path, default=OUT / "price", help="folder of the results; comparisons/out/price")
+def main() -> None:
+    parser = options("price", __doc__, "a small run of everything", "comparisons/run --price")
     parser.add_argument("--parts", default="4,16,64", help="numbers of parts, one a rank; 4,16,64")
     parser.add_argument("--points", type=int, default=100_000, help="of each cloud; 100000")
     parser.add_argument("--repeats", type=int, default=6,
                         help=f"turns, best an even number; 6. With 1, and beyond {MOST_A_CORE} ranks a core, counts"
                         " alone, no times")
     parser.add_argument("--keep", action="store_true", help="report what is in the folder")
-    parser.add_argument("--quick", action="store_true", help="a small run of everything")
-    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     given = parser.parse_args()
-    given.out.mkdir(parents=True, exist_ok=True)
     if not given.keep:
-        if not given.driver:
-            build("rrcb_compare", multijagged=True)
-        driver = Driver(given.out, given.driver or COMPARE, given.quick)
-        measure(driver, sorted(map(int, given.parts.split(","))), given.points, given.repeats)
+        measure(driver_of(given, multijagged=True), sorted(map(int, given.parts.split(","))), given.points, given.repeats)
     report(given.out)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,12 +1,16 @@
-"""Reads the files that the comparison driver writes; columns.md describes their columns."""
+"""Reads the files and rows that the programs write; columns.md describes the columns."""
 
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from functools import cached_property
+from io import StringIO
 from pathlib import Path
 
 import pandas as pd
+from driver import on_ranks
 from simulation import noise, once, summarise
 
 WHOLE = "ranks points dim steps every messages bytes root_bytes_in rebalances".split()
@@ -16,9 +20,20 @@ def read_all(path: Path) -> pd.DataFrame:
     """Returns all rows of a file, including those of failures; no rows if the file does not exist."""
     if not path.exists():
         return pd.DataFrame()
-    return pd.read_csv(
-        path, float_precision="round_trip", keep_default_na=False, na_values=["", "nan", "-nan"]
-    )
+    return parsed(path)
+
+
+def parsed(source: Path | StringIO) -> pd.DataFrame:
+    return pd.read_csv(source, float_precision="round_trip", keep_default_na=False, na_values=["", "nan", "-nan"])
+
+
+def printed(ranks: int, program: Path, *words: str, file: Path | None = None) -> pd.DataFrame:
+    """Returns the rows that a program prints. They are also written to the file."""
+    print(f"{program.name} {' '.join(words)} on {ranks} ranks", file=sys.stderr, flush=True)
+    text = on_ranks(ranks, program, *words, stdout=subprocess.PIPE, text=True, check=True).stdout
+    if file:
+        file.write_text(text)
+    return parsed(StringIO(text))
 
 
 def read(path: Path) -> pd.DataFrame:

@@ -7,17 +7,14 @@ axis. neighbours: SPH points whose density, and number of neighbours, rises from
 
 from __future__ import annotations
 
-import argparse
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 from document import markdown_table
-from driver import COMPARE, OUT, Driver, build
+from driver import Driver, driver_of, options
 from intervals import median_of
 from results import read
 
-METHOD, RANKS = "rrcb-arrays", 4
+METHOD, RANKS, SEEDS = "rrcb-arrays", 4, 10
 
 
 def materials(random: np.random.Generator, direction: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -45,21 +42,11 @@ def busiest(driver: Driver, name: str, points: np.ndarray, cost: np.ndarray, has
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="comparisons/studies/run weights", description=__doc__,
-                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
-    parser.add_argument("--out", type=Path, default=OUT / "weights", help="folder of the results")
-    parser.add_argument("--seeds", type=int, default=10)
-    parser.add_argument("--quick", action="store_true", help="one seed")
-    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
-    given = parser.parse_args()
-    given.out.mkdir(parents=True, exist_ok=True)
-    if not given.driver:
-        build("rrcb_compare")
-    driver = Driver(given.out, given.driver or COMPARE)
+    driver = driver_of(options("weights", __doc__, "one seed").parse_args())
     lines = [["points", "counted", "weighed", "time of a step, weighed / counted"]]
     for make in (materials, neighbours):
         pairs = []
-        for seed in range(1 if given.quick else given.seeds):
+        for seed in range(1 if driver.quick else SEEDS):
             random = np.random.default_rng(seed)
             angle = random.uniform(0.2, 1.37)  # at least 11 degrees from the axes
             points, cost = make(random, np.array([np.cos(angle), np.sin(angle)]), 20_000)

@@ -6,7 +6,6 @@ the fit by least absolute errors; comparisons/driver/scene_choice_mpi.cpp has th
 
 from __future__ import annotations
 
-import argparse
 from itertools import combinations
 from pathlib import Path
 
@@ -14,7 +13,7 @@ import callgrind
 import numpy as np
 import pandas as pd
 from document import markdown_table
-from driver import COMPARE, OUT, build
+from driver import COMPARE, options, prepare
 from results import read
 
 RANKS, RECORD = 4, 50  # steps between counted ones: a turn of the driver
@@ -64,16 +63,10 @@ def table_of(rows: pd.DataFrame) -> list[list[str]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="comparisons/studies/run work", description=__doc__,
-                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
-    parser.add_argument("--out", type=Path, default=OUT / "work", help="folder of the counts")
-    parser.add_argument("--scenes", default=",".join(SCENES), help="names by commas")
-    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
-    given = parser.parse_args()
-    if not given.driver:
-        build("rrcb_compare")
-    for scene in given.scenes.split(","):
-        rows = measure(given.driver or COMPARE, scene, SCENES[scene], given.out / scene)
+    given = options("work", __doc__).parse_args()
+    program = prepare(given, COMPARE.name)
+    for scene, steps in SCENES.items():
+        rows = measure(program, scene, steps, given.out / scene)
         rows.to_csv(given.out / f"{scene}.csv")
         print(f"\n{scene}\n\n{markdown_table(table_of(rows))}")
 

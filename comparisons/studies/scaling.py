@@ -6,11 +6,7 @@ rank. The search of many ranks is counted on up to a million virtual ranks. Only
 
 from __future__ import annotations
 
-import argparse
-import io
 import shutil
-import subprocess
-import sys
 from itertools import combinations, product
 from math import ceil, log2, sqrt
 from pathlib import Path
@@ -19,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 import plot
-from document import Report, show, write_between
-from driver import COMPARE, OUT, ROOT, Driver, build, has_multijagged
-from results import read, row_of
+from document import Report, write_between
+from driver import ROOT, Driver, driver_of, has_multijagged, options
+from results import printed, read, row_of
 
 RANKS = (2, 3, 4, 8, 16, 32, 64)
 MOST_RANKS = 1 << 20
@@ -66,17 +62,12 @@ def count(driver: Driver, points: int) -> None:
 
 
 def search_virtually(driver: Driver) -> None:
-    """Returns rows of the search on virtual ranks. The points of each are in the part of the same number."""
+    """Writes a row for each search on virtual ranks."""
     free = next(line for line in Path("/proc/meminfo").open() if line.startswith("MemAvailable"))
     numbers = [256, 4096, 65536] + [MOST_RANKS] * (int(free.split()[1]) > 12e6)
-    rows = []
-    for number in numbers[:1] if driver.quick else numbers:
-        for tolerance in TOLERANCES.values():
-            print(f"Searching cuts of {number} virtual ranks", file=sys.stderr, flush=True)
-            program = str(driver.program.parent / "rrcb_virtual_ranks")
-            command = [program, str(number), "by_part", str(tolerance), "8"]
-            found = subprocess.run(command, capture_output=True, text=True, check=True)
-            rows.append(pd.read_csv(io.StringIO(found.stdout)))
+    program = driver.program.with_name("rrcb_virtual_ranks")
+    rows = [printed(1, program, str(number), str(tolerance))
+            for number in (numbers[:1] if driver.quick else numbers) for tolerance in TOLERANCES.values()]  # fmt: skip
     pd.concat(rows).to_csv(driver.out / "virtual.csv", index=False)
 
 
@@ -267,27 +258,20 @@ def report(out: Path, counts: dict[str, pd.DataFrame], paths: pd.DataFrame) -> N
     found = Report("To a million ranks: counts and a model", out)
     found.picture("scaling.png", "A call by the model; grey: counted here.")
     for caption, rows in tables.items():
-        found.table(caption, rows)
-        show(caption, rows)
+        found.table(caption, rows, is_shown=True)
     found.write(out / "ranks-2/run.txt")
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(prog="comparisons/scaling", description=__doc__)
-    parser.add_argument("--out", type=Path, default=OUT / "scaling")
+def main() -> None:
+    parser = options("scaling", __doc__, "up to 8 ranks", "comparisons/scaling")
     parser.add_argument("--latency-us", type=float, default=1.5)
     parser.add_argument("--bandwidth-gb", type=float, default=12.0)
     parser.add_argument("--points-per-rank", type=int, default=50_000)
     parser.add_argument("--page", action="store_true", help="write the table and the picture of docs/performance.md")
-    parser.add_argument("--quick", action="store_true", help="up to 8 ranks")
-    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     given = parser.parse_args()
     if not min(given.latency_us, given.bandwidth_gb, given.points_per_rank) > 0:
         parser.error("latency, bandwidth and points must be above 0")
-    given.out.mkdir(parents=True, exist_ok=True)
-    if not given.driver:
-        build("rrcb_compare", "rrcb_virtual_ranks", multijagged=True)
-    count(driver := Driver(given.out, given.driver or COMPARE, given.quick), given.points_per_rank)
+    count(driver := driver_of(given, "rrcb_virtual_ranks", multijagged=True), given.points_per_rank)
     search_virtually(driver)
     machine = Machine(given.latency_us * 1e-6, given.bandwidth_gb * 1e9, given.points_per_rank)
     counts = read_counts(given.out)
@@ -299,8 +283,7 @@ def main() -> int:
     if given.page:
         write_between(ROOT / "docs/performance.md", "times", time_table(paths))
         shutil.copy(given.out / "scaling.png", ROOT / "docs/figures")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -20,11 +20,6 @@ namespace {
 /// The texts of the given options. The numbers are parsed here, because Teuchos accepts 5x as 5.
 struct Texts {
     std::map<std::string, std::string> values;
-    bool quick = false;
-    bool data = true;
-    bool serial = false;
-    bool progress = false;
-    bool version = false;
 
     const std::string& operator[](const std::string& name) const { return values.at(name); }
     bool given(const std::string& name) const { return !values.at(name).empty(); }
@@ -59,29 +54,27 @@ const std::map<std::string, std::string>& documentation() {
     return texts;
 }
 
-/// Returns the help text if it was requested. Teuchos prints the text and error messages on rank 0
-/// only, so all ranks must use the code that it returns.
-std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
+/// Reads the options without a value, and the texts of the others. Teuchos prints the help and
+/// error messages on rank 0 only, so all ranks must use the code that it returns.
+void parse(int argc, char** argv, Texts& texts, Arguments& arguments) {
     Teuchos::CommandLineProcessor processor(false);
     processor.setDocString("Compares RRCB with Zoltan's partitioners on the same points.\n");
     for (const auto& [name, text] : documentation()) {
         processor.setOption(name.c_str(), &texts.values[name], text.c_str());
     }
-    processor.setOption("quick", "no-quick", &texts.quick, "a small run of everything");
-    processor.setOption("data", "no-data", &texts.data, "write the data of the pictures");
-    processor.setOption("serial", "no-serial", &texts.serial,
+    processor.setOption("quick", "no-quick", &arguments.quick, "a small run of everything");
+    processor.setOption("data", "no-data", &arguments.data, "write the data of the pictures");
+    processor.setOption("serial", "no-serial", &arguments.serial,
                         "simulate on rank 0 alone as well, in turns with the others");
-    processor.setOption("progress", "no-progress", &texts.progress, "show a progress bar");
-    processor.setOption("version", "no-version", &texts.version, "print the versions");
     std::ostringstream output;
     const auto result = processor.parse(argc, argv, &output);
-    if (result == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) return output.str();
-    if (result != Teuchos::CommandLineProcessor::PARSE_SUCCESSFUL) {
+    if (result == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) {
+        arguments.help = output.str();
+    } else if (result != Teuchos::CommandLineProcessor::PARSE_SUCCESSFUL) {
         const std::string text = output.str();
         const std::size_t error = std::min(text.find("Error,"), text.size());
         throw Failure(std::string(trim(std::string_view(text).substr(error))));
     }
-    return std::nullopt;
 }
 
 /// Throws if an option has no value: Teuchos would treat it as not given.
@@ -128,16 +121,12 @@ void check_combination(const Texts& texts) {
         if (texts.given(option) && !fits) throw Failure("--" + option + " goes with " + what);
     };
     const bool is_scene = sources == 0 || texts.given("scene");
-    needs("points", texts.given("cloud"), "--cloud only; remove it");
-    needs("dim", texts.given("cloud"), "--cloud only; remove it");
+    for (const char* option : {"points", "dim"})
+        needs(option, texts.given("cloud"), "--cloud only; remove it");
     needs("layout", texts.given("cloud") || texts.given("file"),
           "--cloud or --file only; remove it");
-    needs("only", is_scene, "--scene only; remove it");
-    needs("steps", is_scene, "--scene only; remove it");
-    needs("from", is_scene, "--scene only; remove it");
-    needs("every", is_scene, "--scene only; remove it");
-    needs("record", is_scene, "--scene only; remove it");
-    needs("cost", is_scene, "--scene only; remove it");
+    for (const char* option : {"only", "steps", "from", "every", "record", "cost"})
+        needs(option, is_scene, "--scene only; remove it");
 }
 
 /// Returns the intervals of a list; "auto" becomes 0.
@@ -153,11 +142,6 @@ std::vector<int> read_intervals(const std::string& text) {
         intervals.push_back(*steps);
     }
     return intervals;
-}
-
-void use_default_sizes(Arguments& arguments) {
-    if (arguments.quick) arguments.points = 20'000;
-    if (arguments.quick) arguments.repeats = 2;
 }
 
 /// Returns the methods of a list. An empty list means that the scene runs without rebalancing only.
@@ -177,15 +161,11 @@ Arguments read_arguments(int argc, char** argv) {
     Arguments arguments;
     Texts texts;
     check_values(argc, argv);
-    arguments.help = parse(argc, argv, texts);
-    arguments.version = texts.version;
-    if (arguments.help || arguments.version) return arguments;
+    parse(argc, argv, texts, arguments);
+    if (arguments.help) return arguments;
     check_combination(texts);
-    arguments.data = texts.data;
-    arguments.serial = texts.serial;
-    arguments.quick = texts.quick;
-    arguments.progress = texts.progress;
-    use_default_sizes(arguments);
+    if (arguments.quick) arguments.points = 20'000;
+    if (arguments.quick) arguments.repeats = 2;
 
     constexpr int many = std::numeric_limits<int>::max();
     if (texts.given("scene")) arguments.scene = texts["scene"];

@@ -47,9 +47,7 @@ struct Arguments : MeasurementPlan {
     bool data = true;     ///< write the points and boxes that pictures show
     bool serial = false;  ///< add a simulation on rank 0 alone
     bool quick = false;
-    bool progress = false;
     std::optional<std::string> help;  ///< text to print instead of running
-    bool version = false;
 };
 
 /// Reads the command line. Not collective.

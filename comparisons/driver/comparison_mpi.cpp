@@ -94,22 +94,6 @@ Row time_row(const Comparison& comparison, const std::string& method, std::size_
     return call_key(comparison, method).add("turn", turn).add("time_ms", time_ms);
 }
 
-/// Returns the row of a method. If it failed, the reason follows its name.
-Row printed_row(const Measurement& measurement, double reference_ms) {
-    Row row;
-    row.add("method", measurement.method);
-    if (!measurement.error.empty()) return row.add("error", measurement.error);
-    const double middle = median(measurement.times_ms);
-    const std::optional<Interval> interval = interval95(measurement.times_ms);
-    const std::optional<double> speed_up = ratio_of(reference_ms, middle);
-    return row.add("imbalance", fixed(median(measurement.imbalances), 5))
-        .add("time ms", fixed(middle, 2))
-        .add("95 %", interval ? fixed(interval->low, 2) + " ... " + fixed(interval->high, 2) : "-")
-        .add("speed-up", speed_up && reference_ms > 0 ? fixed(*speed_up, 2) : "-")
-        .add("bytes", human_bytes(static_cast<double>(measurement.traffic.bytes)))
-        .add("ghosts", grouped(measurement.ghosts.sum));
-}
-
 /// Returns a description of the comparison, still without measurements. Collective over `comm`.
 Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_Comm comm) {
     Comparison comparison{
@@ -122,21 +106,24 @@ Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_C
 }  // namespace
 
 Comparison compare_methods(const Workload& workload, const Arguments& arguments,
-                           const ResultsFolder& folder, Progress& progress, MPI_Comm comm) {
+                           const ResultsFolder& folder, MPI_Comm comm) {
     Comparison comparison = describe(workload, arguments, comm);
     std::vector<Method> methods = arguments.methods;
     const auto reference = std::ranges::find(methods, "zoltan-rcb", &Method::label);
     const bool is_twice = reference != methods.end();
     if (is_twice) methods.push_back(Method(*reference));
-    comparison.measurements = measure(workload, methods, comparison.plan, progress, comm);
+    comparison.measurements = measure(workload, methods, comparison.plan, comm);
     if (is_twice) {
         comparison.second_times_ms = std::move(comparison.measurements.back().times_ms);
         comparison.measurements.pop_back();
     }
     if (arguments.data)
         write_plot_data(folder, workload, arguments.methods, comparison.measurements, comm);
-    if (rank_of(comm) == 0) print_table(std::cout, comparison);
-    std::cout.flush();
+    double radius = 0;
+    for (const Measurement& m : comparison.measurements) radius = std::max(radius, m.ghosts.radius);
+    if (rank_of(comm) == 0)
+        std::cout << workload.name << ": " << comparison.num_points << " points, ghosts within "
+                  << nine_digits(radius) << std::endl;
     return comparison;
 }
 
@@ -180,24 +167,6 @@ std::string call_times_csv(std::span<const Comparison> comparisons) {
         add("zoltan-rcb again", comparison.second_times_ms);
     }
     return csv(time_row({}, {}, 0, 0), rows);
-}
-
-void print_table(std::ostream& out, const Comparison& comparison) {
-    out << '\n'
-        << comparison.workload << ": " << grouped(comparison.num_points) << " points, "
-        << comparison.dimension << "-D, " << comparison.layout << ", " << comparison.num_ranks
-        << " ranks, lists " << lists_name(comparison.plan.lists) << ", median of "
-        << comparison.plan.repeats;
-    double radius = 0;
-    for (const Measurement& m : comparison.measurements) radius = std::max(radius, m.ghosts.radius);
-    if (radius > 0) out << ", ghosts within " << nine_digits(radius);
-    out << "\n\n";
-    const double reference_ms = median(reference_times(comparison));
-    std::vector<Row> rows;
-    for (const Measurement& measurement : comparison.measurements) {
-        rows.push_back(printed_row(measurement, reference_ms));
-    }
-    print_columns(out, printed_row({}, 0), rows);
 }
 
 }  // namespace comparisons

@@ -6,8 +6,6 @@
 
 #include <mpi.h>
 
-#include <optional>
-#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,10 +25,10 @@ struct Comparison {
                                                ///< turn
 };
 
-/// Measures all methods on a workload, prints their table and writes the data of its pictures.
+/// Measures all methods on a workload and writes the data of its pictures.
 /// Collective over `comm`.
 Comparison compare_methods(const Workload& workload, const Arguments& arguments,
-                           const ResultsFolder& folder, Progress& progress, MPI_Comm comm);
+                           const ResultsFolder& folder, MPI_Comm comm);
 
 /// Returns true if a method failed in any comparison.
 bool has_failures(std::span<const Comparison> comparisons);
@@ -45,8 +43,5 @@ std::string calls_csv(std::span<const Comparison> comparisons);
 /// Returns the text of call_times.csv, with the time of every call. Calls of the same turn may be
 /// compared in pairs. The second call of zoltan-rcb in a turn is named "zoltan-rcb again".
 std::string call_times_csv(std::span<const Comparison> comparisons);
-
-/// Prints table.csv for people, with the most important columns first.
-void print_table(std::ostream& out, const Comparison& comparison);
 
 }  // namespace comparisons

@@ -72,18 +72,6 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
     return text.str();
 }
 
-/// Explains the columns of a table in a few lines.
-constexpr const char* definitions =
-    "imbalance: heaviest part / mean part; with several seeds their median.\n"
-    "time: on the slowest rank; median of the repeats without the first call.\n"
-    "95 %: confidence interval of the median, if there are 6 repeats or more.\n"
-    "speed-up: time of zoltan-rcb / time of the method.\n"
-    "bytes: passed to MPI and received from it in one call, on all ranks.\n"
-    "ghosts: copies of points that parts need from others: a point counts once for each "
-    "other\n"
-    "part that has a point within the radius.\n"
-    "table.csv has more columns; run.txt has versions, parameters and seeds.\n";
-
 void check_surroundings(const Arguments& arguments, MPI_Comm comm) {
     const int size = size_of(comm);
     if (arguments.ranks != 0 && arguments.ranks != size) {
@@ -110,24 +98,23 @@ Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
 
 /// Compares all methods on the requested points. For a scene these are its snapshots, and its
 /// simulations are compared as well. Returns false if a method failed.
-bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                 MPI_Comm comm) {
+bool compare_all(const Arguments& arguments, const ResultsFolder& folder, MPI_Comm comm) {
     std::vector<Comparison> comparisons;
     const auto compare = [&](std::span<const Workload> workloads) {
         for (const Workload& workload : workloads)
-            comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
+            comparisons.push_back(compare_methods(workload, arguments, folder, comm));
     };
     bool succeeded = true;
     if (!arguments.cloud.empty() || !arguments.file.empty() || !arguments.replay.empty()) {
         compare(std::vector{make_workload(arguments, comm)});
     } else if (arguments.only == Only::calls) {
-        compare(scene_snapshots(plan_scene(arguments, 1, comm), progress, comm));
+        compare(scene_snapshots(plan_scene(arguments, 1, comm), comm));
     } else {
         const bool calls = arguments.only == Only::all;
         const SnapshotVisitor visit = [&](std::span<const Workload> workloads) {
             if (calls) compare(workloads);
         };
-        succeeded = std::ranges::none_of(run_scene(arguments, folder, progress, visit, comm),
+        succeeded = std::ranges::none_of(run_scene(arguments, folder, visit, comm),
                                          &SimulationRounds::has_failed);
     }
     folder.write("table.csv", [&] { return table_csv(comparisons); });
@@ -139,22 +126,19 @@ bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progre
 int compare(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
     check_surroundings(arguments, comm);
     const ResultsFolder folder(arguments.out, comm);
-    Progress progress(arguments.progress && rank_of(comm) == 0);
     const std::string record = run_record(arguments, command, comm);
     folder.write("run.txt", [&] { return record; });
 
-    const bool succeeded = compare_all(arguments, folder, progress, comm);
-    if (rank_of(comm) == 0)
-        std::cout << '\n' << definitions << "Written to " << arguments.out << '\n';
+    const bool succeeded = compare_all(arguments, folder, comm);
+    if (rank_of(comm) == 0) std::cout << "Written to " << arguments.out << '\n';
     return succeeded ? 0 : 1;
 }
 
 int run(int argc, char** argv, MPI_Comm comm) {
     const Arguments arguments = read_arguments(argc, argv);
     set_ranks_per_machine(arguments.ghosts.ranks_per_node.value_or(0));
-    if (!arguments.help && !arguments.version)
-        return compare(arguments, command_line(argc, argv), comm);
-    if (rank_of(comm) == 0) std::cout << (arguments.help ? *arguments.help : versions());
+    if (!arguments.help) return compare(arguments, command_line(argc, argv), comm);
+    if (rank_of(comm) == 0) std::cout << *arguments.help;
     return 0;
 }
 

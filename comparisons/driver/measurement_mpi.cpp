@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
+#include <utility>
 
 namespace comparisons {
 
@@ -146,14 +146,13 @@ std::uint64_t order_seed(const Workload& workload, std::uint64_t seed, MPI_Comm 
 
 /// Calls each method once without timing it, then repeatedly, in a new order in each turn.
 void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan,
-                   const Workload& workload, Progress& progress, MPI_Comm comm) {
+                   const Workload& workload, MPI_Comm comm) {
     const std::uint64_t seed = order_seed(workload, plan.seed, comm);
     for (int call = 0; call < plan.repeats + 1; ++call) {
         // The first two timed turns have opposite orders.
         const auto turn = static_cast<std::uint64_t>(call + 1);
         for (const std::size_t next : drawn_order(candidates.size(), seed, turn)) {
             Candidate& candidate = candidates[next];
-            progress.advance();
             if (!candidate.partitioner) continue;
             candidate.choose_seed(std::max(0, call - 1));
             const double elapsed = timed_call(candidate, comm);
@@ -163,11 +162,9 @@ void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan,
     }
 }
 
-void judge_all(std::span<Candidate> candidates, const Workload& workload, Progress& progress,
-               MPI_Comm comm) {
+void judge_all(std::span<Candidate> candidates, const Workload& workload, MPI_Comm comm) {
     for (Candidate& candidate : candidates) {
         for (int call = 0; call < candidate.num_judged(); ++call) {
-            progress.advance();
             if (!candidate.partitioner) continue;
             candidate.choose_seed(call);
             count_and_judge(candidate, workload, comm);
@@ -183,16 +180,12 @@ void judge_all(std::span<Candidate> candidates, const Workload& workload, Progre
 }  // namespace
 
 std::vector<Measurement> measure(const Workload& workload, std::span<const Method> methods,
-                                 const MeasurementPlan& plan, Progress& progress, MPI_Comm comm) {
+                                 const MeasurementPlan& plan, MPI_Comm comm) {
     std::vector<Candidate> candidates;
-    int num_calls = 0;
-    for (const Method& method : methods) {
+    for (const Method& method : methods)
         candidates.emplace_back(method, workload, plan.lists, comm);
-        num_calls += plan.repeats + 1 + candidates.back().num_judged();
-    }
-    progress.start(workload.name + ": methods", num_calls);
-    time_in_turns(candidates, plan, workload, progress, comm);
-    judge_all(candidates, workload, progress, comm);
+    time_in_turns(candidates, plan, workload, comm);
+    judge_all(candidates, workload, comm);
     const GhostCounter ghosts(workload, plan.ghosts, comm);
     std::vector<Measurement> measurements;
     for (Candidate& candidate : candidates) {
@@ -203,12 +196,8 @@ std::vector<Measurement> measure(const Workload& workload, std::span<const Metho
 }
 
 double largest_by_size(std::span<const double> values) {
-    double largest = 0;
-    for (const double value : values) {
-        const double size = std::abs(value);
-        if (size > std::abs(largest) || (size == std::abs(largest) && value < 0)) largest = value;
-    }
-    return largest;
+    if (values.empty()) return 0;
+    return std::ranges::max(values, {}, [](double v) { return std::pair(std::abs(v), -v); });
 }
 
 }  // namespace comparisons

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "arguments.hpp"
-#include "progress.hpp"
 #include "traffic.hpp"
 
 #include <mpi.h>
@@ -47,7 +46,7 @@ inline constexpr int num_judged_seeds = 10;
 /// run with num_judged_seeds seeds. The timed calls use them in turn; the quality is that of all
 /// seeds, traffic and parts are those of the first. A method that fails is not called again.
 std::vector<Measurement> measure(const Workload& workload, std::span<const Method> methods,
-                                 const MeasurementPlan& plan, Progress& progress, MPI_Comm comm);
+                                 const MeasurementPlan& plan, MPI_Comm comm);
 
 /// Returns the entry of largest absolute value, with its sign. Of two such entries it returns the
 /// negative one. Returns 0 if there are no entries.

@@ -1,23 +1,18 @@
 #include "phase_log_mpi.hpp"
 
 #include "failure_mpi.hpp"
+#include "statistics.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 namespace comparisons {
 
-namespace {
-
-/// Returns the sum over the phases of the largest value on any rank.
-double sum_of_largest(std::vector<double> values, MPI_Comm comm) {
-    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
-                  comm);
-    return std::accumulate(values.begin(), values.end(), 0.0);
+std::vector<double> largest_of_ranks(std::vector<double> of_phases, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, of_phases.data(), static_cast<int>(of_phases.size()), MPI_DOUBLE,
+                  MPI_MAX, comm);
+    return of_phases;
 }
-
-}  // namespace
 
 double network_seconds(const Traffic& traffic, int num_ranks, const Network& network, Waits waits) {
     const int all_rounds = std::bit_width(static_cast<unsigned>(num_ranks - 1));
@@ -56,12 +51,11 @@ PathCost PhaseLog::cost(MPI_Comm comm) const {
     }
     for (std::int64_t* count : {&cost.messages, &cost.bytes})
         MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, comm);
-    cost.work_s = std::accumulate(work_s_.begin(), work_s_.end(), 0.0);
-    cost.root_s = cost.work_s;
+    cost.work_s = cost.root_s = sum(work_s_);
     MPI_Bcast(&cost.root_s, 1, MPI_DOUBLE, 0, comm);
     MPI_Allreduce(MPI_IN_PLACE, &cost.work_s, 1, MPI_DOUBLE, MPI_SUM, comm);
-    cost.path_s = sum_of_largest(work_s_, comm);
-    cost.network_s = sum_of_largest(std::move(network_s), comm);
+    cost.path_s = sum(largest_of_ranks(work_s_, comm));
+    cost.network_s = sum(largest_of_ranks(network_s, comm));
     return cost;
 }
 

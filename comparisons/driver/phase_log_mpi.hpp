@@ -24,6 +24,9 @@ enum class Waits { in_the_phase, in_the_next };
 double network_seconds(const Traffic& traffic, int num_ranks, const Network& network,
                        Waits waits = Waits::in_the_phase);
 
+/// Returns the largest value of any rank in each phase. Collective over `comm`.
+std::vector<double> largest_of_ranks(std::vector<double> of_phases, MPI_Comm comm);
+
 /// The cost of a sequence of phases. All ranks start each phase together.
 struct PathCost {
     double work_s = 0;  ///< processor time outside MPI, summed over the ranks

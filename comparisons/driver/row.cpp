@@ -1,6 +1,7 @@
 #include "row.hpp"
 
-#include <algorithm>
+#include <iostream>
+#include <utility>
 
 namespace comparisons {
 
@@ -59,24 +60,10 @@ std::string csv(const Row& columns, const std::vector<Row>& rows) {
     return text;
 }
 
-void print_columns(std::ostream& out, const Row& columns, const std::vector<Row>& rows) {
-    std::vector<std::vector<std::string>> lines(1);
-    for (const auto& [name, value] : columns.columns()) lines[0].push_back(name);
-    for (const Row& row : rows) {
-        lines.emplace_back();
-        for (const auto& [name, value] : row.columns()) lines.back().push_back(value);
-    }
-    std::vector<std::size_t> widths(lines[0].size());
-    for (const auto& line : lines)
-        for (std::size_t c = 0; line.size() == widths.size() && c < widths.size(); ++c)
-            widths[c] = std::max(widths[c], line[c].size());
-    for (const auto& line : lines) {
-        for (std::size_t c = 0; c < line.size(); ++c) {
-            const std::string padding(widths[c] - std::min(widths[c], line[c].size()), ' ');
-            out << (c == 0 ? line[c] + padding : "  " + padding + line[c]);
-        }
-        out << '\n';
-    }
+void print(const Row& row) {
+    static bool is_first = true;
+    if (std::exchange(is_first, false)) std::cout << row.header() << '\n';
+    std::cout << row.text() << std::endl;
 }
 
 }  // namespace comparisons

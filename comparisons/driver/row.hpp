@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -46,9 +45,6 @@ class Row {
     std::string header() const;
     std::string text() const;
 
-    /// Returns the names and values of the columns.
-    const std::vector<std::pair<std::string, std::string>>& columns() const { return columns_; }
-
   private:
     std::vector<std::pair<std::string, std::string>> columns_;
     std::string error_;
@@ -65,8 +61,8 @@ std::string csv_of(const Items& items, RowOf&& row_of) {
     return csv(row_of(typename Items::value_type{}), rows);
 }
 
-/// Prints rows for people, in aligned columns under the names in `columns`. The first column is
-/// aligned left, numbers are aligned right. The last column of a shorter row may have any length.
-void print_columns(std::ostream& out, const Row& columns, const std::vector<Row>& rows);
+/// Prints a row of the program's only table on standard output, and before the first row its
+/// header.
+void print(const Row& row);
 
 }  // namespace comparisons

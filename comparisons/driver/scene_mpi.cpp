@@ -66,15 +66,28 @@ int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
     return (static_cast<int>(rows / max_rows) + 1) | 1;
 }
 
-/// Returns an observer that counts the steps of a simulation. If `snapshots` is given, it takes the
-/// snapshots of the scene.
-Observer observer(const SimulationPlan& plan, Progress& progress,
-                  std::vector<Workload>* snapshots) {
-    return [&plan, &progress, snapshots](int steps_done, const mpm::Simulation& simulation) {
-        if (steps_done > 0) progress.advance();
-        for (int i = 0; snapshots && i < 3; ++i)
+/// Returns the current points of a simulation as a workload with this name.
+Workload snapshot(const std::string& name, const mpm::Simulation& simulation) {
+    Workload workload;
+    workload.name = name;
+    workload.layout = "simulation";
+    const mpm::Positions positions = simulation.positions();
+    workload.dimension = positions.dimension;
+    workload.coordinates.reserve(static_cast<std::size_t>(workload.dimension) * positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const mpm::Vector at = positions[i];
+        workload.coordinates.insert(workload.coordinates.end(), at.begin(),
+                                    at.begin() + workload.dimension);
+    }
+    return workload;
+}
+
+/// Returns an observer that takes the snapshots of the scene.
+Observer taking_snapshots(const SimulationPlan& plan, std::vector<Workload>& snapshots) {
+    return [&plan, &snapshots](int steps_done, const mpm::Simulation& simulation) {
+        for (int i = 0; i < 3; ++i)
             if (steps_done == plan.num_steps * i / 2)
-                snapshots->push_back(snapshot(
+                snapshots.push_back(snapshot(
                     plan.scene.name + std::array{"-start", "-middle", "-end"}[i], simulation));
     };
 }
@@ -89,9 +102,7 @@ void share_failure(SimulationRun& run, MPI_Comm comm) {
 /// Runs one simulation of each contender that has not failed. The snapshots are those of the first
 /// contender in the first round.
 void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPlan& plan,
-               std::vector<Workload>& snapshots, Progress& progress, MPI_Comm comm) {
-    progress.start("simulations, round " + std::to_string(round + 1),
-                   static_cast<int>(all.size()) * plan.num_steps);
+               std::vector<Workload>& snapshots, MPI_Comm comm) {
     std::vector<SimulationPlan> plans(all.size(), plan);
     std::vector<std::unique_ptr<TimedSimulation>> simulations(all.size());
     const std::uint64_t seed = seed_for("round " + std::to_string(round), plan.seed);
@@ -109,7 +120,7 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
         const bool differs = rounds.balanced_by && varies_with_seed(*rounds.balanced_by);
         if (!rounds.has_failed() && (!rounds.is_serial || rank_of(comm) == 0))
             simulations[next] = std::make_unique<TimedSimulation>(
-                plans[next], make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr),
+                plans[next], make, shows_the_scene ? taking_snapshots(plan, snapshots) : Observer(),
                 rounds.is_serial ? MPI_COMM_SELF : comm, rounds.cost,
                 round == 0 || differs ? nullptr : &rounds.runs.back());
     }
@@ -218,6 +229,19 @@ Row history_row(const std::string& method, const LoadRecord& record, std::size_t
         .add("work", nine_digits(record.columns[4][part]));
 }
 
+/// Returns the text of history.csv: the load of every part at the recorded steps of the first
+/// round.
+std::string history_csv(std::span<const SimulationRounds> methods) {
+    std::vector<Row> rows;
+    for (const SimulationRounds& rounds : methods) {
+        for (const LoadRecord& record : rounds.runs.front().history) {
+            for (std::size_t part = 0; part < record.points.size(); ++part)
+                rows.push_back(history_row(rounds.method, record, part));
+        }
+    }
+    return csv(history_row({}, {.points = {1}, .columns = {5, std::vector<double>(1)}}, 0), rows);
+}
+
 }  // namespace
 
 SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm) {
@@ -236,27 +260,9 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
     return plan;
 }
 
-Workload snapshot(const std::string& name, const mpm::Simulation& simulation) {
-    Workload workload;
-    workload.name = name;
-    workload.layout = "simulation";
-    const mpm::Positions positions = simulation.positions();
-    workload.dimension = positions.dimension;
-    workload.coordinates.reserve(static_cast<std::size_t>(workload.dimension) * positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const mpm::Vector at = positions[i];
-        workload.coordinates.insert(workload.coordinates.end(), at.begin(),
-                                    at.begin() + workload.dimension);
-    }
-    return workload;
-}
-
-std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& progress,
-                                      MPI_Comm comm) {
+std::vector<Workload> scene_snapshots(const SimulationPlan& plan, MPI_Comm comm) {
     std::vector<Workload> snapshots;
-    progress.start("the " + plan.scene.name, plan.num_steps);
-    TimedSimulation simulation(plan, without_weights({}), observer(plan, progress, &snapshots),
-                               comm);
+    TimedSimulation simulation(plan, without_weights({}), taking_snapshots(plan, snapshots), comm);
     simulation.advance(plan.num_steps);
     const std::string error = simulation.result().error;
     if (!error.empty()) throw Failure(plan.scene.name + ": " + error);
@@ -264,8 +270,7 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 }
 
 std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
-                                        Progress& progress, const SnapshotVisitor& visit,
-                                        MPI_Comm comm) {
+                                        const SnapshotVisitor& visit, MPI_Comm comm) {
     std::vector<SimulationRounds> all = contenders(arguments);
     SimulationPlan plan = plan_scene(arguments, all.size() - 1, comm);
     if (arguments.from > 0) plan.state = state_after(arguments.from, plan, arguments.out, comm);
@@ -276,7 +281,7 @@ std::vector<SimulationRounds> run_scene(const Arguments& arguments, const Result
     RoundsDone done{0, num_rounds, 0};
     for (int round = 0; round < num_rounds; ++round) {
         const double start = MPI_Wtime();
-        run_round(all, round, plan, snapshots, progress, comm);
+        run_round(all, round, plan, snapshots, comm);
         done.elapsed_s += MPI_Wtime() - start;
         ++done.number;
         if (rank_of(comm) == 0) print_round(std::cout, done, all);
@@ -297,17 +302,6 @@ std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
             rows.push_back(round_row(plan, num_ranks, rounds, ++number, run));
     }
     return csv(round_row(plan, num_ranks, {}, 0, {}), rows);
-}
-
-std::string history_csv(std::span<const SimulationRounds> methods) {
-    std::vector<Row> rows;
-    for (const SimulationRounds& rounds : methods) {
-        for (const LoadRecord& record : rounds.runs.front().history) {
-            for (std::size_t part = 0; part < record.points.size(); ++part)
-                rows.push_back(history_row(rounds.method, record, part));
-        }
-    }
-    return csv(history_row({}, {.points = {1}, .columns = {5, std::vector<double>(1)}}, 0), rows);
 }
 
 void print_round(std::ostream& out, const RoundsDone& done,

@@ -38,15 +38,11 @@ using SnapshotVisitor = std::function<void(std::span<const Workload> snapshots)>
 /// `comm`; throws Failure like choose_scene.
 SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm);
 
-/// Returns the current points of a simulation as a workload with this name. Not collective.
-Workload snapshot(const std::string& name, const mpm::Simulation& simulation);
-
 /// Returns the same snapshots, but runs only the simulation without rebalancing. Collective over
 /// `comm`.
 ///
 /// Throws Failure if the simulation fails.
-std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& progress,
-                                      MPI_Comm comm);
+std::vector<Workload> scene_snapshots(const SimulationPlan& plan, MPI_Comm comm);
 
 /// Runs the scene with every method that cuts along the axes, in several rounds. Writes the times
 /// and loads of each run, and prints one line per round. Collective over `comm`.
@@ -54,21 +50,16 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 /// The first simulation, "none", does not rebalance. The second is run again as the last one, with
 /// "again" after its name: the difference between the two is noise. The slope ends when its front
 /// has stopped, unless a number of steps is given or only simulations are requested. `visit` is
-/// called after the first round, so that tables of the calls appear early. With learned costs there
-/// are two more simulations: "count" and "learned" weigh the points of rrcb-arrays. Methods that
-/// vary with the seed use a new seed in each round. "serial" runs on rank 0 while the others wait.
+/// called after the first round. With learned costs "count", "learned" and "known" weigh the points
+/// of rrcb-arrays. Methods that vary with the seed use a new seed in each round. "serial" runs on
+/// rank 0 while the others wait.
 std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
-                                        Progress& progress, const SnapshotVisitor& visit,
-                                        MPI_Comm comm);
+                                        const SnapshotVisitor& visit, MPI_Comm comm);
 
 /// Returns the text of simulation_runs.csv, with a row per method and round. columns.md describes
 /// it.
 std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
                        std::span<const SimulationRounds> methods);
-
-/// Returns the text of history.csv: the load of every part at the recorded steps of the first
-/// round.
-std::string history_csv(std::span<const SimulationRounds> methods);
 
 /// The number of completed rounds, the number of all rounds, and the seconds that they took.
 struct RoundsDone {

@@ -1,12 +1,14 @@
 #include "simulation_mpi.hpp"
 
 #include "failure_mpi.hpp"
+#include "statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <span>
 
 /// A step whose columns are recorded, under a name by which Callgrind finds it.
 extern "C" __attribute__((noinline)) void rrcb_recorded_step(mpm::Simulation& simulation) {
@@ -62,28 +64,26 @@ void note_state(SimulationRun& run, const mpm::Simulation& simulation, MPI_Comm 
         run.moved_m = std::max(run.moved_m, moved);
         if (moved > 1) front = std::max(front, x[i]);
     }
-    double most[] = {front, run.moved_m, run.balance_s, run.step_s, run.decide_s};
-    MPI_Allreduce(MPI_IN_PLACE, most, 5, MPI_DOUBLE, MPI_MAX, comm);
+    for (double* most : {&front, &run.moved_m, &run.balance_s, &run.step_s, &run.decide_s})
+        MPI_Allreduce(MPI_IN_PLACE, most, 1, MPI_DOUBLE, MPI_MAX, comm);
     MPI_Allreduce(MPI_IN_PLACE, &run.mass_kg, 1, MPI_DOUBLE, MPI_SUM, comm);
-    if (most[0] > nowhere) run.front_m = most[0];
-    run.moved_m = most[1];
-    run.balance_s = most[2];
-    run.step_s = most[3];
-    run.decide_s = most[4];
+    if (front > nowhere) run.front_m = front;
     run.wall_s = run.balance_s + run.decide_s + run.step_s;
 }
 
-}  // namespace
-
+/// Sums the work of the ranks in their steps. Collective over `comm`.
 StepWork step_work(std::span<const double> of_steps, MPI_Comm comm) {
-    std::vector<double> most(of_steps.begin(), of_steps.end());
-    StepWork work{std::accumulate(most.begin(), most.end(), 0.0), 0};
+    StepWork work{sum(of_steps), sum(largest_of_ranks({of_steps.begin(), of_steps.end()}, comm))};
     MPI_Allreduce(MPI_IN_PLACE, &work.all, 1, MPI_DOUBLE, MPI_SUM, comm);
-    MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX,
-                  comm);
-    work.path = std::accumulate(most.begin(), most.end(), 0.0);
     return work;
 }
+
+/// Returns the first twentieth of the steps, in which the points of the slope are at rest.
+std::span<const double> at_rest(std::span<const double> of_steps) {
+    return of_steps.first(of_steps.size() / 20);
+}
+
+}  // namespace
 
 double critical_path_s(const SimulationRun& run) {
     double sum = 0;
@@ -105,7 +105,7 @@ TimedSimulation::TimedSimulation(const SimulationPlan& plan, const BalancerMaker
                           : std::make_unique<mpm::Simulation>(plan.scene, plan.state, comm);
         if (balancer_) start_controller();
         run_.num_points = simulation_->num_points();
-        observe_(0, *simulation_);
+        if (observe_) observe_(0, *simulation_);
     });
 }
 
@@ -153,7 +153,8 @@ void TimedSimulation::advance_one() {
     const auto step = [&] { is_recorded ? rrcb_recorded_step(*simulation_) : simulation_->step(); };
     run_.step_s += timed(step, steps_, comm_);
     record_step(is_recorded);
-    observe_(++steps_done_, *simulation_);
+    ++steps_done_;
+    if (observe_) observe_(steps_done_, *simulation_);
 }
 
 void TimedSimulation::record_load() {
@@ -213,13 +214,10 @@ void TimedSimulation::rebalance() {
 
 /// The number of points is constant, so the mean load is the same in every step.
 void TimedSimulation::note_loads(SimulationRun& run) const {
-    const int num_parts = size_of(comm_);
-    std::vector<double> most = loads_;
-    MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX,
-                  comm_);
-    run.path_points = std::accumulate(most.begin(), most.end(), 0.0);
+    const std::vector<double> most = largest_of_ranks(loads_, comm_);
+    run.path_points = sum(most);
     if (run.path_points == 0) return;
-    const double mean = static_cast<double>(run.num_points) / num_parts;
+    const double mean = static_cast<double>(run.num_points) / num_ranks_;
     run.mean_imbalance = run.path_points / static_cast<double>(most.size()) / mean;
     run.worst_imbalance = *std::ranges::max_element(most) / mean;
 }

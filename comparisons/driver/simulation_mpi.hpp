@@ -1,7 +1,6 @@
 #pragma once
 
 #include "phase_log_mpi.hpp"
-#include "progress.hpp"
 
 #include <rrcb/controller.hpp>
 #include <rrcb/experimental/cost.hpp>
@@ -13,7 +12,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,20 +82,11 @@ struct SimulationRun {
     StepWork least_at_rest_s;
 };
 
-/// Sums the work of the ranks in their steps. Collective over `comm`.
-StepWork step_work(std::span<const double> of_steps, MPI_Comm comm);
-
-/// Returns the first twentieth of the steps, in which the points of the slope are at rest.
-template <typename Steps>
-auto at_rest(const Steps& steps) {
-    return std::span(steps).first(steps.size() / 20);
-}
-
 /// Returns the seconds of the run if every rank has a core of its own: the time of the slowest rank
 /// in each step and rebalance, plus the time of the network.
 double critical_path_s(const SimulationRun& run);
 
-/// Called before the first step and after every step.
+/// Called before the first step and after every step, unless it is empty.
 using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
 
 /// The weight of a point: one, the seconds that the point is estimated to take, or its instructions

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace comparisons {
 
@@ -25,6 +26,10 @@ std::optional<std::size_t> left_out_at_each_end(std::size_t num_values) {
 }
 
 }  // namespace
+
+double sum(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;

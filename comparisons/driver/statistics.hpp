@@ -12,6 +12,9 @@ struct Interval {
     double high = 0;
 };
 
+/// Returns the sum of the values in their order.
+double sum(std::span<const double> values);
+
 /// Returns the median, which is the mean of the two middle values if their number is even. Returns
 /// 0 if there are no values.
 double median(std::vector<double> values);

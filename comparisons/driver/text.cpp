@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <cstdio>
-#include <cstdlib>
 
 namespace comparisons {
 
@@ -47,26 +46,6 @@ std::string nine_digits(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", value);
     return text;
-}
-
-std::string grouped(std::int64_t number) {
-    const std::string digits = std::to_string(std::abs(number));
-    std::string text(number < 0 ? "-" : "");
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-        if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-        text += digits[i];
-    }
-    return text;
-}
-
-std::string human_bytes(double bytes) {
-    const char* const units[] = {"B", "KiB", "MiB", "GiB"};
-    std::size_t unit = 0;
-    while (bytes >= 1024 && unit + 1 < std::size(units)) {
-        bytes /= 1024;
-        ++unit;
-    }
-    return fixed(bytes, unit == 0 ? 0 : 1) + ' ' + units[unit];
 }
 
 }  // namespace comparisons

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <charconv>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -51,11 +50,5 @@ std::string fixed(double value, int digits);
 
 /// Returns `value` with nine digits, which is enough for pictures.
 std::string nine_digits(double value);
-
-/// Formats 54464 as "54,464".
-std::string grouped(std::int64_t number);
-
-/// Formats 1536 as "1.5 KiB".
-std::string human_bytes(double bytes);
 
 }  // namespace comparisons

@@ -37,11 +37,11 @@ def write_report(folder: Path) -> None:
     captions = pictures.draw_all(results)
     report = Report("RRCB compared with Zoltan's balancers", folder)
     for text in [*failures(results), *sentences(results)]:
-        report.text(text)
-        print(f"\n{text}")
+        report.say(text)
     for case, rows in cases(results.table).items():
-        size = f"{rows['points'].iloc[0]:,} points, {rows['ranks'].iloc[0]} ranks"
-        report.table(f"{case}: {size}", method_table(rows))
+        caption = f"{case}: {rows['points'].iloc[0]:,} points, {rows['ranks'].iloc[0]} ranks"
+        report.table(caption, method_table(rows))
+        show(caption, short_table(rows))
     _add_simulations(report, results)
     report.table("Noise: a baseline measured twice", noise_table(results.noise))
     for name, caption in captions.items():
@@ -110,6 +110,20 @@ def method_table(rows: pd.DataFrame) -> pd.DataFrame:
             "moved %": _numbers(100 * rows["moved_fraction"], ".1f"),
             "ghosts": _numbers(rows["ghosts"], ",.0f"),
             "% of the points": _numbers(100 * rows["ghosts"] / rows["points"], ".1f"),
+        }
+    )
+
+
+def short_table(rows: pd.DataFrame) -> pd.DataFrame:
+    """Returns the columns that fit a terminal, without intervals."""
+    return pd.DataFrame(
+        {
+            "method": rows["method"],
+            "imbalance": _numbers(rows["imbalance"], ".5f"),
+            "time ms": _numbers(rows["time_ms"], ".2f"),
+            "speed-up": _numbers(1 / rows["time_vs_zoltan_rcb"], ".2f"),
+            "bytes": _numbers(rows["bytes"], ","),
+            "ghosts": _numbers(rows["ghosts"], ",.0f"),
         }
     )
 

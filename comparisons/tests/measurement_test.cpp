@@ -25,8 +25,7 @@ class MeasurementTest : public testing::Test {
     }
 
     std::vector<Measurement> run(std::span<const Method> methods, Lists lists) {
-        Progress progress(false);
-        return measure(workload_, methods, {lists, 3}, progress, MPI_COMM_WORLD);
+        return measure(workload_, methods, {lists, 3}, MPI_COMM_WORLD);
     }
 
     int num_ranks_ = 1;

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 namespace comparisons {
 namespace {
 
@@ -28,16 +26,6 @@ TEST(Row, values_that_are_none_are_empty) {
 TEST(Row, of_a_failure_tells_what_failed_and_why) {
     const Row row = measured("a,b", 1, "it said \"no\"");
     EXPECT_EQ(row.text(), "\"a,b\",,\"it said \"\"no\"\"\",");
-}
-
-TEST(Row, people_read_columns_and_reasons_of_any_length) {
-    std::ostringstream out;
-    const Row row = Row().add("method", "long").add("value", 10).add("unit", "m");
-    print_columns(out, row, {row, Row().add("method", "b").add("error", "a reason")});
-    EXPECT_EQ(out.str(),
-              "method  value  unit\n"
-              "long       10     m\n"
-              "b       a reason\n");
 }
 
 }  // namespace

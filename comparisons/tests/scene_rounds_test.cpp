@@ -21,14 +21,12 @@ std::vector<SimulationRounds> quick_scene(const std::string& methods, int repeat
     const ResultsFolder folder(
         testing::TempDir() + "rrcb_scene_rounds.np" + std::to_string(mpm::size_of(MPI_COMM_WORLD)),
         MPI_COMM_WORLD);
-    Progress progress(false);
     int visits = 0;
     const auto visit = [&](std::span<const Workload> snapshots) {
         ++visits;
         EXPECT_EQ(snapshots.size(), 3U);
     };
-    std::vector<SimulationRounds> runs =
-        run_scene(arguments, folder, progress, visit, MPI_COMM_WORLD);
+    std::vector<SimulationRounds> runs = run_scene(arguments, folder, visit, MPI_COMM_WORLD);
     EXPECT_EQ(visits, 1);
     return runs;
 }
@@ -53,8 +51,7 @@ TEST(SceneRounds, take_another_seed_each_and_keep_the_first_history) {
     const auto seed_three = make_balancer(read_method("rrcb-sampled[mesh=2,seed=3]"));
     const SimulationPlan plan{
         .scene = choose_scene("slope", true, MPI_COMM_WORLD), .num_steps = 4, .every = 2};
-    TimedSimulation alone(
-        plan, without_weights(seed_three), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    TimedSimulation alone(plan, without_weights(seed_three), {}, MPI_COMM_WORLD);
     alone.advance(4);
     EXPECT_EQ(methods[2].runs[2].mean_imbalance, alone.result().mean_imbalance);
 }
@@ -100,10 +97,9 @@ TEST(SceneRounds, repeat_the_first_one_and_keep_the_least_seconds) {
     // The controller decides by seconds, so that only a repeated run rebalances in the same steps.
     std::vector<SimulationRun> rounds;
     for (int round = 0; round < 3; ++round) {
-        TimedSimulation simulation(
-            plan, without_weights(make_balancer(read_method("rrcb"))),
-            [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD, Cost::count,
-            round == 0 ? nullptr : &rounds.back());
+        TimedSimulation simulation(plan, without_weights(make_balancer(read_method("rrcb"))), {},
+                                   MPI_COMM_WORLD, Cost::count,
+                                   round == 0 ? nullptr : &rounds.back());
         simulation.advance(plan.num_steps);
         rounds.push_back(simulation.result());
         ASSERT_EQ(rounds.back().error, "");

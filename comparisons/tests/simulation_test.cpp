@@ -30,8 +30,7 @@ SimulationRun run(const std::optional<mpm::Balancer>& balancer,
     float version = 0;
     Zoltan_Initialize(0, nullptr, &version);
     const SimulationPlan plan{.scene = scene, .num_steps = 6, .every = every, .record_every = 2};
-    TimedSimulation simulation(
-        plan, without_weights(balancer), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    TimedSimulation simulation(plan, without_weights(balancer), {}, MPI_COMM_WORLD);
     simulation.advance(4);
     simulation.advance(4);
     return simulation.result();
@@ -76,8 +75,7 @@ TEST(Simulation, goes_on_from_a_state_with_the_same_bits) {
     for (int step = 0; step < 4; ++step) before.step();
     before.write_state(file);
     const SimulationPlan plan{.scene = coarse_slope(), .num_steps = 2, .state = file};
-    TimedSimulation simulation(
-        plan, without_weights({}), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    TimedSimulation simulation(plan, without_weights({}), {}, MPI_COMM_WORLD);
     simulation.advance(2);
     const SimulationRun after = simulation.result();
     ASSERT_EQ(after.error, "");
@@ -108,8 +106,7 @@ TEST(Simulation, tells_how_far_points_have_come) {
 TEST(Simulation, snapshots_show_a_scene_at_its_start_middle_and_end) {
     const SimulationPlan plan{.scene = choose_scene("torpedo_anchor", true, MPI_COMM_WORLD),
                               .num_steps = 20};
-    Progress progress(false);
-    const std::vector<Workload> snapshots = scene_snapshots(plan, progress, MPI_COMM_WORLD);
+    const std::vector<Workload> snapshots = scene_snapshots(plan, MPI_COMM_WORLD);
     ASSERT_EQ(snapshots.size(), 3U);
     EXPECT_EQ(snapshots[1].name, "torpedo_anchor-middle");
     EXPECT_EQ(snapshots[0].dimension, 3);
@@ -159,9 +156,7 @@ mpm::Balancer widening_slabs(std::vector<double>& moved) {
 SimulationRun run_widening(int record_every, std::vector<double>& moved) {
     const SimulationPlan plan{
         .scene = coarse_slope(), .num_steps = 15, .every = 5, .record_every = record_every};
-    TimedSimulation simulation(
-        plan, without_weights(widening_slabs(moved)), [](int, const mpm::Simulation&) {},
-        MPI_COMM_WORLD);
+    TimedSimulation simulation(plan, without_weights(widening_slabs(moved)), {}, MPI_COMM_WORLD);
     simulation.advance(15);
     SimulationRun result = simulation.result();
     EXPECT_EQ(result.error, "");
@@ -222,8 +217,7 @@ TEST(Simulation, a_controller_rebalances_where_no_interval_is_given) {
         same.owners(positions, same.local_owners);
         return same;
     };
-    TimedSimulation simulation(
-        plan, without_weights(slabs), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    TimedSimulation simulation(plan, without_weights(slabs), {}, MPI_COMM_WORLD);
     simulation.advance(15);
     const SimulationRun result = simulation.result();
     EXPECT_EQ(result.error, "");

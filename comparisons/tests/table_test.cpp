@@ -1,9 +1,6 @@
 #include "comparison_mpi.hpp"
-#include "text.hpp"
 
 #include <gtest/gtest.h>
-
-#include <sstream>
 
 namespace comparisons {
 namespace {
@@ -102,19 +99,6 @@ TEST(Table, writes_imbalances_to_all_digits) {
     Comparison exact = comparison();
     exact.measurements[1].imbalances = {1.0003765};
     EXPECT_NE(rows_of(exact).find(",1.0003765,"), std::string::npos);
-}
-
-TEST(Table, is_printed_with_the_speed_up_of_the_report_and_grouped_numbers) {
-    Comparison printed = comparison();
-    printed.num_points = 54464;
-    printed.measurements[0].times_ms = {8};
-    printed.measurements[1].times_ms = {2};
-    std::ostringstream out;
-    print_table(out, printed);
-    EXPECT_NE(out.str().find("54,464 points"), std::string::npos) << out.str();
-    EXPECT_NE(out.str().find("speed-up"), std::string::npos) << out.str();
-    EXPECT_NE(out.str().find("  4.00  "), std::string::npos) << out.str();
-    EXPECT_EQ(grouped(0) + ' ' + grouped(999) + ' ' + grouped(-1234567), "0 999 -1,234,567");
 }
 
 }  // namespace

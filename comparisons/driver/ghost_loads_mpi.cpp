@@ -1,5 +1,7 @@
+#include "failure_mpi.hpp"
 #include "ghost_study_mpi.hpp"
 #include "ghosts_mpi.hpp"
+#include "row.hpp"
 
 #include <rrcb/part_sizes.hpp>
 #include <rrcb/quality.hpp>
@@ -28,8 +30,7 @@ void compare(const Cloud& cloud, MPI_Comm comm) {
     constexpr int most_corrections = 3;
     const Workload workload = cloud_workload(cloud, Layout::sorted, comm);
     const GhostCounter counter(workload, {}, comm);
-    int num_parts = 1;
-    MPI_Comm_size(comm, &num_parts);
+    const int num_parts = size_of(comm);
     for (const double cost : {0.25, 0.5, 1.0}) {
         rrcb::Options options{.num_parts = num_parts};
         rrcb::Balance balance;
@@ -38,17 +39,15 @@ void compare(const Cloud& cloud, MPI_Comm comm) {
             balance = rrcb::balance(workload.points(), comm, options, previous);
             const Ghosts ghosts = counter.count(balance.parts, num_parts);
             const std::vector<double> loads = loads_of(balance, ghosts, cost);
-            print(Row()
-                      .add("cloud", cloud.name)
-                      .add("dim", cloud.dimension)
-                      .add("parts", num_parts)
-                      .add("seed", static_cast<double>(cloud.seed))
-                      .add("cost", cost)
-                      .add("corrections", corrections)
-                      .add("largest", rrcb::imbalance(loads))
-                      .add("most_points", rrcb::imbalance(balance.report.part_weights))
-                      .add("ghosts", static_cast<double>(ghosts.sum)),
-                  comm);
+            if (rank_of(comm) == 0)
+                print(Row()
+                          .add("cloud", cloud.name)
+                          .add("dim", cloud.dimension)
+                          .add("parts", num_parts)
+                          .add("cost", cost)
+                          .add("corrections", corrections)
+                          .add("largest", rrcb::imbalance(loads))
+                          .add("ghosts", ghosts.sum));
             options.part_sizes = rrcb::balanced_sizes(loads, options.part_sizes);
             options.expert.axes.order = rrcb::AxisOrder::given(axes_of(balance.cuts));
         }

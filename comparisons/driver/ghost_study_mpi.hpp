@@ -1,13 +1,10 @@
 #pragma once
 
-#include "row.hpp"
 #include "workload_mpi.hpp"
 
 #include <mpi.h>
 
 #include <span>
-#include <string>
-#include <vector>
 
 namespace comparisons {
 
@@ -17,9 +14,6 @@ std::span<const char* const> ghost_clouds();
 /// The number of points of a cloud, and the radius of its ghosts, in radii of GhostCounter.
 inline constexpr rrcb::GlobalCount ghost_points = 20'000;
 inline constexpr double ghost_reach = 3;
-
-/// Prints a row of the program's only table on rank 0. The header is printed before the first row.
-void print(const Row& row, MPI_Comm comm);
 
 /// Prints the largest load of a part after each of several calls that correct the part sizes. The
 /// load is points + cost * ghosts. Each rank has one part. Collective over `comm`.

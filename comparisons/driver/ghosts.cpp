@@ -13,7 +13,6 @@
 #include "partitioner_mpi.hpp"
 #include "row.hpp"
 
-#include <rrcb/quality.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <algorithm>
@@ -24,7 +23,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -101,12 +99,6 @@ std::vector<Part> by(const std::string& method, const Workload& workload, int nu
     return zoltan.parts();
 }
 
-double imbalance_of(const std::vector<Part>& parts, int num_parts) {
-    std::vector<double> sizes(static_cast<std::size_t>(num_parts));
-    for (const Part part : parts) ++sizes[static_cast<std::size_t>(part)];
-    return rrcb::imbalance(sizes);
-}
-
 void compare(const Cloud& cloud) {
     const Workload workload{
         cloud.name, "", cloud.dimension, cloud_points(cloud, 0, cloud.num_points), false, {}};
@@ -121,13 +113,11 @@ void compare(const Cloud& cloud) {
                       .add("cloud", cloud.name)
                       .add("dim", cloud.dimension)
                       .add("parts", num_parts)
-                      .add("seed", static_cast<double>(cloud.seed))
+                      .add("seed", cloud.seed)
                       .add("method", method)
-                      .add("imbalance", imbalance_of(parts, num_parts))
-                      .add("ghosts", static_cast<double>(ghosts.sum))
-                      .add("ghosts_max", static_cast<double>(ghosts.most))
-                      .add("neighbours_max", ghosts.most_neighbours),
-                  MPI_COMM_SELF);
+                      .add("ghosts", ghosts.sum)
+                      .add("ghosts_max", ghosts.most)
+                      .add("neighbours_max", ghosts.most_neighbours));
         }
 }
 
@@ -147,15 +137,6 @@ std::span<const char* const> ghost_clouds() {
                                       "clusters", "shell", "spiral", "diagonal", "cusps",   "drops",
                                       "pile",     "jets",  "web",    "discs"};
     return names;
-}
-
-void print(const Row& row, MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    if (rank != 0) return;
-    static bool is_first = true;
-    if (std::exchange(is_first, false)) std::cout << row.header() << '\n';
-    std::cout << row.text() << std::endl;
 }
 
 }  // namespace comparisons

@@ -1,6 +1,6 @@
 #include "follower_mpi.hpp"
 
-#include "failure.hpp"
+#include "failure_mpi.hpp"
 #include "text.hpp"
 #include "traffic.hpp"
 
@@ -42,23 +42,20 @@ std::vector<Policy> policies(const std::vector<std::string>& names) {
 Follower::Follower(const Policy& policy, int num_parts, MPI_Comm comm)
     : policy_(policy), comm_(comm) {
     options_.num_parts = num_parts;
-    int num_ranks = 1;
-    MPI_Comm_rank(comm, &rank_);
-    MPI_Comm_size(comm, &num_ranks);
     for (rrcb::Part part = 0; part < num_parts; ++part)
-        ranks_of_parts_.push_back(rrcb::ranks_of_part(part, num_parts, num_ranks));
+        ranks_of_parts_.push_back(rrcb::ranks_of_part(part, num_parts, size_of(comm)));
 }
 
 std::vector<std::size_t> Follower::particles_here(std::size_t count) const {
-    int num_ranks = 1;
-    MPI_Comm_size(comm_, &num_ranks);
+    const int rank_here = rank_of(comm_);
+    const auto num_ranks = static_cast<std::size_t>(size_of(comm_));
     const bool are_dealt = parts_.empty() || !policy_.has_previous;
     std::vector<std::size_t> here;
     for (std::size_t i = 0; i < count; ++i) {
         const int rank = are_dealt
-                             ? static_cast<int>(i % static_cast<std::size_t>(num_ranks))
+                             ? static_cast<int>(i % num_ranks)
                              : ranks_of_parts_[static_cast<std::size_t>(parts_[i])].first_rank;
-        if (rank == rank_) here.push_back(i);
+        if (rank == rank_here) here.push_back(i);
     }
     return here;
 }

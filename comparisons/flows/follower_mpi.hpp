@@ -51,7 +51,6 @@ class Follower {
     Policy policy_;
     rrcb::Options options_{};
     MPI_Comm comm_;
-    int rank_ = 0;
     std::vector<rrcb::RankRange> ranks_of_parts_{};
     rrcb::Cuts cuts_{};
     std::vector<rrcb::Part> parts_{};

@@ -5,7 +5,7 @@
 // FLOWS and POLICIES are names separated by commas, or "all". comparisons/studies/run flows makes
 // tables.
 #include "collective/watch_mpi.hpp"
-#include "failure.hpp"
+#include "failure_mpi.hpp"
 #include "flow.hpp"
 #include "follower_mpi.hpp"
 #include "ghosts_mpi.hpp"
@@ -25,10 +25,8 @@ constexpr std::array near_and_wide{1.2, 2.5};
 
 /// Returns all particles at a call, on every rank. Collective.
 Workload at_call(const Flow& flow, std::size_t call) {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     Workload all{flow.name, "", flow.dimension, {}, false, {}};
-    if (rank == 0) all.coordinates = flow.positions(call);
+    if (rank_of(MPI_COMM_WORLD) == 0) all.coordinates = flow.positions(call);
     all.coordinates.resize(flow.num_points * static_cast<std::size_t>(flow.dimension));
     MPI_Bcast(all.coordinates.data(), static_cast<int>(all.coordinates.size()), MPI_DOUBLE, 0,
               MPI_COMM_WORLD);
@@ -51,15 +49,12 @@ std::vector<std::string> read_names(const std::string& word) {
 /// rank 0 gets the results. Collective.
 void count_ghosts(std::vector<PolicyCounts>& counts, const std::vector<Follower>& followers,
                   const Workload& now, double spacing, int num_parts) {
-    int rank = 0;
-    int num_ranks = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &num_ranks);
+    const int rank = rank_of(MPI_COMM_WORLD);
+    const auto num_ranks = static_cast<std::size_t>(size_of(MPI_COMM_WORLD));
     if (rank < static_cast<int>(followers.size()))
         for (std::size_t k = 0; k < near_and_wide.size(); ++k) {
             const GhostCounter counter(now, {near_and_wide[k] * spacing, {}}, MPI_COMM_SELF);
-            for (auto p = static_cast<std::size_t>(rank); p < followers.size();
-                 p += static_cast<std::size_t>(num_ranks))
+            for (auto p = static_cast<std::size_t>(rank); p < followers.size(); p += num_ranks)
                 counts[p].ghosts[k] = counter.count(followers[p].parts(), num_parts).sum;
         }
     for (PolicyCounts& of : counts)
@@ -67,16 +62,8 @@ void count_ghosts(std::vector<PolicyCounts>& counts, const std::vector<Follower>
                    static_cast<int>(of.ghosts.size()), MPI_INT64_T, MPI_SUM, 0, MPI_COMM_WORLD);
 }
 
-void print(const Row& row) {
-    static bool is_first = true;
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    if (rank != 0) return;
-    if (std::exchange(is_first, false)) std::cout << row.header() << '\n';
-    std::cout << row.text() << std::endl;
-}
-
 void follow(const Flow& flow, const std::vector<Policy>& chosen, int num_parts) {
+    const int rank = rank_of(MPI_COMM_WORLD);
     std::vector<Follower> followers;
     for (const Policy& policy : chosen) followers.emplace_back(policy, num_parts, MPI_COMM_WORLD);
     for (std::size_t call = 0; call < flow.num_calls; ++call) {
@@ -84,7 +71,7 @@ void follow(const Flow& flow, const std::vector<Policy>& chosen, int num_parts) 
         std::vector<PolicyCounts> counts;
         for (Follower& follower : followers) counts.push_back({follower.go_on(now)});
         count_ghosts(counts, followers, now, flow.spacing, num_parts);
-        for (std::size_t p = 0; p < chosen.size(); ++p)
+        for (std::size_t p = 0; rank == 0 && p < chosen.size(); ++p)
             print(Row()
                       .add("flow", flow.name)
                       .add("dim", flow.dimension)

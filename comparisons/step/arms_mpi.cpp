@@ -4,29 +4,15 @@
 
 #include <rrcb/rrcb.hpp>
 
-#include <algorithm>
 #include <memory>
 #include <tuple>
-#include <utility>
 
 namespace comparisons {
 
-namespace {
-
-constexpr std::pair<std::string_view, Arm (*)(const Flow&)> arms[] = {
-    {"loop", loop}, {"neighbours", neighbours}, {"by-hand", by_hand}};
-
-}  // namespace
-
-std::vector<std::string> arm_names() {
-    std::vector<std::string> names;
-    for (const auto& arm : arms) names.emplace_back(arm.first);
-    return names;
-}
-
 Arm make_arm(std::string_view name, const Flow& flow) {
-    for (const auto& [known, make] : arms)
-        if (known == name) return make(flow);
+    if (name == "loop") return loop(flow);
+    if (name == "neighbours") return neighbours(flow);
+    if (name == "by-hand") return by_hand(flow);
     throw Failure("there is no arm " + std::string(name));
 }
 

@@ -21,10 +21,8 @@ struct Stage {
 /// that keep the ghosts only the last two stages are called, fetch and accumulate.
 using Arm = std::vector<Stage>;
 
-/// Returns the names of the arms.
-std::vector<std::string> arm_names();
-
-/// Returns an arm. Throws Failure for an unknown name. Collective. `flow` must outlive it.
+/// Returns the arm "loop", "neighbours" or "by-hand". Throws Failure for another name. Collective.
+/// `flow` must outlive it.
 Arm make_arm(std::string_view name, const Flow& flow);
 
 /// Returns the arm with those calls of the library that can move points from any rank to any other.

@@ -32,17 +32,16 @@ template <std::size_t dimension>
 class ByHand {
   public:
     explicit ByHand(const Flow& flow) : comm_(flow.comm()), radius_(flow.radius()) {
-        int rank = 0;
-        MPI_Comm_rank(comm_, &rank);
-        home_ = quiet_ = rrcb::box_of(flow.cuts(), rank);
+        home_ = quiet_ = rrcb::box_of(flow.cuts(), flow.rank());
         for (std::size_t axis = 0; axis < dimension; ++axis) {
             quiet_.lower[axis] += radius_;
             quiet_.upper[axis] -= radius_;
         }
         const double reach = std::max(flow.radius(), flow.travel());
-        for (int other = 0; other < flow.cuts().num_parts; ++other) {
+        for (int other = 0; other < flow.num_ranks(); ++other) {
             const rrcb::Box box = rrcb::box_of(flow.cuts(), other);
-            if (other != rank && are_near(home_, box, reach)) neighbours_.push_back({other, box});
+            if (other != flow.rank() && are_near(home_, box, reach))
+                neighbours_.push_back({other, box});
         }
         requests_.resize(neighbours_.size());
     }

@@ -106,13 +106,11 @@ std::vector<StageCounts> count(std::string_view arm, const Flow& flow, int steps
             counts[stage].allocations += static_cast<double>(memory_layer::counted_allocations());
             counts[stage].bytes_allocated += static_cast<double>(memory_layer::counted_bytes());
         }});
-    int num_ranks = 1;
-    MPI_Comm_size(flow.comm(), &num_ranks);
     for (StageCounts& stage : counts)
         for (double* number : {&stage.collectives, &stage.messages, &stage.bytes,
                                &stage.allocations, &stage.bytes_allocated}) {
             MPI_Allreduce(MPI_IN_PLACE, number, 1, MPI_DOUBLE, MPI_SUM, flow.comm());
-            *number /= num_ranks * steps;
+            *number /= flow.num_ranks() * steps;
         }
     return counts;
 }

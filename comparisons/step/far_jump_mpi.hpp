@@ -3,7 +3,6 @@
 #include "flow_mpi.hpp"
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace comparisons {
@@ -12,13 +11,12 @@ namespace comparisons {
 struct Discovery {
     int calls = 0;           ///< calls that send messages, from the jump to the call that failed
     std::size_t points = 0;  ///< number of this rank's points at that time
-    std::string text{};      ///< message of the error
+    bool is_known = false;   ///< whether a call has failed
 };
 
 /// Moves a point of rank 0 to the opposite corner of the box. Then all ranks run the steps of the
 /// arm "neighbours" until a call fails. Collective.
-/// @return the observation of each rank, on every rank; `text` is empty if nothing fails in 100
-/// steps
+/// @return the observation of each rank, on every rank, after at most 100 steps
 std::vector<Discovery> jump_far(const Flow& flow);
 
 }  // namespace comparisons

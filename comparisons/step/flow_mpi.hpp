@@ -24,6 +24,8 @@ class Flow {
 
     const rrcb::Cuts& cuts() const { return cuts_; }
     MPI_Comm comm() const { return comm_; }
+    int rank() const { return rank_; }
+    int num_ranks() const { return cuts_.num_parts; }
     int dimension() const { return start_.dimension; }
     double radius() const { return radius_; }
     /// Returns the largest length of a jump along an axis.

@@ -16,7 +16,7 @@
 #include "failure.hpp"
 #include "far_jump_mpi.hpp"
 #include "flow_mpi.hpp"
-#include "text.hpp"
+#include "row.hpp"
 
 #include <mpi.h>
 
@@ -38,43 +38,11 @@ namespace {
 using namespace comparisons;
 using Words = std::vector<std::string>;
 
-void print(const Flow& flow, const std::string& line) {
-    int rank = 0;
-    MPI_Comm_rank(flow.comm(), &rank);
-    if (rank == 0) std::cout << line << std::endl;
-}
-
-/// The points that leave a rank in a step, and its ghosts, as means over the ranks.
-struct Size {
-    double leavers = 0;
-    double ghosts = 0;
-};
-
-Size size_of(const Flow& flow) {
-    Particles particles = flow.start();
-    flow.move(particles, 0);
-    std::vector<rrcb::Part> parts(particles.size());
-    rrcb::assign(flow.cuts(), particles.points(), parts);
-    int rank = 0;
-    int num_ranks = 1;
-    MPI_Comm_rank(flow.comm(), &rank);
-    MPI_Comm_size(flow.comm(), &num_ranks);
-    const rrcb::Plan plan = rrcb::plan(parts, num_ranks, flow.comm());
-    const auto x = rrcb::transfer(plan, particles.column(particles.x), flow.comm());
-    const rrcb::GhostPlan near = rrcb::ghost_plan(flow.cuts(), rrcb::Points(x, flow.dimension()),
-                                                  flow.comm(), {.cutoff = flow.radius()});
-    Size size{static_cast<double>(plan.export_ranks.size()),
-              static_cast<double>(near.send_indices.size())};
-    for (double* number : {&size.leavers, &size.ghosts}) {
-        MPI_Allreduce(MPI_IN_PLACE, number, 1, MPI_DOUBLE, MPI_SUM, flow.comm());
-        *number /= num_ranks;
-    }
-    return size;
+void print_on_root(const Flow& flow, const Row& row) {
+    if (flow.rank() == 0) print(row);
 }
 
 void print_counts(const Flow& flow, int steps, const Words& arms) {
-    print(flow, "arm,stage,leavers,ghosts,collectives,messages,bytes,allocations,bytes_allocated");
-    const Size size = size_of(flow);
     SameResults results;
     for (const std::string& name : arms) {
         const Arm arm = make_arm(name, flow);
@@ -83,25 +51,25 @@ void print_counts(const Flow& flow, int steps, const Words& arms) {
              [&](int step, const Particles& p) { results.check(name, step, p); }});
         const std::vector<std::string> names = stage_names(arm);
         const std::vector<StageCounts> counts = count(name, flow, steps);
-        for (std::size_t k = 0; k < names.size(); ++k) {
-            std::string line = name + ',' + names[k];
-            for (const double number :
-                 {size.leavers, size.ghosts, counts[k].collectives, counts[k].messages,
-                  counts[k].bytes, counts[k].allocations, counts[k].bytes_allocated})
-                line += ',' + write_number(number);
-            print(flow, line);
-        }
+        for (std::size_t k = 0; k < names.size(); ++k)
+            print_on_root(flow, Row()
+                                    .add("arm", name)
+                                    .add("stage", names[k])
+                                    .add("collectives", counts[k].collectives)
+                                    .add("messages", counts[k].messages)
+                                    .add("bytes", counts[k].bytes)
+                                    .add("allocations", counts[k].allocations)
+                                    .add("bytes_allocated", counts[k].bytes_allocated));
     }
 }
 
 void print_stages(const Flow& flow, int steps, const Words& arms) {
-    print(flow, "arm,stage");
     for (const std::string& name : arms) {
         const Arm arm = make_arm(name, flow);
         const std::vector<std::string> names = stage_names(arm);
         run(arm, flow, steps, {[&](std::size_t stage, const std::function<void()>& call) {
                 rrcb_step_stage(call);
-                print(flow, name + ',' + names[stage]);
+                print_on_root(flow, Row().add("arm", name).add("stage", names[stage]));
             }});
     }
 }
@@ -123,19 +91,21 @@ double seconds_of(const std::string& name, const Flow& flow, int steps) {
 }
 
 void print_times(const Flow& flow, int steps, int round, const Words& arms) {
-    print(flow, "turn,place,arm,seconds");
     for (const int turn : {2 * round, 2 * round + 1})
         for (const std::size_t k : drawn_order(arms.size(), 1, static_cast<std::uint64_t>(turn)))
-            print(flow, std::to_string(turn) + ',' + std::to_string(k) + ',' + arms[k] + ',' +
-                            write_number(seconds_of(arms[k], flow, steps)));
+            print_on_root(flow, Row()
+                                    .add("turn", turn)
+                                    .add("place", k)
+                                    .add("arm", arms[k])
+                                    .add("seconds", seconds_of(arms[k], flow, steps)));
 }
 
 void print_discoveries(const Flow& flow) {
-    print(flow, "rank,calls,points,text");
-    int rank = 0;
     for (const Discovery& found : jump_far(flow))
-        print(flow, std::to_string(rank++) + ',' + std::to_string(found.calls) + ',' +
-                        std::to_string(found.points) + ",\"" + found.text + '"');
+        print_on_root(flow, Row()
+                                .add("calls", found.calls)
+                                .add("points", found.points)
+                                .add("is_known", static_cast<int>(found.is_known)));
 }
 
 void measure(const Words& words) {

@@ -8,23 +8,22 @@ that need a core each. The arms run in a random order in each round, and one of 
 
 from __future__ import annotations
 
-import argparse
-import subprocess
 import sys
 from collections import Counter
-from io import StringIO
 from pathlib import Path
 
 import callgrind
 import pandas as pd
 import plot
 from document import CORES, markdown_table
-from driver import OUT, PROGRAMS, build, on_ranks
+from driver import options, prepare
 from intervals import median_of
+from results import printed
 
 ARMS = ("loop", "neighbours", "by-hand")
 CASES = ((2, 4), (2, 8), (3, 4), (3, 8))  # dimension, ranks
 JUMPS = (8, 16)  # ranks, in 2-D
+POINTS = 20_000  # of a rank
 BY_CAUSE = ("loop", "ghosts")
 CASE = ["dim", "ranks"]
 # Upper bounds of the instructions per point and step, for stages or complete arms, which --hold checks.
@@ -33,17 +32,11 @@ BOUNDS = {
     (3, 8): {"loop ghosts": 135, "loop": 215, "by-hand": 132},
 }
 MOST_OF_BY_HAND = 1.2  # bound of the library's step relative to the step by hand
-TIMED_RANKS = 2
+TIMED_RANKS, ROUNDS = 2, 10  # two turns in each round
 TIMED = ("loop", "neighbours", "by-hand", "by-hand")  # the last two are the same arm
 STYLES = {"assign_all": "#CC79A7", "plan": "#E69F00", "transfer, migrate": "#D55E00",
           "ghosts, find_ghosts": "#0072B2", "fetch": "#009E73", "accumulate": "#000000"}  # fmt: skip
 COLOURS = {stage: colour for stages, colour in STYLES.items() for stage in stages.split(", ")}
-
-
-def counts(program: Path, dimension: int, ranks: int, points: int, steps: int) -> pd.DataFrame:
-    words = ["counts", str(dimension), str(points), str(steps), *ARMS]
-    rows = on_ranks(ranks, program, *words, stdout=subprocess.PIPE, text=True, check=True).stdout
-    return pd.read_csv(StringIO(rows)).assign(dim=dimension, ranks=ranks)
 
 
 def instructions(program: Path, dimension: int, ranks: int, points: int, steps: int, out: Path
@@ -141,9 +134,8 @@ def jump_table(program: Path) -> list[list[str]]:
     """Returns the number of calls after which ranks detect a point that has passed all neighbours."""
     lines = [["far jump", "neighbours of the rank fail in call", "all ranks fail by call", "points before", "after"]]
     for ranks in JUMPS:
-        rows = on_ranks(ranks, program, "jump", "2", "1000", stdout=subprocess.PIPE, text=True, check=True).stdout
-        found = pd.read_csv(StringIO(rows))
-        if found["text"].isna().any():
+        found = printed(ranks, program, "jump", "2", "1000")
+        if not found["is_known"].all():
             sys.exit(f"{ranks} ranks: some rank knows nothing of a point that has passed all neighbours")
         lines.append([f"{ranks} ranks", f"{found['calls'].min()}", f"{found['calls'].max()}", f"{1000 * ranks}",
                       f"{found['points'].sum()}"])  # fmt: skip
@@ -153,8 +145,9 @@ def jump_table(program: Path) -> list[list[str]]:
 def count_all(program: Path, out: Path, points: int, steps: int, cases=CASES) -> pd.DataFrame:
     rows, causes = pd.DataFrame(), {}
     for case in cases:
-        print(case_name(*case), file=sys.stderr, flush=True)
-        found = counts(program, *case, points, steps)
+        dimension, ranks = case
+        found = printed(ranks, program, "counts", *map(str, (dimension, points, steps)), *ARMS)
+        found = found.assign(dim=dimension, ranks=ranks)
         if callgrind.is_here():
             of = instructions(program, *case, points, steps, out)
             found["instructions"] = [of[key].total() for key in zip(found["arm"], found["stage"])]
@@ -183,10 +176,8 @@ def time_all(program: Path, out: Path, points: int, steps: int, rounds: int) -> 
     times = pd.DataFrame()
     for number in range(rounds):
         for dimension in (2, 3):
-            print(f"Round {number + 1} of {rounds}: {dimension}-D", file=sys.stderr, flush=True)
-            words = ["clock", str(dimension), str(points), str(steps), str(number), *TIMED]
-            rows = on_ranks(TIMED_RANKS, program, *words, stdout=subprocess.PIPE, text=True, check=True).stdout
-            times = pd.concat([times, pd.read_csv(StringIO(rows)).assign(dim=dimension)], ignore_index=True)
+            rows = printed(TIMED_RANKS, program, "clock", *map(str, (dimension, points, steps, number)), *TIMED)
+            times = pd.concat([times, rows.assign(dim=dimension)], ignore_index=True)
             times.to_csv(out / "clock.csv", index=False)
     write(out, [time_table(times)])
 
@@ -205,24 +196,15 @@ def time_table(times: pd.DataFrame) -> list[list[str]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="comparisons/studies/run step", description=__doc__,
-                                     formatter_class=argparse.RawTextHelpFormatter)  # fmt: skip
-    parser.add_argument("--out", type=Path, default=OUT / "step", help="folder of step.csv and table.md")
-    parser.add_argument("--points", type=int, default=20_000, help="of a rank")
+    parser = options("step", __doc__, "few points, two cases")
     parser.add_argument("--steps", type=int, help="default: 3, by the clock 500")
     parser.add_argument("--clock", action="store_true", help="measure seconds")
-    parser.add_argument("--rounds", type=int, default=10, help="of --clock, two turns each")
     parser.add_argument("--hold", action="store_true", help="fail if an arm takes more instructions than it may")
-    parser.add_argument("--quick", action="store_true", help="few points, two cases")
-    parser.add_argument("--driver", type=Path, help="a program beside rrcb_step, which is not built then")
     given = parser.parse_args()
-    given.out.mkdir(parents=True, exist_ok=True)
-    if not given.driver:
-        build("rrcb_step")
-    program = (given.driver.parent if given.driver else PROGRAMS) / "rrcb_step"
-    points = 500 if given.quick else given.points
+    program = prepare(given, "rrcb_step")
+    points = 500 if given.quick else POINTS
     if given.clock:
-        rounds, steps = (1, 20) if given.quick else (given.rounds, given.steps or 500)
+        rounds, steps = (1, 20) if given.quick else (ROUNDS, given.steps or 500)
         time_all(program, given.out, points, steps, rounds)
         return
     rows = count_all(program, given.out, points, given.steps or 3, BOUNDS if given.quick or given.hold else CASES)

@@ -1,23 +1,23 @@
 #include "failure_mpi.hpp"
 
+#include <exception>
+
 namespace comparisons {
 
 std::string first_message(const std::string& mine, MPI_Comm comm) {
-    const int rank = rank_of(comm);
-    const int size = size_of(comm);
-    int speaker = mine.empty() ? size : rank;
+    int speaker = mine.empty() ? size_of(comm) : rank_of(comm);
     MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
-    if (speaker == size) return {};
-    int length = static_cast<int>(mine.size());
-    MPI_Bcast(&length, 1, MPI_INT, speaker, comm);
-    std::string message = mine;
-    message.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(message.data(), length, MPI_CHAR, speaker, comm);
-    return message;
+    return speaker == size_of(comm) ? "" : mpm::broadcast(mine, comm, speaker);
 }
 
-void fail_together(const std::string& mine, MPI_Comm comm) {
-    const std::string message = first_message(mine, comm);
+void on_root(const std::function<void()>& step, MPI_Comm comm) {
+    std::string message;
+    try {
+        if (rank_of(comm) == 0) step();
+    } catch (const std::exception& error) {
+        message = error.what();
+    }
+    message = mpm::broadcast(message, comm);
     if (!message.empty()) throw Failure(message);
 }
 

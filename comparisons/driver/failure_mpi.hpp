@@ -5,8 +5,7 @@
 
 #include <mpi.h>
 
-#include <exception>
-#include <stdexcept>
+#include <functional>
 #include <string>
 
 namespace comparisons {
@@ -20,23 +19,8 @@ using mpm::size_of;
 /// Collective over `comm`.
 std::string first_message(const std::string& mine, MPI_Comm comm);
 
-/// Throws Failure with first_message on every rank unless it is empty. Collective over `comm`.
-void fail_together(const std::string& mine, MPI_Comm comm);
-
 /// Runs a step that is not collective on rank 0. An exception in it becomes a Failure on every
 /// rank.
-template <typename Step>
-void on_root(Step&& step, MPI_Comm comm) {
-    const int rank = rank_of(comm);
-    std::string message;
-    if (rank == 0) {
-        try {
-            step();
-        } catch (const std::exception& error) {
-            message = error.what();
-        }
-    }
-    fail_together(message, comm);
-}
+void on_root(const std::function<void()>& step, MPI_Comm comm);
 
 }  // namespace comparisons

@@ -80,6 +80,7 @@ struct Entry {
     std::string_view lb_method;
     std::optional<OwnOptions> options;
     std::vector<std::string_view> keys;
+    std::vector<std::string> settings = {""};  ///< brackets with which it is one of all methods
 };
 
 Options refined(Refine refine) {
@@ -100,7 +101,7 @@ PaperOptions of_paper(PaperDomain domain) {
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> table = {
-        {"zoltan-rcb", "RCB", {}, {"reuse", "lock"}},
+        {"zoltan-rcb", "RCB", {}, {"reuse", "lock"}, {"", "[reuse]"}},
         {"zoltan-rib", "RIB", {}, {}},
         {"zoltan-hsfc", "HSFC", {}, {}},
         {"hilbert-counts", hilbert_counts, {}, {}},
@@ -111,11 +112,14 @@ const std::vector<Entry>& entries() {
         {"rrcb-sampled",
          "RRCB",
          of_paper(PaperDomain::sampled),
-         {"mesh", "cut", "k", "fraction", "seed"}},
+         {"mesh", "cut", "k", "fraction", "seed"},
+         {"[mesh=2,k=1.5,fraction=0.25]", "[mesh=4,k=2,fraction=0.125]",
+          "[mesh=6,k=2,fraction=0.125]", "[mesh=8,k=2,fraction=0.125]"}},
         {"rrcb",
          "RRCB",
          Options{},
-         {"mesh", "refine", "tol", "reuse", "central", "machines", "axes"}},
+         {"mesh", "refine", "tol", "reuse", "central", "machines", "axes"},
+         {"[tol=1.1]", "[tol=1.05]", "", "[tol=1.001]"}},
         {"rrcb-exact", "RRCB", refined(Refine::exact), {"mesh", "axes"}},
         {"rrcb-arrays",
          on_arrays,
@@ -229,24 +233,9 @@ std::vector<Method> default_methods() {
 
 std::vector<Method> all_methods() {
     std::vector<Method> methods;
-    for (const Entry& entry : entries()) {
-        const std::string name(entry.name);
-        if (name == "zoltan-rcb") {
-            for (const char* setting : {"", "[reuse]"})
-                methods.push_back(read_method(name + setting));
-        } else if (name == "rrcb-sampled") {
-            for (const char* setting : {"mesh=2,k=1.5,fraction=0.25", "mesh=4,k=2,fraction=0.125",
-                                        "mesh=6,k=2,fraction=0.125", "mesh=8,k=2,fraction=0.125"}) {
-                methods.push_back(read_method(name + '[' + setting + ']'));
-            }
-        } else if (name == "rrcb") {
-            for (const char* setting : {"[tol=1.1]", "[tol=1.05]", "", "[tol=1.001]"}) {
-                methods.push_back(read_method(name + setting));
-            }
-        } else {
-            methods.push_back(read_method(name));
-        }
-    }
+    for (const Entry& entry : entries())
+        for (const std::string& setting : entry.settings)
+            methods.push_back(read_method(std::string(entry.name) + setting));
     return methods;
 }
 

@@ -60,7 +60,8 @@ std::vector<std::size_t> curve_places(const Workload& workload, MPI_Comm comm) {
     const rrcb::Box box = joined_box(rrcb::bounding_box(points), comm);
     std::vector<std::size_t> places(points.count);
     for (std::size_t i = 0; i < points.count; ++i) {
-        places[i] = hilbert_cell(box, points.position(i), workload.dimension);
+        places[i] = hilbert_cell(box, points.position(i), workload.dimension,
+                                 hilbert_bits(workload.dimension));
     }
     return places;
 }
@@ -141,7 +142,11 @@ const char* layout_name(Layout layout) {
     return layout == Layout::sorted ? "sorted" : "scattered";
 }
 
-void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm) {
+namespace {
+
+/// Sends each point to its rank. The points arrive in the order of the ranks that held them, and
+/// those of a rank in their order there. Collective over `comm`.
+void move(Workload& workload, const std::vector<int>& ranks, MPI_Comm comm) {
     const int rank = rank_of(comm);
     const rrcb::Plan plan = rrcb::plan(ranks, size_of(comm), comm);
     const std::size_t width = static_cast<std::size_t>(workload.dimension);
@@ -162,8 +167,6 @@ void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm) {
     order(workload.coordinates, width);
     if (workload.weighted) order(workload.weights, 1);
 }
-
-namespace {
 
 /// Sends every point to its rank of the layout, from any distribution of the points. Collective
 /// over `comm`.

@@ -7,7 +7,6 @@
 #include <mpi.h>
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -37,10 +36,6 @@ const char* layout_name(Layout layout);
 /// Returns the box around the boxes of all ranks. Collective over `comm`.
 rrcb::Box joined_box(rrcb::Box mine, MPI_Comm comm);
 
-/// Sends each point to its rank. The points arrive in the order of the ranks that held them, and
-/// those of a rank in their order there. Collective over `comm`.
-void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm);
-
 /// Returns the number of bits per axis of the curve. It has 2^16 cells in 2-D and 2^18 in 3-D.
 constexpr int hilbert_bits(int dimension) {
     return dimension == 2 ? 8 : 6;
@@ -52,14 +47,11 @@ constexpr std::size_t hilbert_cells(int dimension) {
 }
 
 /// Returns the index on the Hilbert curve through `box` of a position inside it. The curve uses
-/// `bits` bits per axis; with the default the index is in 0 ... hilbert_cells - 1.
+/// `bits` bits per axis.
 ///
 /// See Skilling: Programming the Hilbert curve (2004).
 std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension,
                          int bits);
-inline std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension) {
-    return hilbert_cell(box, position, dimension, hilbert_bits(dimension));
-}
 
 /// Generates a cloud. Every rank generates its share. Collective over `comm`.
 ///

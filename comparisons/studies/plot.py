@@ -33,33 +33,32 @@ MAX_POINTS = 20_000
 class MethodStyle(NamedTuple):
     colour: str
     line: str | tuple
-    marker: str
 
 
-# Colours after M. Okabe and K. Ito: Color universal design (2008). The line style and the marker distinguish the
-# methods without colour. Settings of one method are shades of its colour.
+# Colours after M. Okabe and K. Ito: Color universal design (2008). The line style distinguishes the methods
+# without colour. Settings of one method are shades of its colour.
 _METHODS = {
-    "none": MethodStyle("#888888", (0, (1, 1)), "x"),
-    "zoltan-rcb": MethodStyle("#000000", "--", "s"),
-    "zoltan-rib": MethodStyle("#CC79A7", (0, (5, 1, 1, 1)), "P"),
-    "zoltan-hsfc": MethodStyle("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "X"),
-    "zoltan2-mj": MethodStyle("#A89800", (0, (6, 2)), "p"),
-    "root-rcb": MethodStyle("#009E73", "-.", "D"),
-    "rrcb-sampled": MethodStyle("#D55E00", ":", "^"),
-    "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]": MethodStyle("#F2A57C", ":", "<"),
-    "rrcb-sampled[mesh=4,k=2,fraction=0.125]": MethodStyle("#E58243", ":", ">"),
-    "rrcb-sampled[mesh=6,k=2,fraction=0.125]": MethodStyle("#A84600", ":", "^"),
-    "rrcb-sampled[mesh=8,k=2,fraction=0.125]": MethodStyle("#6E2C00", ":", "v"),
-    "rrcb[tol=1.1]": MethodStyle("#86C1E8", (0, (1, 2)), "o"),
-    "rrcb[tol=1.05]": MethodStyle("#409CD8", (0, (2, 1)), "o"),
-    "rrcb": MethodStyle("#0072B2", "-", "o"),
-    "rrcb[tol=1.001]": MethodStyle("#00508A", (0, (6, 1)), "o"),
-    "rrcb-exact": MethodStyle("#0A2A66", (0, (4, 1)), "*"),
-    "rrcb-arrays": MethodStyle("#7B2D8E", "-", "h"),
-    "count": MethodStyle("#A37ACC", (0, (2, 2)), "h"),
-    "learned": MethodStyle("#C2185B", "-", "*"),
+    "none": MethodStyle("#888888", (0, (1, 1))),
+    "zoltan-rcb": MethodStyle("#000000", "--"),
+    "zoltan-rib": MethodStyle("#CC79A7", (0, (5, 1, 1, 1))),
+    "zoltan-hsfc": MethodStyle("#E69F00", (0, (3, 1, 1, 1, 1, 1))),
+    "zoltan2-mj": MethodStyle("#A89800", (0, (6, 2))),
+    "root-rcb": MethodStyle("#009E73", "-."),
+    "rrcb-sampled": MethodStyle("#D55E00", ":"),
+    "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]": MethodStyle("#F2A57C", ":"),
+    "rrcb-sampled[mesh=4,k=2,fraction=0.125]": MethodStyle("#E58243", ":"),
+    "rrcb-sampled[mesh=6,k=2,fraction=0.125]": MethodStyle("#A84600", ":"),
+    "rrcb-sampled[mesh=8,k=2,fraction=0.125]": MethodStyle("#6E2C00", ":"),
+    "rrcb[tol=1.1]": MethodStyle("#86C1E8", (0, (1, 2))),
+    "rrcb[tol=1.05]": MethodStyle("#409CD8", (0, (2, 1))),
+    "rrcb": MethodStyle("#0072B2", "-"),
+    "rrcb[tol=1.001]": MethodStyle("#00508A", (0, (6, 1))),
+    "rrcb-exact": MethodStyle("#0A2A66", (0, (4, 1))),
+    "rrcb-arrays": MethodStyle("#7B2D8E", "-"),
+    "count": MethodStyle("#A37ACC", (0, (2, 2))),
+    "learned": MethodStyle("#C2185B", "-"),
 }
-_OTHER = MethodStyle("#7A5C4A", "-", "8")
+_OTHER = MethodStyle("#7A5C4A", "-")
 _LINES = ("--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 3)))
 
 

@@ -74,7 +74,7 @@ TEST(Workload, sorted_pieces_are_equal_and_follow_the_curve) {
     const rrcb::Points points = workload.points();
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < points.count; ++i) {
-        places.push_back(hilbert_cell(box, points.position(i), 2));
+        places.push_back(hilbert_cell(box, points.position(i), 2, hilbert_bits(2)));
     }
     EXPECT_TRUE(std::ranges::is_sorted(places));
     std::uint64_t last_before = 0;
@@ -92,7 +92,8 @@ TEST(Workload, neighbours_on_the_curve_are_neighbours_in_space) {
         for (int x = 0; x < side; ++x) {
             for (int y = 0; y < side; ++y) {
                 for (int z = 0; z < (dimension == 3 ? side : 1); ++z) {
-                    cells[hilbert_cell(box, {x + 0.5, y + 0.5, z + 0.5}, dimension)] = {x, y, z};
+                    cells[hilbert_cell(box, {x + 0.5, y + 0.5, z + 0.5}, dimension,
+                                       hilbert_bits(dimension))] = {x, y, z};
                 }
             }
         }

@@ -6,6 +6,7 @@ import re
 import tempfile
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
 from support import measured
 
@@ -74,6 +75,7 @@ class PriceTest(unittest.TestCase):
         self.assertEqual([i for i, found in enumerate(texts) if "too many ranks a core\nto be timed" in found], [1])
         self.assertTrue(pd.isna(price.noise_of(self.out).low))  # of two runs
 
+    @patch.object(price, "GAIN", price.Value(0.66, -0.91, 2.14))
     def test_exact_cuts_pay_from_what_they_cost_over_what_they_save(self) -> None:
         rows = self.rows(6)
         of = {name: rows[rows["method"] == name].iloc[0] for name in ("rrcb", "rrcb-exact", "rrcb[refine=none]")}

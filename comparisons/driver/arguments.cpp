@@ -66,6 +66,7 @@ void parse(int argc, char** argv, Texts& texts, Arguments& arguments) {
     processor.setOption("data", "no-data", &arguments.data, "write the data of the pictures");
     processor.setOption("serial", "no-serial", &arguments.serial,
                         "simulate on rank 0 alone as well, in turns with the others");
+    processor.setOption("progress", "no-progress", &arguments.progress, "show how much is done");
     std::ostringstream output;
     const auto result = processor.parse(argc, argv, &output);
     if (result == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) {

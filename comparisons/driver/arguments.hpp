@@ -23,6 +23,7 @@ struct MeasurementPlan {
     int repeats = 6;
     std::uint64_t seed = 1;  ///< for the points of a cloud, their layout and the order of turns
     GhostRule ghosts{};
+    bool progress = false;  ///< show on standard error how much is done
 };
 
 /// The options of the command line; README.md in the parent folder describes each of them.

@@ -3,6 +3,7 @@
 #include "counter_random.hpp"
 #include "failure_mpi.hpp"
 #include "partitioner_mpi.hpp"
+#include "progress.hpp"
 #include "statistics.hpp"
 
 #include <rrcb/balance.hpp>
@@ -148,6 +149,8 @@ std::uint64_t order_seed(const Workload& workload, std::uint64_t seed, MPI_Comm 
 void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan,
                    const Workload& workload, MPI_Comm comm) {
     const std::uint64_t seed = order_seed(workload, plan.seed, comm);
+    Progress progress(plan.progress && rank_of(comm) == 0, workload.name + ", turns of calls",
+                      plan.repeats + 1);
     for (int call = 0; call < plan.repeats + 1; ++call) {
         // The first two timed turns have opposite orders.
         const auto turn = static_cast<std::uint64_t>(call + 1);
@@ -159,6 +162,7 @@ void time_in_turns(std::span<Candidate> candidates, const MeasurementPlan& plan,
             if (call > 0) candidate.result.times_ms.push_back(elapsed);
             if (candidate.partitioner) candidate.partitioner->free_lists();
         }
+        progress.advance(1);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "counter_random.hpp"
 #include "failure_mpi.hpp"
 #include "partitioner_mpi.hpp"
+#include "progress.hpp"
 #include "row.hpp"
 #include "scene_choice_mpi.hpp"
 
@@ -127,11 +128,14 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
     // The turns are long enough that most steps find their points in the cache.
     constexpr int turn = 50;
     const CoreRota cores(comm);
+    Progress progress(plan.progress && rank_of(comm) == 0,
+                      "round " + std::to_string(round + 1) + ", steps", plan.num_steps);
     for (int done = 0; done < plan.num_steps; done += turn) {
         cores.bind(round + done / turn);
         const auto number = static_cast<std::uint64_t>(done / turn);
         for (const std::size_t next : drawn_order(all.size(), seed, number))
             if (simulations[next]) simulations[next]->advance(turn);
+        progress.advance(std::min(turn, plan.num_steps - done));
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].has_failed()) continue;
@@ -256,6 +260,7 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
                             ? arguments.record_every
                             : record_interval(plan.num_steps, num_runs, comm);
     plan.seed = arguments.seed;
+    plan.progress = arguments.progress;
     plan.unit_costs = unit_costs(arguments.scene);
     return plan;
 }
@@ -263,7 +268,13 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
 std::vector<Workload> scene_snapshots(const SimulationPlan& plan, MPI_Comm comm) {
     std::vector<Workload> snapshots;
     TimedSimulation simulation(plan, without_weights({}), taking_snapshots(plan, snapshots), comm);
-    simulation.advance(plan.num_steps);
+    Progress progress(plan.progress && rank_of(comm) == 0, plan.scene.name + ", steps",
+                      plan.num_steps);
+    constexpr int turn = 50;
+    for (int done = 0; done < plan.num_steps; done += turn) {
+        simulation.advance(turn);
+        progress.advance(std::min(turn, plan.num_steps - done));
+    }
     const std::string error = simulation.result().error;
     if (!error.empty()) throw Failure(plan.scene.name + ": " + error);
     return snapshots;

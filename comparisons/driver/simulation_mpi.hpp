@@ -26,6 +26,7 @@ struct SimulationPlan {
     int record_every = 1;    ///< steps between records of the load
     std::uint64_t seed = 1;  ///< for the order of turns
     std::string state{};     ///< file of the first state; empty: the start of the scene
+    bool progress = false;   ///< show on standard error how much is done
     /// Instructions of a step for a unit of each of mpm::Simulation::work_columns().
     std::vector<double> unit_costs = {1, 0, 0, 0};
 };

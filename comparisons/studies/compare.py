@@ -62,6 +62,7 @@ def main() -> int:
         os.execv(Path(__file__).with_name("run"), ["run", "price", *others])
     options, others = _read_options(words)
     build("rrcb_compare", multijagged="zoltan2-mj" in options.methods or options.methods == "all")
+    others += ["--progress"] * sys.stderr.isatty()
     name = Path(options.scene).stem
     out = options.out or (OUT if name == "slope" else OUT / name)
     if options.methods:

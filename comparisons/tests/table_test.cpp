@@ -1,4 +1,5 @@
 #include "comparison_mpi.hpp"
+#include "progress.hpp"
 
 #include <gtest/gtest.h>
 
@@ -99,6 +100,17 @@ TEST(Table, writes_imbalances_to_all_digits) {
     Comparison exact = comparison();
     exact.measurements[1].imbalances = {1.0003765};
     EXPECT_NE(rows_of(exact).find(",1.0003765,"), std::string::npos);
+}
+
+TEST(Progress, shows_how_much_is_done_if_asked_to) {
+    for (const bool is_shown : {true, false}) {
+        testing::internal::CaptureStderr();
+        Progress progress(is_shown, "calls", 3);
+        progress.advance(1);
+        progress.advance(2);
+        EXPECT_EQ(testing::internal::GetCapturedStderr(),
+                  is_shown ? "\rcalls: 1 of 3\rcalls: 3 of 3\n" : "");
+    }
 }
 
 }  // namespace

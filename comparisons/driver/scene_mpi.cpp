@@ -20,6 +20,9 @@ namespace comparisons {
 
 namespace {
 
+/// Steps of a simulation in its turn; most of them find their points in the cache.
+constexpr int turn = 50;
+
 /// The largest number of rounds of simulations. The range of six values is a 95 % confidence
 /// interval.
 constexpr int max_rounds = 6;
@@ -125,8 +128,6 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
                 rounds.is_serial ? MPI_COMM_SELF : comm, rounds.cost,
                 round == 0 || differs ? nullptr : &rounds.runs.back());
     }
-    // The turns are long enough that most steps find their points in the cache.
-    constexpr int turn = 50;
     const CoreRota cores(comm);
     Progress progress(plan.progress && rank_of(comm) == 0,
                       "round " + std::to_string(round + 1) + ", steps", plan.num_steps);
@@ -270,7 +271,6 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, MPI_Comm comm)
     TimedSimulation simulation(plan, without_weights({}), taking_snapshots(plan, snapshots), comm);
     Progress progress(plan.progress && rank_of(comm) == 0, plan.scene.name + ", steps",
                       plan.num_steps);
-    constexpr int turn = 50;
     for (int done = 0; done < plan.num_steps; done += turn) {
         simulation.advance(turn);
         progress.advance(std::min(turn, plan.num_steps - done));

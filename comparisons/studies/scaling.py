@@ -34,7 +34,7 @@ ZOLTAN, JAGGED = "zoltan-rcb", "zoltan2-mj"
 NAMES = {name: name for name in (ZOLTAN, JAGGED)}  # names of the driver
 NAMES |= {name: f"{name}[mesh=4]" for name in ("rrcb", "rrcb-exact")}
 LEVELS = ("1", "log")
-# Of what follows from the method: at each level a point moves at most once. All others are chosen by the error of the fit.
+# The terms that follow from the method; at each level a point moves at most once. All others are chosen by the error.
 GROWTHS = {
     ZOLTAN: {"collectives": LEVELS, "messages": LEVELS, "point bytes": LEVELS},
     JAGGED: {"collectives": LEVELS, "messages": ("1",), "point bytes": LEVELS},
